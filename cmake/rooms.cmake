@@ -1,0 +1,36 @@
+# One target a room; its link list is the dependency rule of the house (docs/design.md).
+
+# limpet_room(NAME SOURCES files... LINKS targets...)
+# A room `suction` becomes the target limpet_suction; LINKS takes rooms by their target names.
+function(limpet_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(limpet_${name} STATIC ${ROOM_SOURCES})
+  add_library(limpet::${name} ALIAS limpet_${name})
+  target_include_directories(limpet_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(limpet_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+  set_target_properties(limpet_${name} PROPERTIES EXPORT_NAME ${name})
+  limpet_compile_options(limpet_${name})
+endfunction()
+
+# limpet_test(ROOM SOURCES files... LINKS targets...): one test program a room.
+function(limpet_test room)
+  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  add_executable(${room}_test ${TEST_SOURCES})
+  target_link_libraries(${room}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  limpet_compile_options(${room}_test)
+  gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 300)
+endfunction()
+
+# Warnings are errors on our code. No contraction to fused multiply-adds and no fast-math: the same
+# scenario and seed must give the same bytes (docs/design.md, decision 6).
+function(limpet_compile_options target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off)
+  if(LIMPET_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=${LIMPET_SANITIZE} -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${LIMPET_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace limpet {
+
+/// The user's input cannot be used: one line that names file:line, key, value and what is allowed.
+/// The command line turns it into exit code 2.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A fault of ours: a broken promise between two rooms. The command line turns it into exit code 70.
+class InternalError : public std::logic_error {
+public:
+    using std::logic_error::logic_error;
+};
+
+/// Always-armed check of a programmer's promise.
+/// @throws InternalError naming the place when `holds` is false
+inline void require(bool holds, const char* promise, const char* file = __builtin_FILE(),
+                    int line = __builtin_LINE()) {
+    if (!holds) [[unlikely]] {
+        throw InternalError(std::string(file) + ":" + std::to_string(line) + ": broken promise: " +
+                            promise);
+    }
+}
+
+}  // namespace limpet

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "limpet/core/frames.hpp"
+
+namespace limpet {
+
+/// Who draws. A stream of its own for each consumer: adding a draw in one place leaves every other
+/// place's numbers as they were. Numbers are part of the recordings' meaning: append, never reorder.
+enum class Stream : std::uint32_t {
+    seal = 1,
+    pump = 2,
+    imu = 10,
+    barometer = 11,
+    magnetometer = 12,
+    gps = 13,
+    motion_capture = 14,
+    lidar_left = 15,
+    lidar_right = 16,
+    force = 17,
+    pressure = 18,
+    wind = 30,
+    scenario = 40,
+    test = 99,
+};
+
+/// Counter-based random numbers (Philox 4x32-10): a draw is a pure function of (seed, run, stream,
+/// counter), so results do not depend on thread count or order, and a copied stream continues alike.
+/// Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11.
+class RandomStream {
+public:
+    RandomStream() = default;
+    RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream);
+
+    /// @return uniform on [0, 1), 53 bits
+    [[nodiscard]] double uniform();
+    /// @return standard normal (Box-Muller, one of a pair)
+    [[nodiscard]] double normal();
+    /// @return three independent standard normals
+    [[nodiscard]] Vector3 normal3();
+    /// @param median  of the result, > 0
+    /// @param sigma   standard deviation of its logarithm, >= 0
+    [[nodiscard]] double lognormal(double median, double sigma);
+
+private:
+    void refill();
+
+    std::uint64_t seed_ = 0;
+    std::uint32_t run_ = 0;
+    std::uint32_t stream_ = 0;
+    std::uint64_t counter_ = 0;
+    double uniforms_[2] = {0.0, 0.0};
+    std::uint32_t uniforms_left_ = 0;
+    std::uint32_t has_normal_ = 0;
+    double normal_ = 0.0;
+};
+
+}  // namespace limpet

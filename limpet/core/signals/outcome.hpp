@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace limpet {
+
+/// How a flight ended.
+enum class Outcome {
+    perched,          ///< rests on the wall, motors off, as the mission asked
+    released,         ///< perched, took off and is back where it came from (or hovered as asked)
+    failed_to_seal,   ///< used up its attempts
+    release_aborted,  ///< gave up the release and rests on the wall again
+    crashed,          ///< hit something with something else than the cup and the legs
+    timed_out,        ///< the scenario's time is over
+};
+
+[[nodiscard]] std::string_view to_string(Outcome outcome);
+/// @return nullopt for a name that is none
+[[nodiscard]] std::optional<Outcome> outcome_from(std::string_view name);
+
+}  // namespace limpet

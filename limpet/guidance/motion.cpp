@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/guidance/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+AttitudeSetpoint attitude(const PerchingMemory& memory, double pitch_rad, double thrust) {
+    return {.q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
+            .thrust = thrust};
+}
+
+PositionSetpoint stand(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    if (!memory.wall.ever) {
+        return {.p_W_m = memory.line_W_m, .yaw_rad = memory.entry_yaw_rad};
+    }
+    return {.p_W_m = pre_position_W(parameters, memory), .yaw_rad = memory.wall.heading_rad};
+}
+
+/// Along the wall's normal at the reference, back to the docking line across it.
+VelocitySetpoint run(const PerchingParameters& parameters, const PerchingMemory& memory,
+                     const Estimate& estimate, const RunReference& reference, double direction) {
+    const Vector3 n_W = memory.wall.into_wall_W();
+    const Vector3 error_W_m = memory.line_W_m - estimate.p_WB_m;
+    const Vector3 across_W_m = error_W_m - n_W * n_W.dot(error_W_m);
+    const double feedforward_m_s2 =
+        reference.acceleration_m_s2 + parameters.drag_1_s * reference.speed_m_s;
+    return {.v_W_m_s = direction * reference.speed_m_s * n_W + parameters.line_gain_1_s * across_W_m,
+            .yaw_rad = memory.wall.heading_rad,
+            .feedforward_a_W_m_s2 = direction * feedforward_m_s2 * n_W};
+}
+
+/// Back to the pre-position: a run, then the position loop once braking must begin.
+void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
+             const Estimate& estimate, double elapsed_s, Setpoint& setpoint) {
+    const double left_m = parameters.pre_distance_m -
+                          memory.wall.distance_m(parameters, estimate.p_WB_m);
+    const double speed_m_s = parameters.retreat_speed_m_s;
+    const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
+    // The position loop asks for line_gain times the distance left: from there on it is the slower one.
+    if (left_m < std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, 0.1))) {
+        setpoint.motion = stand(parameters, memory);
+    } else {
+        setpoint.motion = run(parameters, memory, estimate,
+                              run_reference(elapsed_s, speed_m_s,
+                                            parameters.retreat_acceleration_m_s2,
+                                            parameters.dock_ramp_s),
+                              -1.0);
+    }
+}
+
+}  // namespace
+
+RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,
+                           double ramp_s) {
+    const double ramp = std::min(ramp_s, speed_m_s / acceleration_m_s2);
+    const double peak_m_s2 = ramp > 0.0 ? std::min(acceleration_m_s2, speed_m_s / ramp)
+                                        : acceleration_m_s2;
+    const double hold_s = speed_m_s / peak_m_s2 - ramp;
+    const double end_s = hold_s + 2.0 * ramp;
+    if (time_s <= 0.0) {
+        return {};
+    }
+    if (time_s >= end_s) {
+        return {.speed_m_s = speed_m_s, .acceleration_m_s2 = 0.0};
+    }
+    if (time_s < ramp) {
+        const double a_m_s2 = peak_m_s2 * time_s / ramp;
+        return {.speed_m_s = 0.5 * a_m_s2 * time_s, .acceleration_m_s2 = a_m_s2};
+    }
+    if (time_s < ramp + hold_s) {
+        return {.speed_m_s = peak_m_s2 * (time_s - 0.5 * ramp), .acceleration_m_s2 = peak_m_s2};
+    }
+    const double left_s = end_s - time_s;
+    const double a_m_s2 = peak_m_s2 * left_s / ramp;
+    return {.speed_m_s = speed_m_s - 0.5 * a_m_s2 * left_s, .acceleration_m_s2 = a_m_s2};
+}
+
+double smoothstep(double x) {
+    const double t = std::clamp(x, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+double thrust_command(const PerchingParameters& parameters, double share) {
+    const double command = parameters.zero_thrust + (parameters.hover_thrust - parameters.zero_thrust) *
+                                                        std::sqrt(std::max(share, 0.0));
+    return std::clamp(command, 0.0, 1.0);
+}
+
+Vector3 pre_position_W(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    const Vector3 n_W = memory.wall.into_wall_W();
+    const double along_m =
+        memory.wall.offset_m - parameters.pre_distance_m - parameters.lidar_x_m;
+    return memory.line_W_m + n_W * (along_m - n_W.dot(memory.line_W_m));
+}
+
+Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memory,
+                const Estimate& estimate, double time_s) {
+    const double elapsed_s = time_s - memory.since_s;
+    const double perched_rad =
+        radians(parameters.perched_pitch_deg + parameters.pitch_over_travel_deg);
+    const auto pitch_between = [&](double to_rad, double duration_s) {
+        return memory.entry_pitch_rad +
+               (to_rad - memory.entry_pitch_rad) * smoothstep(elapsed_s / duration_s);
+    };
+    Setpoint setpoint{.armed = true};
+    switch (memory.state) {
+        case PerchingState::hovering:
+            setpoint.motion =
+                PositionSetpoint{.p_W_m = memory.line_W_m, .yaw_rad = memory.entry_yaw_rad};
+            break;
+        case PerchingState::pre_positioning:
+        case PerchingState::aligning: setpoint.motion = stand(parameters, memory); break;
+        case PerchingState::approaching:
+            setpoint.pump_on = true;
+            setpoint.motion = run(parameters, memory, estimate,
+                                  run_reference(elapsed_s, parameters.dock_speed_m_s,
+                                                parameters.dock_acceleration_m_s2,
+                                                parameters.dock_ramp_s),
+                                  1.0);
+            break;
+        case PerchingState::holding:
+        case PerchingState::deciding:
+            setpoint.pump_on = true;
+            setpoint.hold_integrators = true;
+            setpoint.motion = PositionSetpoint{
+                .p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * memory.wall.into_wall_W(),
+                .yaw_rad = memory.wall.heading_rad};
+            break;
+        case PerchingState::retreating:
+            retreat(parameters, memory, estimate, elapsed_s, setpoint);
+            break;
+        case PerchingState::pitching_up: {
+            setpoint.pump_on = true;
+            const double pitch_rad = pitch_between(perched_rad, parameters.land_pitch_s);
+            setpoint.motion =
+                attitude(memory, pitch_rad, thrust_command(parameters, std::cos(pitch_rad)));
+            break;
+        }
+        case PerchingState::unloading: {
+            setpoint.pump_on = true;
+            setpoint.hold_integrators = true;
+            const double left = 1.0 - elapsed_s / parameters.land_thrust_s;
+            setpoint.motion = attitude(memory, perched_rad,
+                                       std::max(0.0, left) *
+                                           thrust_command(parameters, std::cos(perched_rad)));
+            break;
+        }
+        case PerchingState::standing:
+        case PerchingState::resting:
+            setpoint.pump_on = true;
+            setpoint.armed = false;
+            break;
+        case PerchingState::spinning_up: {
+            setpoint.pump_on = true;
+            setpoint.hold_integrators = true;
+            const double share = std::clamp(elapsed_s / parameters.spin_up_s, 0.0, 1.0);
+            setpoint.motion =
+                attitude(memory, memory.entry_pitch_rad,
+                         share * thrust_command(parameters, std::cos(memory.entry_pitch_rad)));
+            break;
+        }
+        case PerchingState::pitching_down: {
+            setpoint.pump_on = true;
+            const double pitch_rad = pitch_between(0.0, parameters.level_pitch_s);
+            setpoint.motion =
+                attitude(memory, pitch_rad, thrust_command(parameters, std::cos(pitch_rad)));
+            break;
+        }
+        case PerchingState::levelled:
+        case PerchingState::resealing:
+            setpoint.pump_on = true;
+            setpoint.motion = attitude(memory, 0.0, thrust_command(parameters, 1.0));
+            break;
+        case PerchingState::releasing:
+            setpoint.valve_open = parameters.valve_fitted > 0.5;
+            setpoint.motion = attitude(memory, 0.0, thrust_command(parameters, 1.0));
+            break;
+        case PerchingState::backing_off:
+            setpoint.valve_open = parameters.valve_fitted > 0.5;
+            retreat(parameters, memory, estimate, elapsed_s, setpoint);
+            break;
+        case PerchingState::finished: {
+            setpoint = memory.setpoint;  // as it is: on the wall at rest, in the air standing
+            if (setpoint.armed) {
+                setpoint.motion = PositionSetpoint{.p_W_m = memory.entry_p_W_m,
+                                                   .yaw_rad = memory.entry_yaw_rad};
+            }
+            break;
+        }
+    }
+    return setpoint;
+}
+
+}  // namespace limpet

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/guidance/perching.hpp"
+
+namespace limpet {
+
+/// Speed and acceleration along a straight run.
+struct RunReference {
+    double speed_m_s = 0.0;
+    double acceleration_m_s2 = 0.0;
+};
+
+/// From rest to a constant speed: the acceleration ramps up, holds and ramps down.
+/// @param time_s          since the start of the run
+/// @param ramp_s          of each ramp; shortened when the speed is reached within the ramps
+[[nodiscard]] RunReference run_reference(double time_s, double speed_m_s,
+                                         double acceleration_m_s2, double ramp_s);
+
+/// Cubic from 0 to 1 with zero slope at both ends; clamped outside [0, 1].
+[[nodiscard]] double smoothstep(double x);
+
+/// Motor command whose thrust is `share` of the weight: thrust goes with the square of the rotor
+/// speed, the speed goes linearly with the command.
+[[nodiscard]] double thrust_command(const PerchingParameters& parameters, double share);
+
+/// What the vehicle shall do in the memory's state at this time.
+[[nodiscard]] Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memory,
+                              const Estimate& estimate, double time_s);
+
+/// The pre-position on the docking line.
+[[nodiscard]] Vector3 pre_position_W(const PerchingParameters& parameters,
+                                     const PerchingMemory& memory);
+
+}  // namespace limpet

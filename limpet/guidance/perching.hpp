@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/event.hpp"
+#include "limpet/core/signals/outcome.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+#include "limpet/guidance/parameters.hpp"
+#include "limpet/guidance/wall_angle.hpp"
+
+namespace limpet {
+
+// Fig. 7 of the paper as one table (perching.cpp): from, guard, to, reason, event.
+//
+//   hovering ─────────────────────────────────────────────────────────────► finished
+//   pre_positioning ◄──────────────────────────────────┐
+//        │ pre_positioned                               │ attempt + 1
+//   aligning                                            │
+//        │ approach_started          aborted            │
+//   approaching ────────────────────────────────► retreating ── attempts used up ──► finished
+//        │ impact                                  ▲    ▲
+//   holding                                        │    │
+//        │ hold_over              retreat_started  │    │ aborted (vacuum lost)
+//   deciding ──────────────────────────────────────┘    │
+//        │ landing_started                              │
+//   pitching_up ────────────────────────────────────────┤
+//        │                                              │
+//   unloading ──────────────────────────────────────────┘
+//        │ perched
+//   standing
+//        │ motors_off
+//   resting ── mission over ──► finished
+//        │ motors_on
+//   spinning_up
+//        │
+//   pitching_down ── aborted (not level) ──┐
+//        │ level                           ▼
+//   levelled                           resealing ── landing_started ──► pitching_up
+//        │ pump_off, valve_open            ▲  └── no vacuum ──► backing_off
+//   releasing ── aborted (time, swing) ────┤
+//        │ pressure_released               │
+//   backing_off ── aborted (held) ─────────┘
+//        │ backed_off
+//   finished
+
+enum class PerchingState {
+    hovering,
+    pre_positioning,
+    aligning,
+    approaching,
+    holding,
+    deciding,
+    retreating,
+    pitching_up,
+    unloading,
+    standing,
+    resting,
+    spinning_up,
+    pitching_down,
+    levelled,
+    releasing,
+    resealing,
+    backing_off,
+    finished,
+};
+[[nodiscard]] std::string_view to_string(PerchingState state);
+
+/// What the flight is for.
+struct PerchingTask {
+    bool perch = true;      ///< false: hover where it is
+    bool take_off = true;   ///< after the rest on the wall
+    double hover_s = 20.0;  ///< without a perch
+};
+
+struct Ending {
+    Outcome outcome = Outcome::timed_out;
+    std::string_view reason;  ///< a literal
+};
+
+/// Everything that guidance remembers; copyable.
+struct PerchingMemory {
+    PerchingState state = PerchingState::pre_positioning;
+    double since_s = 0.0;           ///< when the state began
+    double settled_since_s = -1.0;  ///< since when its condition holds without a break; < 0: it does not
+    int attempt = 1;
+    bool release_given_up = false;
+    WallSeen wall;
+    Vector3 line_W_m = Vector3::Zero();    ///< a point of the docking line
+    Vector3 entry_p_W_m = Vector3::Zero(); ///< where the state began
+    double entry_pitch_rad = 0.0;
+    double entry_yaw_rad = 0.0;
+    Setpoint setpoint;
+    std::optional<Ending> ending;
+};
+
+/// Events of one update; several rows may fire in the same instant.
+struct EventList {
+    std::array<Event, 8> events{};
+    std::size_t count = 0;
+    void add(const Event& event);
+};
+
+/// @param estimate  where the vehicle is; its position becomes the docking line
+[[nodiscard]] PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate,
+                                            double time_s);
+
+/// One update: what the sensors say goes in, what the vehicle shall do comes out in memory.setpoint,
+/// what happened in the list. Reads no clock: `time_s` must not run back.
+void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
+            const Readings& readings, const Estimate& estimate, double time_s, EventList& events);
+
+}  // namespace limpet

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "limpet/core/frames.hpp"
+#include "limpet/core/signals/kinematics.hpp"
+#include "limpet/core/signals/wrench.hpp"
+
+namespace limpet {
+
+/// The bodies on which wrenches act. A vehicle without a cup has the base alone.
+enum class Body {
+    base,      ///< frame B, origin at the vehicle's centre of mass (slider out)
+    carriage,  ///< the moving part of the slider
+    cup,       ///< frame C, origin at the centre of the lip, x out of the mouth
+};
+
+struct SliderMotion {
+    double position_m = 0.0;    ///< 0 at the outer stop, < 0 compressed
+    double velocity_m_s = 0.0;  ///< > 0 extends
+};
+
+/// Everything that a plant needs to go on bit-exactly; opaque to everybody else.
+struct PlantState {
+    std::vector<double> values;
+};
+
+/// How the next steps are taken. Contacts cost half the step; the simulation switches them off while
+/// nothing can touch.
+struct StepMode {
+    double step_s = 1e-3;
+    bool contacts = true;
+};
+
+/// Rigid-body truth behind one small interface: it takes wrenches on bodies, steps, and answers
+/// where things are. It knows neither rotor nor cup nor clock. Everything is in W (NED) and B (FRD);
+/// an engine's own axes stay inside the engine's file.
+class Plant {
+public:
+    virtual ~Plant() = default;
+
+    /// Adds a wrench for the next step only.
+    /// @param wrench_W  force and moment about p_W, in W [N, N m]
+    /// @param p_W_m     where the force acts [m]
+    virtual void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) = 0;
+    /// Adds a force that extends the slider, for the next step only [N].
+    virtual void apply_slider(double force_N) = 0;
+    /// Integrates one step of mode.step_s with the wrenches added since the last one.
+    /// @throws InternalError when the engine diverges
+    virtual void step(const StepMode& mode) = 0;
+
+    /// Of the state reached by the last step, never stale.
+    [[nodiscard]] virtual Kinematics kinematics(Body body) const = 0;
+    [[nodiscard]] virtual SliderMotion slider() const = 0;
+    /// Distance to the wall or the ground along a ray.
+    /// @param dir_W  unit vector
+    /// @return nullopt when it hits nothing
+    [[nodiscard]] virtual std::optional<double> ray(const Vector3& origin_W_m,
+                                                    const Vector3& dir_W) const = 0;
+    /// Sum of the engine's own contact forces on the vehicle (the legs), in W [N].
+    [[nodiscard]] virtual Vector3 contact_force_W() const = 0;
+
+    [[nodiscard]] virtual PlantState save() const = 0;
+    virtual void restore(const PlantState& state) = 0;
+};
+
+}  // namespace limpet

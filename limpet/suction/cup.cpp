@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/cup.hpp"
+
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+bool is_sealed(CupPhase phase) {
+    return phase == CupPhase::sealing || phase == CupPhase::attached ||
+           phase == CupPhase::unsealing;
+}
+
+Airflow airflow(CupPhase phase, bool pump_running, bool valve_open) {
+    if (!is_sealed(phase)) {
+        return Airflow::open;
+    }
+    if (valve_open) {
+        return Airflow::venting;
+    }
+    return pump_running ? Airflow::sealing : Airflow::unsealing;
+}
+
+/// A pump on a tight surface rests between a stop and a restart pressure; elsewhere it runs.
+bool pump_rests(const CupParameters& parameters, const Surface& surface, const CupState& state) {
+    if (surface.pump_cycles < 0.5 || state.status.phase != CupPhase::attached) {
+        return false;
+    }
+    const double above_Pa = state.mean_pressure_Pa - surface.vacuum_pressure_Pa;
+    return above_Pa < parameters.pump_stop_band_Pa ||
+           (state.pump_resting && above_Pa < parameters.pump_restart_band_Pa);
+}
+
+void touch(CupState& state, const Surface& surface, const LipMotion& motion) {
+    state.demand = draw_seal_demand(surface, state.random);
+    state.anchor = {
+        .y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
+    state.status.phase = CupPhase::touching;
+    state.status.seal_threshold_N = state.demand.threshold_N;
+    ++state.touches;
+}
+
+/// The rows of the table that keep the contact.
+std::optional<Event> advance_phase(const CupParameters& parameters, CupState& state,
+                                   const LipMotion& motion, const CupInput& input) {
+    CupStatus& status = state.status;
+    const bool sucks = input.pump_on && !input.valve_open;
+    switch (status.phase) {
+        case CupPhase::free: break;
+        case CupPhase::touching:
+            if (sucks && seals(state.demand, input.press_N, motion.tilt_rad())) {
+                status.phase = CupPhase::sealing;
+            }
+            break;
+        case CupPhase::sealing:
+            if (!sucks) {
+                status.phase = CupPhase::unsealing;
+            } else if (state.mean_pressure_Pa < parameters.attachment_pressure_Pa) {
+                status.phase = CupPhase::attached;
+                return make_event(input.time_s, "cup", EventName::attached, "",
+                                  {{"pressure_Pa", state.mean_pressure_Pa},
+                                   {"seal_threshold_N", state.demand.threshold_N}});
+            }
+            break;
+        case CupPhase::attached:
+            if (!sucks) {
+                status.phase = CupPhase::unsealing;
+            }
+            break;
+        case CupPhase::unsealing:
+            if (sucks) {
+                status.phase = CupPhase::sealing;
+            }
+            break;
+    }
+    return std::nullopt;
+}
+
+Event leave(CupState& state, const LipLoad& load, double time_s) {
+    const bool released = state.status.phase == CupPhase::unsealing;
+    state.status.phase = CupPhase::free;
+    return make_event(time_s, "cup", released ? EventName::detached : EventName::contact_lost,
+                      to_string(load.let_go),
+                      {{"pressure_Pa", state.mean_pressure_Pa},
+                       {"pull_margin_N", load.pull_margin_N},
+                       {"shear_margin_N", load.shear_margin_N},
+                       {"peel_margin_N", load.peel_margin_N}});
+}
+
+/// In the cup's own frame, as a force sensor on it would say.
+Wrench turned(const Matrix3& R, const Wrench& wrench) {
+    return {.force_N = R * wrench.force_N, .moment_N_m = R * wrench.moment_N_m};
+}
+
+}  // namespace
+
+const ParameterTable<CupParameters>& cup_table() {
+    using C = CupParameters;
+    static const ParameterTable<C> table = {
+        {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0,
+         [](C& c) -> double& { return c.attachment_pressure_Pa; },
+         "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
+        {"valve_fitted", "-", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
+         "1: a solenoid valve breaks the vacuum", "paper, section V.B (proposed)"},
+        {"valve_time_constant_s", "s", 1e-4, 1e3,
+         [](C& c) -> double& { return c.vent.valve_time_constant_s; },
+         "pressure rises with it through the open valve", "facts.md item 20: 2 mm on 60 cm^3"},
+        {"open_time_constant_s", "s", 1e-4, 1e3,
+         [](C& c) -> double& { return c.vent.open_time_constant_s; },
+         "pressure rises with it in a cup off the wall", "assumed"},
+        {"pump_stop_band_Pa", "Pa", 0.0, 1e5,
+         [](C& c) -> double& { return c.pump_stop_band_Pa; },
+         "a cycling pump stops this close to the steady vacuum", "assumed"},
+        {"pump_restart_band_Pa", "Pa", 0.0, 1e5,
+         [](C& c) -> double& { return c.pump_restart_band_Pa; },
+         "and starts again this far from it", "assumed"},
+    };
+    return table;
+}
+
+CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
+               const Kinematics& cup, const CupInput& input, double dt_s) {
+    const CupParameters& parameters = model.parameters;
+    CupStatus& status = state.status;
+    CupOutput output;
+    const LipMotion motion = lip_motion(model.wall, cup);
+    status.gap_m = motion.gap_m;
+
+    if (status.phase == CupPhase::free && motion.faces_wall && motion.gap_m <= 0.0) {
+        touch(state, surface, motion);
+    }
+    LipLoad load;
+    if (status.phase != CupPhase::free) {
+        output.event = advance_phase(parameters, state, motion, input);
+        const bool sealed = is_sealed(status.phase);
+        const double vacuum_N =
+            sealed ? vacuum_force_N(state.mean_pressure_Pa, parameters.lip.radius_m) : 0.0;
+        load = lip_load(parameters.lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
+        if (load.let_go != LetGo::no) {
+            output.event = leave(state, load, input.time_s);
+            load = {};
+        }
+        const Matrix3 R_CT = cup.q_WF.toRotationMatrix().transpose() * model.wall.R_WT;
+        output.wrench_W = turned(model.wall.R_WT, load.wrench_T);
+        status.wrench_C = turned(R_CT, load.wrench_T);
+    } else {
+        status.wrench_C = {};
+    }
+    status.pull_N = load.pull_N;
+    status.shear_N = load.shear_N;
+    status.peel_N_m = load.peel_N_m;
+    status.pull_margin_N = load.pull_margin_N;
+    status.shear_margin_N = load.shear_margin_N;
+    status.peel_margin_N = load.peel_margin_N;
+
+    state.pump_resting = pump_rests(parameters, surface, state);
+    status.pump_running = input.pump_on && !state.pump_resting;
+    status.valve_open = input.valve_open;
+    state.mean_pressure_Pa =
+        pressure_after(surface, parameters.vent,
+                       airflow(status.phase, status.pump_running, input.valve_open),
+                       state.mean_pressure_Pa, dt_s);
+    const bool ripples = status.pump_running && is_sealed(status.phase);
+    status.pressure_Pa =
+        state.mean_pressure_Pa +
+        (ripples ? surface.pump_ripple_Pa * (kAtmosphere_Pa - state.mean_pressure_Pa) /
+                       (kAtmosphere_Pa - surface.vacuum_pressure_Pa) *
+                       std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
+                 : 0.0);
+    return output;
+}
+
+}  // namespace limpet

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "limpet/core/random.hpp"
+#include "limpet/core/signals/cup_status.hpp"
+#include "limpet/core/signals/event.hpp"
+#include "limpet/suction/force_law.hpp"
+#include "limpet/suction/pressure.hpp"
+#include "limpet/suction/seal.hpp"
+
+namespace limpet {
+
+// Fig. 6 of the paper as a state machine. The joint of its plugin is `attached`; the threshold and
+// the dwell are those of its section III.B. Every row is checked in each step, top first.
+//
+//   free       touching    the lip meets the wall, mouth first (the seal's demand is drawn)
+//   touching   free        the lip lifts off                                  -> contact_lost
+//   touching   sealing     pump on, valve shut, press force above the threshold, tilt below its limit
+//   sealing    free        load beyond a limit: pulled, sheared, peeled       -> contact_lost
+//   sealing    unsealing   pump off or valve open
+//   sealing    attached    pressure below the attachment threshold            -> attached
+//   attached   free        load beyond a limit                                -> contact_lost
+//   attached   unsealing   pump off or valve open
+//   unsealing  free        the load opens it                                  -> detached
+//   unsealing  sealing     pump on again, valve shut
+
+struct CupParameters {
+    LipParameters lip;
+    VentParameters vent;
+    double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
+    double pump_stop_band_Pa = 100.0;         ///< above P_vac: a cycling pump stops below it
+    double pump_restart_band_Pa = 2000.0;     ///< above P_vac: and starts again above it
+    double valve_fitted = 0.0;                ///< 1: a solenoid valve breaks the vacuum
+};
+
+/// Rows of `suction:` other than the lip's.
+[[nodiscard]] const ParameterTable<CupParameters>& cup_table();
+
+/// Immutable during a flight.
+struct CupModel {
+    CupParameters parameters;
+    WallPlane wall;
+};
+
+struct CupState {
+    CupStatus status;
+    double mean_pressure_Pa = kAtmosphere_Pa;  ///< eqs. (5), (6); the status adds the pump's ripple
+    Anchor anchor;
+    SealDemand demand;
+    bool pump_resting = false;  ///< a cycling pump between two refills
+    int touches = 0;
+    RandomStream random;
+};
+
+struct CupInput {
+    double time_s = 0.0;
+    double press_N = 0.0;  ///< through the mechanism, > 0 presses the cup on the wall [N]
+    bool pump_on = false;
+    bool valve_open = false;
+};
+
+struct CupOutput {
+    Wrench wrench_W;             ///< by the wall on the cup about the lip's centre, in W
+    std::optional<Event> event;  ///< attached, contact_lost, detached
+};
+
+/// One step: load at this state, then pressure over `dt_s`.
+/// @param surface  of the spot that is under the cup now
+/// @param cup      frame C, from the plant
+[[nodiscard]] CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
+                             const Kinematics& cup, const CupInput& input, double dt_s);
+
+}  // namespace limpet

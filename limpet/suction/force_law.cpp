@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/force_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+/// Lip in compression: soft, then hard where it bottoms out [N].
+double lip_spring_N(const LipParameters& lip, double depth_m) {
+    const double beyond_m = std::max(0.0, depth_m - lip.hard_depth_m);
+    return lip.stiffness_N_m * (depth_m - beyond_m) + lip.hard_stiffness_N_m * beyond_m;
+}
+
+/// Pull in the direction away from the wall, before its limit [N].
+double pull_demand_N(const LipParameters& lip, const LipMotion& motion, bool sealed) {
+    const double depth_m = -motion.gap_m;
+    // A free lip meets the wall edge first: its damping grows with the area in contact.
+    const double contact =
+        sealed ? 1.0 : std::clamp(depth_m / lip.damping_depth_m, 0.0, 1.0);
+    const double push_N =
+        lip_spring_N(lip, depth_m) - lip.damping_N_s_m * contact * motion.gap_rate_m_s;
+    return sealed ? -push_N : std::min(0.0, -push_N);
+}
+
+}  // namespace
+
+const ParameterTable<LipParameters>& lip_table() {
+    using L = LipParameters;
+    static const ParameterTable<L> table = {
+        {"radius_m", "m", 1e-3, 1.0, [](L& l) -> double& { return l.radius_m; },
+         "sealed radius of the cup", "assumed: 80 mm cup, facts.md section 3"},
+        {"stiffness_N_m", "N/m", 1.0, 1e7, [](L& l) -> double& { return l.stiffness_N_m; },
+         "of the lip along the cup's axis", "baseline.md"},
+        {"hard_stiffness_N_m", "N/m", 1.0, 1e7,
+         [](L& l) -> double& { return l.hard_stiffness_N_m; }, "where the lip bottoms out",
+         "baseline.md"},
+        {"hard_depth_m", "m", 0.0, 1.0, [](L& l) -> double& { return l.hard_depth_m; },
+         "compression at which the lip bottoms out", "baseline.md"},
+        {"damping_N_s_m", "N s/m", 0.0, 1e4, [](L& l) -> double& { return l.damping_N_s_m; },
+         "of the lip along the cup's axis", "baseline.md"},
+        {"damping_depth_m", "m", 1e-6, 1.0, [](L& l) -> double& { return l.damping_depth_m; },
+         "compression over which the damping of an open lip comes in", "baseline.md"},
+        {"shear_stiffness_N_m", "N/m", 1.0, 1e7,
+         [](L& l) -> double& { return l.shear_stiffness_N_m; }, "of the lip along the wall",
+         "assumed: as along the axis"},
+        {"shear_damping_N_s_m", "N s/m", 0.0, 1e4,
+         [](L& l) -> double& { return l.shear_damping_N_s_m; }, "of the lip along the wall",
+         "assumed: as along the axis"},
+        {"tilt_stiffness_N_m_rad", "N m/rad", 0.0, 1e5,
+         [](L& l) -> double& { return l.tilt_stiffness_N_m_rad; }, "of the lip against tilting",
+         "baseline.md"},
+        {"tilt_damping_N_m_s_rad", "N m s/rad", 0.0, 1e3,
+         [](L& l) -> double& { return l.tilt_damping_N_m_s_rad; }, "of the lip against tilting",
+         "assumed: a tenth of critical for a 0.1 kg cup"},
+        {"twist_stiffness_N_m_rad", "N m/rad", 0.0, 1e5,
+         [](L& l) -> double& { return l.twist_stiffness_N_m_rad; },
+         "of the lip about the cup's axis", "assumed: as against tilting"},
+        {"twist_damping_N_m_s_rad", "N m s/rad", 0.0, 1e3,
+         [](L& l) -> double& { return l.twist_damping_N_m_s_rad; },
+         "of the lip about the cup's axis", "assumed"},
+    };
+    return table;
+}
+
+std::string_view to_string(LetGo reason) {
+    switch (reason) {
+        case LetGo::no: return "holds";
+        case LetGo::lifted: return "lifted off";
+        case LetGo::pulled: return "pulled off";
+        case LetGo::sheared: return "sheared off";
+        case LetGo::peeled: return "peeled off";
+    }
+    throw InternalError("reason of letting go out of range");
+}
+
+LipMotion lip_motion(const WallPlane& wall, const Kinematics& cup) {
+    LipMotion motion;
+    const Vector3 p_TC = wall.R_WT.transpose() * (cup.p_WF_m - wall.p_WT_m);
+    motion.gap_m = -p_TC.x();
+    motion.y_m = p_TC.y();
+    motion.z_m = p_TC.z();
+    // Everything below is about 100 times costlier and only matters next to the wall.
+    constexpr double kNear_m = 0.25;
+    if (motion.gap_m > kNear_m) {
+        return motion;
+    }
+    const Vector3 v_TC = wall.R_WT.transpose() * cup.v_WF_W_m_s;
+    motion.gap_rate_m_s = -v_TC.x();
+    motion.y_rate_m_s = v_TC.y();
+    motion.z_rate_m_s = v_TC.z();
+    const Matrix3 R_TC = wall.R_WT.transpose() * cup.q_WF.toRotationMatrix();
+    motion.rotation_rad = rotation_vector_from_quaternion(Quaternion(R_TC));
+    motion.rate_rad_s = R_TC * cup.w_WF_F_rad_s;
+    motion.faces_wall = R_TC(0, 0) > 0.5 && std::abs(motion.y_m) <= wall.half_width_m &&
+                        std::abs(motion.z_m) <= wall.half_height_m;
+    return motion;
+}
+
+double vacuum_force_N(double pressure_Pa, double radius_m) {
+    return std::max(0.0, kAtmosphere_Pa - pressure_Pa) * kPi * radius_m * radius_m;
+}
+
+LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,
+                 double vacuum_N, bool sealed) {
+    LipLoad load;
+    const double demand_N = pull_demand_N(lip, motion, sealed);
+    load.pull_N = std::min(demand_N, vacuum_N);
+    load.pull_margin_N = vacuum_N - demand_N;
+    const double lip_N = std::max(0.0, vacuum_N - load.pull_N);
+
+    const double shear_limit_N = friction * lip_N;
+    double shear_y_N = -lip.shear_stiffness_N_m * (motion.y_m - anchor.y_m) -
+                       lip.shear_damping_N_s_m * motion.y_rate_m_s;
+    double shear_z_N = -lip.shear_stiffness_N_m * (motion.z_m - anchor.z_m) -
+                       lip.shear_damping_N_s_m * motion.z_rate_m_s;
+    const double shear_demand_N = std::hypot(shear_y_N, shear_z_N);
+    load.shear_margin_N = shear_limit_N - shear_demand_N;
+    if (load.shear_margin_N < 0.0) {
+        const double scale = shear_limit_N / shear_demand_N;
+        shear_y_N *= scale;
+        shear_z_N *= scale;
+        if (!sealed) {  // slides: the anchor follows so that the spring alone holds the limit
+            anchor.y_m = motion.y_m + shear_y_N / lip.shear_stiffness_N_m;
+            anchor.z_m = motion.z_m + shear_z_N / lip.shear_stiffness_N_m;
+        }
+    }
+    load.shear_N = std::hypot(shear_y_N, shear_z_N);
+
+    const double lever_m = 0.5 * lip.radius_m;
+    const double peel_limit_N_m = lip_N * lever_m;
+    double tilt_y_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad.y() -
+                        lip.tilt_damping_N_m_s_rad * motion.rate_rad_s.y();
+    double tilt_z_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad.z() -
+                        lip.tilt_damping_N_m_s_rad * motion.rate_rad_s.z();
+    const double peel_demand_N_m = std::hypot(tilt_y_N_m, tilt_z_N_m);
+    load.peel_margin_N = (peel_limit_N_m - peel_demand_N_m) / lever_m;
+    if (load.peel_margin_N < 0.0) {
+        const double scale = peel_limit_N_m / peel_demand_N_m;
+        tilt_y_N_m *= scale;
+        tilt_z_N_m *= scale;
+    }
+    load.peel_N_m = std::hypot(tilt_y_N_m, tilt_z_N_m);
+
+    const double twist_limit_N_m = friction * lip_N * lip.radius_m;
+    const double twist_demand_N_m =
+        -lip.twist_stiffness_N_m_rad * (motion.rotation_rad.x() - anchor.twist_rad) -
+        lip.twist_damping_N_m_s_rad * motion.rate_rad_s.x();
+    const double twist_N_m = std::clamp(twist_demand_N_m, -twist_limit_N_m, twist_limit_N_m);
+    if (!sealed && twist_N_m != twist_demand_N_m) {
+        anchor.twist_rad = motion.rotation_rad.x() + twist_N_m / lip.twist_stiffness_N_m_rad;
+    }
+
+    load.wrench_T.force_N = {load.pull_N, shear_y_N, shear_z_N};
+    load.wrench_T.moment_N_m = {twist_N_m, tilt_y_N_m, tilt_z_N_m};
+    if (!sealed) {
+        load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
+    } else if (load.pull_margin_N < 0.0) {
+        load.let_go = LetGo::pulled;
+    } else if (load.shear_margin_N < 0.0 || twist_N_m != twist_demand_N_m) {
+        load.let_go = LetGo::sheared;
+    } else if (load.peel_margin_N < 0.0) {
+        load.let_go = LetGo::peeled;
+    }
+    return load;
+}
+
+}  // namespace limpet

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <string_view>
+
+#include "limpet/core/frames.hpp"
+#include "limpet/core/parameters.hpp"
+#include "limpet/core/signals/kinematics.hpp"
+#include "limpet/core/signals/wrench.hpp"
+
+namespace limpet {
+
+// The cup as a compliant 6-DoF force law (docs/decisions/0003): a bushing between lip and wall whose
+// forces have physical limits. Engine contact will not do: hard contacts make the impact grow with
+// 1/dt, and contact friction creeps. The paper's joint is this law's stiff, unbreakable limit.
+//
+//   normal   pushes when compressed; pulls at most F_vac = (P_atm - P) A
+//   shear    spring to the spot that was touched, at most mu N
+//   peel     tilt spring, at most N R/2: where a ring-shaped lip begins to lift
+//   twist    about the axis, at most mu N R
+//   with N = F_vac + push - pull, the force between lip and wall.
+
+/// Lip of an 80 mm cup. Source: baseline.md where not said otherwise.
+struct LipParameters {
+    double radius_m = 0.04;
+    double stiffness_N_m = 2e4;
+    double hard_stiffness_N_m = 1e5;        ///< beyond hard_depth_m
+    double hard_depth_m = 4e-3;
+    double damping_N_s_m = 60.0;            ///< ramped in over damping_depth_m before it seals
+    double damping_depth_m = 1e-3;
+    double shear_stiffness_N_m = 2e4;
+    double shear_damping_N_s_m = 60.0;
+    double tilt_stiffness_N_m_rad = 20.0;
+    double tilt_damping_N_m_s_rad = 0.02;
+    double twist_stiffness_N_m_rad = 20.0;
+    double twist_damping_N_m_s_rad = 0.05;
+};
+
+[[nodiscard]] const ParameterTable<LipParameters>& lip_table();
+
+/// A flat rigid wall: frame T, x into it.
+struct WallPlane {
+    Vector3 p_WT_m = Vector3::Zero();
+    Matrix3 R_WT = Matrix3::Identity();
+    double half_width_m = 2.0;   ///< along y_T
+    double half_height_m = 2.0;  ///< along z_T
+};
+
+/// Where the lip is relative to the wall, in T.
+struct LipMotion {
+    double gap_m = 0.0;       ///< lip's centre to the wall, < 0 compressed
+    double gap_rate_m_s = 0.0;
+    double y_m = 0.0, z_m = 0.0;          ///< lip's centre along the wall
+    double y_rate_m_s = 0.0, z_rate_m_s = 0.0;
+    Vector3 rotation_rad = Vector3::Zero();      ///< of C against T: x twist, y and z tilt
+    Vector3 rate_rad_s = Vector3::Zero();        ///< angular velocity of C, in T
+    [[nodiscard]] double tilt_rad() const { return std::hypot(rotation_rad.y(), rotation_rad.z()); }
+    bool faces_wall = false;  ///< over the wall's area, mouth towards it
+};
+[[nodiscard]] LipMotion lip_motion(const WallPlane& wall, const Kinematics& cup);
+
+/// The spot to which shear and twist springs pull.
+struct Anchor {
+    double y_m = 0.0;
+    double z_m = 0.0;
+    double twist_rad = 0.0;
+};
+
+/// Why a cup let go.
+enum class LetGo {
+    no,
+    lifted,   ///< pushed back to zero: an unsealed cup leaves the wall
+    pulled,   ///< pull beyond the vacuum
+    sheared,  ///< slipped
+    peeled,   ///< lip lifted by the moment
+};
+[[nodiscard]] std::string_view to_string(LetGo reason);
+
+struct LipLoad {
+    Wrench wrench_T;  ///< by the wall on the cup about the lip's centre, in T
+    double pull_N = 0.0;    ///< > 0: the vehicle pulls away from the wall
+    double shear_N = 0.0;
+    double peel_N_m = 0.0;
+    double pull_margin_N = 0.0;
+    double shear_margin_N = 0.0;
+    double peel_margin_N = 0.0;  ///< over the lever arm R/2
+    LetGo let_go = LetGo::no;
+};
+
+/// Load on a lip in contact.
+/// @param anchor    moved along with a lip that slides (only when not sealed)
+/// @param friction  Coulomb's mu
+/// @param vacuum_N  F_vac, the force with which the vacuum holds; 0 when not sealed [N]
+/// @param sealed    a sealed lip pulls and lets go beyond its limits; an open one slides and lifts
+[[nodiscard]] LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor,
+                               double friction, double vacuum_N, bool sealed);
+
+/// Force with which vacuum holds a cup of this radius: (P_atm - P) pi R^2 [N].
+[[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m);
+
+}  // namespace limpet

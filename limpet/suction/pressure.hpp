@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/suction/surface.hpp"
+
+namespace limpet {
+
+/// Where the air goes.
+enum class Airflow {
+    sealing,    ///< lip sealed, pump running: eq. (5)
+    unsealing,  ///< lip sealed, pump off: eq. (6)
+    venting,    ///< lip sealed, solenoid valve open
+    open,       ///< lip off the wall
+};
+
+/// Time constants of the cup itself; those of the seal are the surface's.
+struct VentParameters {
+    double valve_time_constant_s = 0.04;  ///< 2 mm orifice on 60 cm^3, facts.md item 20
+    double open_time_constant_s = 0.01;   ///< a cup off the wall
+};
+
+/// Pressure in the cup after `dt_s` of one airflow, from any starting pressure: the exact solution
+/// of the first-order law whose step responses are eqs. (5) and (6), so that a flow interrupted
+/// half-way goes on from the current pressure and the result does not depend on the step.
+/// @param pressure_Pa  absolute, now [Pa]
+/// @param dt_s         >= 0 [s]
+/// @return absolute pressure after dt_s [Pa]
+/// Source: paper eqs. (5), (6) and Table II; the valve adds its rate to that of the leak.
+[[nodiscard]] double pressure_after(const Surface& surface, const VentParameters& vent, Airflow flow,
+                                    double pressure_Pa, double dt_s);
+
+/// How long one airflow takes from one pressure to another: the inverse of pressure_after.
+/// @return [s]; infinity when the flow never gets there
+[[nodiscard]] double time_to_pressure_s(const Surface& surface, const VentParameters& vent,
+                                        Airflow flow, double from_Pa, double to_Pa);
+
+}  // namespace limpet

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/surface.hpp"
+
+namespace limpet {
+
+const ParameterTable<Surface>& surface_table() {
+    using S = Surface;
+    static const ParameterTable<S> table = {
+        {"vacuum_pressure_Pa", "Pa", 1000.0, 101324.0,
+         [](S& s) -> double& { return s.vacuum_pressure_Pa; },
+         "steady pressure inside the sealed cup, pump running (P_vac)", "paper, Table II"},
+        {"sealing_time_constant_s", "s", 1e-3, 1e3,
+         [](S& s) -> double& { return s.sealing_time_constant_s; },
+         "pressure falls with it while the pump runs (tau_1)", "paper, Table II"},
+        {"sealing_time_tolerance_s", "s", 0.0, 1e3,
+         [](S& s) -> double& { return s.sealing_time_tolerance_s; },
+         "measured spread of tau_1", "paper, Table II"},
+        {"unsealing_time_constant_s", "s", 1e-3, 1e4,
+         [](S& s) -> double& { return s.unsealing_time_constant_s; },
+         "pressure rises with it once the pump is off (tau_2)", "paper, Table II"},
+        {"unsealing_time_tolerance_s", "s", 0.0, 1e4,
+         [](S& s) -> double& { return s.unsealing_time_tolerance_s; },
+         "measured spread of tau_2", "paper, Table II"},
+        {"friction", "-", 0.0, 3.0, [](S& s) -> double& { return s.friction; },
+         "Coulomb friction of the lip", "assumed: rubber on masonry"},
+        {"seal_threshold_median_N", "N", 0.0, 1e4,
+         [](S& s) -> double& { return s.seal_threshold_median_N; },
+         "press force that seals half of the touches", "assumed: fits Fig. 3's limits"},
+        {"seal_threshold_sigma", "-", 0.0, 2.0,
+         [](S& s) -> double& { return s.seal_threshold_sigma; },
+         "spread of the threshold's logarithm from touch to touch (roughness)",
+         "assumed: fits Fig. 3's limits"},
+        {"seal_tilt_median_deg", "deg", 0.0, 90.0,
+         [](S& s) -> double& { return s.seal_tilt_median_deg; },
+         "tilt between lip and wall at which half of the touches fail to seal", "assumed"},
+        {"seal_tilt_sigma_deg", "deg", 0.0, 45.0,
+         [](S& s) -> double& { return s.seal_tilt_sigma_deg; },
+         "spread of that tilt from touch to touch", "assumed"},
+        {"pump_cycles", "-", 0.0, 1.0, [](S& s) -> double& { return s.pump_cycles; },
+         "1: tight enough for the pump to switch off between refills", "paper, section V.B"},
+        {"pump_ripple_Pa", "Pa", 0.0, 1e4, [](S& s) -> double& { return s.pump_ripple_Pa; },
+         "amplitude of the pressure ripple while the pump runs", "assumed"},
+        {"pump_ripple_Hz", "Hz", 0.0, 400.0, [](S& s) -> double& { return s.pump_ripple_Hz; },
+         "frequency of that ripple as the pressure sensor sees it", "assumed"},
+    };
+    return table;
+}
+
+}  // namespace limpet

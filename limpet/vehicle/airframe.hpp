@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "limpet/core/frames.hpp"
+#include "limpet/core/parameters.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+
+namespace limpet {
+
+/// Propeller and motor, the Gazebo motor model's parameters. Source: facts.md section 1, Table I.
+struct RotorParameters {
+    double motor_constant_kg_m = 2.5e-5;     ///< k_mot: thrust = k_mot w^2
+    double moment_constant_m = 1.9e-2;       ///< k_mom: torque = k_mom thrust
+    double drag_constant_kg = 8e-4;          ///< lambda_1: drag = lambda_1 w v across the axis
+    double rolling_constant_kg_m = 1e-6;     ///< mu_1: rolling moment = mu_1 w v across the axis
+    double time_constant_up_s = 0.0125;
+    double time_constant_down_s = 0.025;
+    double command_delay_s = 0.0;            ///< dead time of the speed controller, whole ticks
+    double speed_scale_rad_s = 700.0;        ///< command 1 adds this to the offset
+    double speed_offset_rad_s = 100.0;       ///< at command 0 while armed
+    double speed_max_rad_s = 800.0;
+    double radius_m = 0.1524;                ///< of the propeller, 12 in
+    double height_m = 0.04;                  ///< of the propeller planes above the centre of mass
+    double axial_loss_speed_m_s = 25.0;      ///< thrust is gone at this speed along the axis
+};
+
+/// Spring slider between body and cup. Source: baseline.md.
+struct SliderParameters {
+    double stiffness_N_m = 500.0;
+    double damping_N_s_m = 30.0;
+    double preload_N = 5.0;           ///< of the spring against the outer stop
+    double travel_m = 0.090;
+    double stop_stiffness_N_m = 2e4;  ///< of both stops
+    double stop_damping_N_s_m = 100.0;
+    double mass_kg = 0.10;
+};
+
+/// Joint with two degrees of freedom and the cup's body. Lip and seal are in suction/.
+struct CupMountParameters {
+    double joint_x_m = 0.46;               ///< joint ahead of the centre of mass
+    double joint_z_m = 0.0;                ///< below it
+    double lip_offset_m = 0.04;            ///< lip plane ahead of the joint
+    double mass_offset_m = 0.01;           ///< the cup's own centre of mass ahead of the joint
+    double centring_stiffness_N_m_rad = 0.3;
+    double centring_damping_N_m_s_rad = 0.02;
+    double range_deg = 85.0;               ///< of each hinge, either way
+    double radius_m = 0.04;
+    double mass_kg = 0.10;
+};
+
+/// Two legs that limit the pitch when perched.
+struct LegParameters {
+    double tip_x_m = -0.05;
+    double tip_y_m = 0.15;  ///< half their distance
+    double tip_z_m = 0.25;
+    double tip_radius_m = 0.012;
+    double friction = 0.8;
+};
+
+struct BatteryParameters {
+    double cells = 6.0;
+    double capacity_Ah = 4.0;
+    double internal_resistance_ohm = 0.03;
+    double avionics_power_W = 12.0;     ///< companion computer, autopilot, sensors
+    double pump_power_W = 12.0;
+    double drive_efficiency = 0.75;     ///< motor and speed controller: shaft power / electric power
+    double initial_charge = 1.0;        ///< 0..1
+};
+
+/// ONE description of a vehicle, from which MJCF, SDF and URDF are made. Positions are in B: origin
+/// at the centre of mass of the whole vehicle with the slider at its outer stop, forward-right-down.
+struct Airframe {
+    std::string name = "perching_uav";
+    std::string description;
+    bool has_cup = true;   ///< slider, joint, cup, legs and pump; a plain multirotor has none
+    double mass_kg = 3.2;  ///< of the whole vehicle
+    Vector3 inertia_kg_m2 = {0.05, 0.10, 0.14};  ///< of the whole vehicle about B, diagonal
+    Vector3 pump_B_m = {-0.16, 0.0, 0.03};
+    /// Hubs in B; z is -rotor.height_m.
+    std::array<Vector3, kRotors> rotor_p_B_m = {
+        Vector3{0.205, 0.205, -0.04}, Vector3{-0.205, -0.205, -0.04}, Vector3{0.205, -0.205, -0.04},
+        Vector3{-0.205, 0.205, -0.04}};
+    /// +1: turns counter-clockwise seen from above.
+    std::array<int, kRotors> rotor_direction = {+1, +1, -1, -1};
+    RotorParameters rotor;
+    SliderParameters slider;
+    CupMountParameters cup;
+    LegParameters legs;
+    BatteryParameters battery;
+    double lidar_x_m = 0.205;           ///< both LiDARs on the front arms
+    double lidar_separation_m = 0.41;   ///< l of eq. (7)
+    double lidar_z_m = 0.0;
+};
+
+/// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery` of a vehicle file.
+[[nodiscard]] const ParameterTable<RotorParameters>& rotor_table();
+[[nodiscard]] const ParameterTable<SliderParameters>& slider_table();
+[[nodiscard]] const ParameterTable<CupMountParameters>& cup_mount_table();
+[[nodiscard]] const ParameterTable<LegParameters>& leg_table();
+[[nodiscard]] const ParameterTable<BatteryParameters>& battery_table();
+/// Numbers of the airframe itself: mass_kg, inertia_xx_kg_m2, lidar_x_m, ...
+[[nodiscard]] const ParameterTable<Airframe>& airframe_table();
+
+/// @throws InputError when the parts do not make a body: the base's share of mass or inertia is not
+///         positive or breaks the triangle inequality, a stated z differs from rotor.height_m
+void validate(const Airframe& airframe);
+
+/// Mass of one body, with the slider at its outer stop and the joint centred.
+struct BodyInertia {
+    double mass_kg = 0.0;
+    Vector3 centre_B_m = Vector3::Zero();
+    Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the body's own centre, axes of B
+};
+/// What is left for the base when slider and cup are taken out of the whole. Diagonal when the
+/// joint is level with the centre of mass.
+[[nodiscard]] BodyInertia base_inertia(const Airframe& airframe);
+/// A slender rod of twice the travel, behind the joint.
+[[nodiscard]] BodyInertia carriage_inertia(const Airframe& airframe);
+/// A solid disc of the cup's radius, as thick as the lip is ahead of the joint.
+[[nodiscard]] BodyInertia cup_inertia(const Airframe& airframe);
+
+/// Forces inside the slider at an extension and its rate.
+struct SliderForce {
+    double spring_N = 0.0;  ///< spring, pre-load and damper: the plant integrates these itself
+    double stop_N = 0.0;    ///< of the stop that is touched, else 0
+    [[nodiscard]] double total_N() const { return spring_N + stop_N; }
+};
+/// @param position_m    0 at the outer stop, < 0 compressed
+/// @param velocity_m_s  > 0 extends
+/// @return forces that extend the slider, > 0 pushes the cup forward [N]
+[[nodiscard]] SliderForce slider_force(const SliderParameters& slider, double position_m,
+                                       double velocity_m_s);
+
+}  // namespace limpet

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet {
+
+/// The shapes that MJCF, SDF 1.6 and URDF have in common.
+enum class Shape {
+    box,       ///< size: edge lengths
+    cylinder,  ///< size: radius, radius, length along its z
+    sphere,    ///< size: radius three times
+};
+
+enum class Paint { carbon, aluminium, propeller, blade, rubber, foot, battery, board, pump, hose };
+inline constexpr std::array kPaints = {Paint::carbon, Paint::aluminium, Paint::propeller,
+                                       Paint::blade,  Paint::rubber,    Paint::foot,
+                                       Paint::battery, Paint::board,    Paint::pump,
+                                       Paint::hose};
+
+struct PaintLook {
+    std::string_view name;
+    std::array<double, 4> rgba;
+    double specular = 0.3;   ///< 0..1
+    double shininess = 0.3;  ///< 0..1
+};
+[[nodiscard]] const PaintLook& look(Paint paint);
+
+/// One primitive of the vehicle's picture, placed in its body's frame F: forward-right-down, origin
+/// at the centre of mass (base) or in the cup's joint (carriage, cup).
+struct Part {
+    std::string name;  ///< unique in the vehicle
+    std::string_view body = "base";
+    Shape shape = Shape::box;
+    Vector3 p_F_m = Vector3::Zero();
+    Quaternion q_F = Quaternion::Identity();
+    Vector3 size_m = Vector3::Zero();
+    Paint paint = Paint::carbon;
+};
+
+/// What the vehicle looks like; massless, touches nothing.
+[[nodiscard]] std::vector<Part> draw(const Airframe& airframe);
+
+/// The rubber balls that touch the wall, the only parts that do: leg_left, leg_right; none without
+/// a cup.
+[[nodiscard]] std::vector<Part> leg_tips(const Airframe& airframe);
+
+}  // namespace limpet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet {
+
+/// The wall and how it looks. Frame T: origin on the surface, x into the wall, y right, z down the
+/// wall (a vertical wall: z_T = z_W).
+struct WallScene {
+    bool present = true;
+    Vector3 p_WT_m = Vector3::Zero();
+    Quaternion q_WT = Quaternion::Identity();
+    double half_width_m = 2.0;
+    double half_height_m = 2.0;
+    std::string surface = "porous_concrete";  ///< chooses the material in pictures
+};
+
+struct Scene {
+    WallScene wall;
+    double ground_z_W_m = 2.0;  ///< W's z of the floor, down positive
+    /// Shapes, materials, lights and cameras for pictures. A plant does without: it would carry
+    /// every shape along in every step.
+    bool visuals = true;
+};
+
+// All writers turn forward-right-down and north-east-down into forward-left-up and a z-up world
+// (x north, y west, z up): x stays, y and z change sign. Names of bodies, joints and geoms, alike in
+// the three formats: base, carriage, cup; joints slider, cup_pitch, cup_yaw; leg_left, leg_right;
+// rotor_0..3; wall, ground.
+
+/// A whole MuJoCo model: vehicle (free joint), wall, floor, lights, materials, cameras.
+/// Bodies base > carriage > cup; contacts only by explicit pairs (each leg tip with the wall).
+[[nodiscard]] std::string write_mjcf(const Airframe& airframe, const Scene& scene);
+/// SDF 1.6 model of the vehicle for Gazebo 11.
+[[nodiscard]] std::string write_sdf(const Airframe& airframe);
+/// URDF of the vehicle; links and joints named as in the other two.
+[[nodiscard]] std::string write_urdf(const Airframe& airframe);
+
+}  // namespace limpet

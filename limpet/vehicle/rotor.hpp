@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "limpet/core/signals/kinematics.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/signals/wrench.hpp"
+#include "limpet/vehicle/airframe.hpp"
+
+/// The motor model of PX4's Gazebo Classic, four rotors whose axes are z of B.
+///
+///   command u -> speed offset + scale u -> dead time -> limit -> first-order lag -> speed w
+///   thrust    T = k_mot w^2 s,  s = clamp(1 - |v_par| / 25 m/s, 0, 1)      along -z
+///   yaw       dir k_mot w^2 k_mom                                          about +z
+///   drag      -w lambda_1 v_perp                                           at the hub
+///   rolling   -w dir mu_1 v_perp                                           a moment
+///
+/// v is the hub's velocity relative to the air, v_par along the axis, v_perp across it; dir is +1
+/// for a rotor that turns counter-clockwise seen from above. The spin of motor and propeller has no
+/// inertia here: its reaction on yaw is left out.
+/// Source: PX4-SITL_gazebo-classic, gazebo_motor_model.cpp; facts.md section 1.
+namespace limpet {
+
+/// Eq. (3): thrust per squared speed.
+/// @param thrust_coefficient  C_T0 of T = C_T0 rho n^2 D^4, n in revolutions per second
+/// @param density_kg_m3       of the air
+/// @param diameter_m          of the propeller
+/// @return k_mot [kg m]
+[[nodiscard]] double motor_constant_kg_m(double thrust_coefficient, double density_kg_m3,
+                                         double diameter_m);
+
+/// Eq. (4): torque per thrust.
+/// @param torque_coefficient  C_Q0 of Q = C_Q0 rho n^2 D^5
+/// @param thrust_coefficient  C_T0, > 0
+/// @return k_mom [m]
+[[nodiscard]] double moment_constant_m(double torque_coefficient, double thrust_coefficient,
+                                       double diameter_m);
+
+/// Steps that the dead time can span, one more than the longest.
+inline constexpr std::size_t kCommandDelaySteps = 128;
+
+struct RotorsState {
+    std::array<double, kRotors> speed_rad_s{};
+    /// Ring of the speeds asked for; the one written next is the oldest.
+    std::array<std::array<double, kRotors>, kCommandDelaySteps> asked_rad_s{};
+    std::size_t next = 0;
+};
+
+/// All rotors at the steady speed of a command, as if it had been given for long.
+/// @param command  0..1
+[[nodiscard]] RotorsState spinning(const RotorParameters& rotor, double command);
+
+/// @return the command, alike on all rotors, whose thrust equals the weight in still air
+[[nodiscard]] double hover_command(const Airframe& airframe);
+
+/// Turns commands into speeds, one step of the lag by its exact solution.
+/// @param command        beyond 0..1 it is cut; disarmed rotors run down
+/// @param dt_s           > 0, the same at every call: the dead time is a whole number of steps
+/// @param voltage_share  of the battery (battery.hpp), scales the highest speed
+/// @throws InternalError when the dead time is not less than kCommandDelaySteps steps
+void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& command,
+          double dt_s, double voltage_share = 1.0);
+
+/// Sum over the rotors.
+/// @param base         frame B
+/// @param wind_W_m_s   velocity of the air
+/// @return force and moment about B's origin, in B; -force.z is the total thrust, as drag has no z
+[[nodiscard]] Wrench rotor_wrench_B(const Airframe& airframe, const RotorsState& state,
+                                    const Kinematics& base, const Vector3& wind_W_m_s);
+
+/// @return power of the four shafts, torque times speed [W]
+[[nodiscard]] double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state);
+
+}  // namespace limpet

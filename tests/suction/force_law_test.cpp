@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/force_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace limpet {
+namespace {
+
+constexpr double kMu = 0.8;
+constexpr double kVacuum_N = 100.0;
+
+LipMotion at_gap(double gap_m) {
+    LipMotion motion;
+    motion.gap_m = gap_m;
+    motion.faces_wall = true;
+    return motion;
+}
+
+TEST(ForceLaw, VacuumTimesArea) {
+    // facts.md section 3: 80 mm cup, 183 N on concrete, 371 N on metal, 67 N at 880 hPa
+    EXPECT_NEAR(vacuum_force_N(65000.0, 0.04), 183.0, 1.0);
+    EXPECT_NEAR(vacuum_force_N(27500.0, 0.04), 371.0, 1.0);
+    EXPECT_NEAR(vacuum_force_N(88000.0, 0.04), 67.0, 0.5);
+    EXPECT_EQ(vacuum_force_N(kAtmosphere_Pa + 100.0, 0.04), 0.0);
+}
+
+TEST(ForceLaw, PushesSoftThenHard) {
+    Anchor anchor;
+    const LipParameters lip;
+    EXPECT_NEAR(lip_load(lip, at_gap(-0.002), anchor, kMu, 0.0, false).pull_N, -40.0, 1e-9);
+    EXPECT_NEAR(lip_load(lip, at_gap(-0.005), anchor, kMu, 0.0, false).pull_N, -180.0, 1e-9);
+}
+
+TEST(ForceLaw, AnOpenLipNeverPulls) {
+    Anchor anchor;
+    LipMotion leaving = at_gap(-0.001);
+    leaving.gap_rate_m_s = 2.0;
+    EXPECT_EQ(lip_load({}, leaving, anchor, kMu, 0.0, false).pull_N, 0.0);
+    EXPECT_EQ(lip_load({}, at_gap(1e-6), anchor, kMu, 0.0, false).let_go, LetGo::lifted);
+}
+
+TEST(ForceLaw, ASealedLipPullsUpToTheVacuumThenLetsGo) {
+    Anchor anchor;
+    const LipLoad holding = lip_load({}, at_gap(0.0049), anchor, kMu, kVacuum_N, true);
+    EXPECT_NEAR(holding.pull_N, 98.0, 1e-9);
+    EXPECT_NEAR(holding.pull_margin_N, 2.0, 1e-9);
+    EXPECT_EQ(holding.let_go, LetGo::no);
+    const LipLoad torn = lip_load({}, at_gap(0.0051), anchor, kMu, kVacuum_N, true);
+    EXPECT_EQ(torn.let_go, LetGo::pulled);
+    EXPECT_NEAR(torn.pull_N, kVacuum_N, 1e-9);
+}
+
+TEST(ForceLaw, ShearsAtCoulombsLimit) {
+    Anchor anchor;
+    LipMotion motion = at_gap(0.0);
+    motion.z_m = 79.0 / 2e4;
+    EXPECT_EQ(lip_load({}, motion, anchor, kMu, kVacuum_N, true).let_go, LetGo::no);
+    EXPECT_NEAR(lip_load({}, motion, anchor, kMu, kVacuum_N, true).shear_margin_N, 1.0, 1e-9);
+    motion.z_m = 81.0 / 2e4;
+    EXPECT_EQ(lip_load({}, motion, anchor, kMu, kVacuum_N, true).let_go, LetGo::sheared);
+}
+
+TEST(ForceLaw, PullTakesFromTheShearThatItHolds) {
+    Anchor anchor;
+    LipMotion motion = at_gap(0.0025);  // 50 N of pull leave 50 N on the lip
+    motion.y_m = 41.0 / 2e4;
+    EXPECT_EQ(lip_load({}, motion, anchor, kMu, kVacuum_N, true).let_go, LetGo::sheared);
+}
+
+TEST(ForceLaw, PeelsWhereARingLifts) {
+    // A ring of radius R under N lifts at N R/2: 100 N, 40 mm -> 2 N m
+    Anchor anchor;
+    LipMotion motion = at_gap(0.0);
+    motion.rotation_rad.y() = 1.99 / 20.0;
+    EXPECT_EQ(lip_load({}, motion, anchor, kMu, kVacuum_N, true).let_go, LetGo::no);
+    motion.rotation_rad.y() = 2.01 / 20.0;
+    EXPECT_EQ(lip_load({}, motion, anchor, kMu, kVacuum_N, true).let_go, LetGo::peeled);
+}
+
+TEST(ForceLaw, AnOpenLipSlidesAndItsAnchorFollows) {
+    Anchor anchor;
+    LipMotion motion = at_gap(-0.001);  // 20 N
+    motion.y_m = 0.01;
+    const LipLoad load = lip_load({}, motion, anchor, kMu, 0.0, false);
+    EXPECT_NEAR(load.shear_N, 16.0, 1e-9);
+    EXPECT_EQ(load.let_go, LetGo::no);
+    EXPECT_NEAR(lip_load({}, motion, anchor, kMu, 0.0, false).shear_N, 16.0, 1e-9);
+    EXPECT_NEAR(anchor.y_m, 0.01 - 16.0 / 2e4, 1e-12);
+}
+
+TEST(ForceLaw, RestoringForcesOpposeTheDisplacement) {
+    Anchor anchor;
+    LipMotion motion = at_gap(0.0);
+    motion.y_m = 1e-4;
+    motion.z_m = -2e-4;
+    motion.rotation_rad = {0.01, -0.02, 0.03};
+    const Wrench wrench = lip_load({}, motion, anchor, kMu, kVacuum_N, true).wrench_T;
+    EXPECT_NEAR(wrench.force_N.y(), -2.0, 1e-9);
+    EXPECT_NEAR(wrench.force_N.z(), 4.0, 1e-9);
+    EXPECT_NEAR(wrench.moment_N_m.x(), -0.2, 1e-9);
+    EXPECT_NEAR(wrench.moment_N_m.y(), 0.4, 1e-9);
+    EXPECT_NEAR(wrench.moment_N_m.z(), -0.6, 1e-9);
+}
+
+TEST(LipMotion, IsRelativeToATurnedWall) {
+    WallPlane wall;
+    wall.p_WT_m = {1.0, 2.0, 0.0};
+    wall.R_WT = quaternion_from_euler({.yaw_rad = kPi / 2.0}).toRotationMatrix();  // faces west
+    Kinematics cup;
+    cup.p_WF_m = {1.3, 1.9, -0.5};
+    cup.q_WF = quaternion_from_euler({.pitch_rad = 0.1, .yaw_rad = kPi / 2.0});
+    cup.v_WF_W_m_s = {0.2, 1.1, 0.0};
+    const LipMotion motion = lip_motion(wall, cup);
+    EXPECT_NEAR(motion.gap_m, 0.1, 1e-12);
+    EXPECT_NEAR(motion.gap_rate_m_s, -1.1, 1e-12);
+    EXPECT_NEAR(motion.y_m, -0.3, 1e-12);  // y_T of a wall to the east points south
+    EXPECT_NEAR(motion.z_m, -0.5, 1e-12);
+    EXPECT_NEAR(motion.y_rate_m_s, -0.2, 1e-12);
+    EXPECT_NEAR(motion.rotation_rad.y(), 0.1, 1e-12);
+    EXPECT_TRUE(motion.faces_wall);
+}
+
+TEST(LipMotion, BesideTheWallItFacesNothing) {
+    WallPlane wall;
+    wall.half_width_m = 0.5;
+    Kinematics cup;
+    cup.p_WF_m = {0.0, 0.6, 0.0};
+    EXPECT_FALSE(lip_motion(wall, cup).faces_wall);
+}
+
+}  // namespace
+}  // namespace limpet
