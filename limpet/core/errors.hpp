@@ -13,7 +13,8 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A fault of ours: a broken promise between two rooms. The command line turns it into exit code 70.
+/// A fault of ours: a broken promise between two rooms. The command line turns it into exit
+/// code 70.
 class InternalError : public std::logic_error {
 public:
     using std::logic_error::logic_error;
@@ -24,8 +25,8 @@ public:
 inline void require(bool holds, const char* promise, const char* file = __builtin_FILE(),
                     int line = __builtin_LINE()) {
     if (!holds) [[unlikely]] {
-        throw InternalError(std::string(file) + ":" + std::to_string(line) + ": broken promise: " +
-                            promise);
+        throw InternalError(std::string(file) + ":" + std::to_string(line) +
+                            ": broken promise: " + promise);
     }
 }
 

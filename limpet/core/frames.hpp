@@ -25,8 +25,12 @@ inline constexpr double kAtmosphere_Pa = 101325.0;
 /// Sea-level air density [kg/m^3]. Source: ISA.
 inline constexpr double kAirDensity_kg_m3 = 1.225;
 
-[[nodiscard]] constexpr double radians(double angle_deg) { return angle_deg * (kPi / 180.0); }
-[[nodiscard]] constexpr double degrees(double angle_rad) { return angle_rad * (180.0 / kPi); }
+[[nodiscard]] constexpr double radians(double angle_deg) {
+    return angle_deg * (kPi / 180.0);
+}
+[[nodiscard]] constexpr double degrees(double angle_rad) {
+    return angle_rad * (180.0 / kPi);
+}
 
 /// Roll, pitch, yaw of the aerospace z-y'-x'' sequence [rad].
 struct Euler {

@@ -8,7 +8,8 @@
 namespace limpet {
 
 /// Who draws. A stream of its own for each consumer: adding a draw in one place leaves every other
-/// place's numbers as they were. Numbers are part of the recordings' meaning: append, never reorder.
+/// place's numbers as they were. Numbers are part of the recordings' meaning: append, never
+/// reorder.
 enum class Stream : std::uint32_t {
     seal = 1,
     pump = 2,
@@ -27,8 +28,8 @@ enum class Stream : std::uint32_t {
 };
 
 /// Counter-based random numbers (Philox 4x32-10): a draw is a pure function of (seed, run, stream,
-/// counter), so results do not depend on thread count or order, and a copied stream continues alike.
-/// Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11.
+/// counter), so results do not depend on thread count or order, and a copied stream continues
+/// alike. Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11.
 class RandomStream {
 public:
     RandomStream() = default;

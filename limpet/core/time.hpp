@@ -16,13 +16,12 @@ inline constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
 }
 
 /// Whether something that runs `rate_Hz` times a second runs in this tick.
-/// Rates that do not divide the tick rate (120 Hz motion capture) fall on the nearest later tick, so
-/// that their mean is exact. No state: a resumed run keeps its phase.
+/// Rates that do not divide the tick rate (120 Hz motion capture) fall on the nearest later tick,
+/// so that their mean is exact. No state: a resumed run keeps its phase.
 /// @param tick     base tick, >= 0
 /// @param rate_Hz  1..kTicksPerSecond
 [[nodiscard]] constexpr bool due(Tick tick, int rate_Hz) {
-    return tick == 0 ||
-           tick * rate_Hz / kTicksPerSecond != (tick - 1) * rate_Hz / kTicksPerSecond;
+    return tick == 0 || tick * rate_Hz / kTicksPerSecond != (tick - 1) * rate_Hz / kTicksPerSecond;
 }
 
 }  // namespace limpet

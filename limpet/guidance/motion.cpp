@@ -10,8 +10,9 @@ namespace limpet {
 namespace {
 
 AttitudeSetpoint attitude(const PerchingMemory& memory, double pitch_rad, double thrust) {
-    return {.q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
-            .thrust = thrust};
+    return {
+        .q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
+        .thrust = thrust};
 }
 
 PositionSetpoint stand(const PerchingParameters& parameters, const PerchingMemory& memory) {
@@ -29,27 +30,29 @@ VelocitySetpoint run(const PerchingParameters& parameters, const PerchingMemory&
     const Vector3 across_W_m = error_W_m - n_W * n_W.dot(error_W_m);
     const double feedforward_m_s2 =
         reference.acceleration_m_s2 + parameters.drag_1_s * reference.speed_m_s;
-    return {.v_W_m_s = direction * reference.speed_m_s * n_W + parameters.line_gain_1_s * across_W_m,
-            .yaw_rad = memory.wall.heading_rad,
-            .feedforward_a_W_m_s2 = direction * feedforward_m_s2 * n_W};
+    return {
+        .v_W_m_s = direction * reference.speed_m_s * n_W + parameters.line_gain_1_s * across_W_m,
+        .yaw_rad = memory.wall.heading_rad,
+        .feedforward_a_W_m_s2 = direction * feedforward_m_s2 * n_W};
 }
 
 /// Back to the pre-position: a run, then the position loop once braking must begin.
 void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
              const Estimate& estimate, double elapsed_s, Setpoint& setpoint) {
-    const double left_m = parameters.pre_distance_m -
-                          memory.wall.distance_m(parameters, estimate.p_WB_m);
+    const double left_m =
+        parameters.pre_distance_m - memory.wall.distance_m(parameters, estimate.p_WB_m);
     const double speed_m_s = parameters.retreat_speed_m_s;
     const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
-    // The position loop asks for line_gain times the distance left: from there on it is the slower one.
+    // The position loop asks for line_gain times the distance left: from there on it is the slower
+    // one.
     if (left_m < std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, 0.1))) {
         setpoint.motion = stand(parameters, memory);
     } else {
-        setpoint.motion = run(parameters, memory, estimate,
-                              run_reference(elapsed_s, speed_m_s,
-                                            parameters.retreat_acceleration_m_s2,
-                                            parameters.dock_ramp_s),
-                              -1.0);
+        setpoint.motion =
+            run(parameters, memory, estimate,
+                run_reference(elapsed_s, speed_m_s, parameters.retreat_acceleration_m_s2,
+                              parameters.dock_ramp_s),
+                -1.0);
     }
 }
 
@@ -58,8 +61,8 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
 RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,
                            double ramp_s) {
     const double ramp = std::min(ramp_s, speed_m_s / acceleration_m_s2);
-    const double peak_m_s2 = ramp > 0.0 ? std::min(acceleration_m_s2, speed_m_s / ramp)
-                                        : acceleration_m_s2;
+    const double peak_m_s2 =
+        ramp > 0.0 ? std::min(acceleration_m_s2, speed_m_s / ramp) : acceleration_m_s2;
     const double hold_s = speed_m_s / peak_m_s2 - ramp;
     const double end_s = hold_s + 2.0 * ramp;
     if (time_s <= 0.0) {
@@ -86,15 +89,15 @@ double smoothstep(double x) {
 }
 
 double thrust_command(const PerchingParameters& parameters, double share) {
-    const double command = parameters.zero_thrust + (parameters.hover_thrust - parameters.zero_thrust) *
-                                                        std::sqrt(std::max(share, 0.0));
+    const double command =
+        parameters.zero_thrust +
+        (parameters.hover_thrust - parameters.zero_thrust) * std::sqrt(std::max(share, 0.0));
     return std::clamp(command, 0.0, 1.0);
 }
 
 Vector3 pre_position_W(const PerchingParameters& parameters, const PerchingMemory& memory) {
     const Vector3 n_W = memory.wall.into_wall_W();
-    const double along_m =
-        memory.wall.offset_m - parameters.pre_distance_m - parameters.lidar_x_m;
+    const double along_m = memory.wall.offset_m - parameters.pre_distance_m - parameters.lidar_x_m;
     return memory.line_W_m + n_W * (along_m - n_W.dot(memory.line_W_m));
 }
 
@@ -117,11 +120,11 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
         case PerchingState::aligning: setpoint.motion = stand(parameters, memory); break;
         case PerchingState::approaching:
             setpoint.pump_on = true;
-            setpoint.motion = run(parameters, memory, estimate,
-                                  run_reference(elapsed_s, parameters.dock_speed_m_s,
-                                                parameters.dock_acceleration_m_s2,
-                                                parameters.dock_ramp_s),
-                                  1.0);
+            setpoint.motion =
+                run(parameters, memory, estimate,
+                    run_reference(elapsed_s, parameters.dock_speed_m_s,
+                                  parameters.dock_acceleration_m_s2, parameters.dock_ramp_s),
+                    1.0);
             break;
         case PerchingState::holding:
         case PerchingState::deciding:
@@ -145,9 +148,9 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
             setpoint.pump_on = true;
             setpoint.hold_integrators = true;
             const double left = 1.0 - elapsed_s / parameters.land_thrust_s;
-            setpoint.motion = attitude(memory, perched_rad,
-                                       std::max(0.0, left) *
-                                           thrust_command(parameters, std::cos(perched_rad)));
+            setpoint.motion =
+                attitude(memory, perched_rad,
+                         std::max(0.0, left) * thrust_command(parameters, std::cos(perched_rad)));
             break;
         }
         case PerchingState::standing:
@@ -187,8 +190,8 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
         case PerchingState::finished: {
             setpoint = memory.setpoint;  // as it is: on the wall at rest, in the air standing
             if (setpoint.armed) {
-                setpoint.motion = PositionSetpoint{.p_W_m = memory.entry_p_W_m,
-                                                   .yaw_rad = memory.entry_yaw_rad};
+                setpoint.motion =
+                    PositionSetpoint{.p_W_m = memory.entry_p_W_m, .yaw_rad = memory.entry_yaw_rad};
             }
             break;
         }

@@ -14,8 +14,8 @@ struct RunReference {
 /// From rest to a constant speed: the acceleration ramps up, holds and ramps down.
 /// @param time_s          since the start of the run
 /// @param ramp_s          of each ramp; shortened when the speed is reached within the ramps
-[[nodiscard]] RunReference run_reference(double time_s, double speed_m_s,
-                                         double acceleration_m_s2, double ramp_s);
+[[nodiscard]] RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,
+                                         double ramp_s);
 
 /// Cubic from 0 to 1 with zero slope at both ends; clamped outside [0, 1].
 [[nodiscard]] double smoothstep(double x);

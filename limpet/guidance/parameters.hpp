@@ -10,47 +10,47 @@ namespace limpet {
 /// otherwise. Sources: the paper, section IV; baseline.md for what the paper does not say.
 struct PerchingParameters {
     // the vehicle, as guidance knows it
-    double lidar_separation_m = 0.41;   ///< l of eq. (7)
-    double lidar_x_m = 0.205;           ///< LiDARs ahead of the centre of mass
-    double hover_thrust = 0.657;        ///< motor command that carries the weight
-    double zero_thrust = -1.0 / 7.0;    ///< motor command at which the rotors would stand still
-    double valve_fitted = 0.0;          ///< 1: the cup has a solenoid valve
+    double lidar_separation_m = 0.41;  ///< l of eq. (7)
+    double lidar_x_m = 0.205;          ///< LiDARs ahead of the centre of mass
+    double hover_thrust = 0.657;       ///< motor command that carries the weight
+    double zero_thrust = -1.0 / 7.0;   ///< motor command at which the rotors would stand still
+    double valve_fitted = 0.0;         ///< 1: the cup has a solenoid valve
     // pre-position
     double pre_distance_m = 1.5;
     double pre_tolerance_m = 0.05;
-    double pre_speed_m_s = 0.1;         ///< slower than this counts as there
+    double pre_speed_m_s = 0.1;  ///< slower than this counts as there
     double align_limit_deg = 2.0;
-    double settle_s = 0.5;              ///< how long a condition must hold to count
-    double wall_filter_s = 0.3;         ///< low-pass of the wall seen by the LiDARs
-    double wall_near_limit_m = 6.0;     ///< no wall nearer than this: not in front of one
+    double settle_s = 0.5;           ///< how long a condition must hold to count
+    double wall_filter_s = 0.3;      ///< low-pass of the wall seen by the LiDARs
+    double wall_near_limit_m = 6.0;  ///< no wall nearer than this: not in front of one
     // dock
     double dock_speed_m_s = 1.1;
     double dock_acceleration_m_s2 = 1.5;
-    double dock_ramp_s = 0.2;           ///< of that acceleration
-    double drag_1_s = 0.56;             ///< rotor drag per speed and mass, fed forward
-    double line_gain_1_s = 0.95;        ///< keeps the line across the docking direction
-    double impact_force_N = 8.0;        ///< pressed harder than this: the wall is hit
+    double dock_ramp_s = 0.2;     ///< of that acceleration
+    double drag_1_s = 0.56;       ///< rotor drag per speed and mass, fed forward
+    double line_gain_1_s = 0.95;  ///< keeps the line across the docking direction
+    double impact_force_N = 8.0;  ///< pressed harder than this: the wall is hit
     double approach_limit_s = 6.0;
     // hold
     double hold_s = 0.5;
     double hold_depth_m = 0.10;         ///< position set-point inside the wall
     double land_pressure_Pa = 88000.0;  ///< P_land
     // land
-    double perched_pitch_deg = 66.5;    ///< where the legs stand on the wall
+    double perched_pitch_deg = 66.5;  ///< where the legs stand on the wall
     double pitch_over_travel_deg = 1.1;
     double land_pitch_s = 5.0;
     double land_thrust_s = 1.0;
-    double rest_rate_deg_s = 3.0;       ///< slower than this counts as resting
+    double rest_rate_deg_s = 3.0;  ///< slower than this counts as resting
     double land_limit_s = 15.0;
-    double rest_s = 7.0;                ///< on the wall, motors off
+    double rest_s = 7.0;  ///< on the wall, motors off
     // take-off
     double spin_up_s = 1.0;
-    double level_pitch_s = 5.0;
+    double level_pitch_s = 6.0;
     double level_limit_deg = 2.0;
     double level_rate_deg_s = 5.0;
     double level_limit_s = 15.0;
     double detach_pressure_Pa = 98000.0;
-    double release_limit_s = 16.0;      ///< then the release is given up
+    double release_limit_s = 16.0;  ///< then the release is given up
     double oscillation_limit_deg = 10.0;
     double reseal_limit_s = 3.0;
     // retreat
@@ -59,9 +59,9 @@ struct PerchingParameters {
     double retreat_limit_s = 12.0;
     // faults
     double attempts = 3.0;
-    double sensor_limit_s = 0.25;       ///< a reading older than this is lost
-    double wait_limit_s = 20.0;         ///< for pre-position and alignment
-    double battery_reserve = 0.15;      ///< no new attempt below this charge
+    double sensor_limit_s = 0.25;   ///< a reading older than this is lost
+    double wait_limit_s = 20.0;     ///< for pre-position and alignment
+    double battery_reserve = 0.15;  ///< no new attempt below this charge
 };
 
 [[nodiscard]] const ParameterTable<PerchingParameters>& perching_table();

@@ -26,7 +26,9 @@ struct Scene {
         return memory.settled_since_s >= 0.0 &&
                time_s - memory.settled_since_s >= parameters.settle_s;
     }
-    [[nodiscard]] double pitch_rad() const { return euler_from_quaternion(estimate.q_WB).pitch_rad; }
+    [[nodiscard]] double pitch_rad() const {
+        return euler_from_quaternion(estimate.q_WB).pitch_rad;
+    }
     [[nodiscard]] double roll_rad() const { return euler_from_quaternion(estimate.q_WB).roll_rad; }
     [[nodiscard]] bool pressure_known() const {
         return readings.cup_pressure.fresh(time_s, parameters.sensor_limit_s);
@@ -88,10 +90,18 @@ bool settling(const Scene& s) {
 
 // --- guards -----------------------------------------------------------------------------------
 
-bool always(const Scene&) { return true; }
-bool settled(const Scene& s) { return s.settled(); }
-bool hover_over(const Scene& s) { return s.elapsed_s() >= s.task.hover_s; }
-bool waited_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.wait_limit_s; }
+bool always(const Scene&) {
+    return true;
+}
+bool settled(const Scene& s) {
+    return s.settled();
+}
+bool hover_over(const Scene& s) {
+    return s.elapsed_s() >= s.task.hover_s;
+}
+bool waited_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.wait_limit_s;
+}
 bool battery_low(const Scene& s) {
     return s.readings.battery.ever() &&
            s.readings.battery.value.remaining < s.parameters.battery_reserve;
@@ -110,26 +120,48 @@ bool pressure_implausible(const Scene& s) {
 bool wall_hit(const Scene& s) {
     return s.readings.force.value.axial_N < -s.parameters.impact_force_N;
 }
-bool approach_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.approach_limit_s; }
-bool hold_is_over(const Scene& s) { return s.elapsed_s() >= s.parameters.hold_s; }
+bool approach_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.approach_limit_s;
+}
+bool hold_is_over(const Scene& s) {
+    return s.elapsed_s() >= s.parameters.hold_s;
+}
 bool sealed(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() < s.parameters.land_pressure_Pa;
 }
 bool vacuum_lost(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() > s.parameters.land_pressure_Pa;
 }
-bool pitched_up(const Scene& s) { return s.elapsed_s() >= s.parameters.land_pitch_s; }
-bool landing_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.land_limit_s; }
-bool retreat_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.retreat_limit_s; }
+bool pitched_up(const Scene& s) {
+    return s.elapsed_s() >= s.parameters.land_pitch_s;
+}
+bool landing_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.land_limit_s;
+}
+bool retreat_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.retreat_limit_s;
+}
 bool attempts_used_up(const Scene& s) {
     return s.settled() && s.memory.attempt >= static_cast<int>(s.parameters.attempts);
 }
-bool rest_over(const Scene& s) { return s.elapsed_s() >= s.parameters.rest_s; }
-bool rest_over_given_up(const Scene& s) { return s.memory.release_given_up && rest_over(s); }
-bool rest_over_stay(const Scene& s) { return !s.task.take_off && rest_over(s); }
-bool spun_up(const Scene& s) { return s.elapsed_s() >= s.parameters.spin_up_s; }
-bool not_level_in_time(const Scene& s) { return s.elapsed_s() > s.parameters.level_limit_s; }
-bool valve_fitted(const Scene& s) { return s.parameters.valve_fitted > 0.5; }
+bool rest_over(const Scene& s) {
+    return s.elapsed_s() >= s.parameters.rest_s;
+}
+bool rest_over_given_up(const Scene& s) {
+    return s.memory.release_given_up && rest_over(s);
+}
+bool rest_over_stay(const Scene& s) {
+    return !s.task.take_off && rest_over(s);
+}
+bool spun_up(const Scene& s) {
+    return s.elapsed_s() >= s.parameters.spin_up_s;
+}
+bool not_level_in_time(const Scene& s) {
+    return s.elapsed_s() > s.parameters.level_limit_s;
+}
+bool valve_fitted(const Scene& s) {
+    return s.parameters.valve_fitted > 0.5;
+}
 bool pressure_safe(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() > s.parameters.detach_pressure_Pa;
 }
@@ -137,8 +169,12 @@ bool swings(const Scene& s) {
     return std::max(std::abs(s.pitch_rad()), std::abs(s.roll_rad())) >
            radians(s.parameters.oscillation_limit_deg);
 }
-bool release_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.release_limit_s; }
-bool reseal_too_long(const Scene& s) { return s.elapsed_s() > s.parameters.reseal_limit_s; }
+bool release_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.release_limit_s;
+}
+bool reseal_too_long(const Scene& s) {
+    return s.elapsed_s() > s.parameters.reseal_limit_s;
+}
 
 // --- the table --------------------------------------------------------------------------------
 
@@ -159,16 +195,36 @@ using enum EventName;
 constexpr std::array kTable = {
     Transition{hovering, hover_over, finished, "hovered as asked", {}, {}, Outcome::released},
 
-    Transition{pre_positioning, battery_low, finished, "battery low", aborted, {},
+    Transition{pre_positioning,
+               battery_low,
+               finished,
+               "battery low",
+               aborted,
+               {},
                Outcome::failed_to_seal},
-    Transition{pre_positioning, waited_too_long, finished, "no pre-position before the wall in time",
-               aborted, {}, Outcome::failed_to_seal},
+    Transition{pre_positioning,
+               waited_too_long,
+               finished,
+               "no pre-position before the wall in time",
+               aborted,
+               {},
+               Outcome::failed_to_seal},
     Transition{pre_positioning, settled, aligning, "stands at the pre-position", pre_positioned},
 
-    Transition{aligning, pressure_implausible, finished, "pressure sensor stuck or silent", aborted,
-               {}, Outcome::failed_to_seal},
-    Transition{aligning, waited_too_long, finished, "not perpendicular to the wall in time", aborted,
-               {}, Outcome::failed_to_seal},
+    Transition{aligning,
+               pressure_implausible,
+               finished,
+               "pressure sensor stuck or silent",
+               aborted,
+               {},
+               Outcome::failed_to_seal},
+    Transition{aligning,
+               waited_too_long,
+               finished,
+               "not perpendicular to the wall in time",
+               aborted,
+               {},
+               Outcome::failed_to_seal},
     Transition{aligning, wall_lost, pre_positioning, "LiDAR lost"},
     Transition{aligning, settled, approaching, "perpendicular to the wall", approach_started},
 
@@ -181,11 +237,21 @@ constexpr std::array kTable = {
     Transition{deciding, sealed, pitching_up, "pressure below P_land", landing_started},
     Transition{deciding, always, retreating, "no seal", retreat_started},
 
-    Transition{retreating, attempts_used_up, finished, "no seal in any attempt", {}, {},
+    Transition{retreating,
+               attempts_used_up,
+               finished,
+               "no seal in any attempt",
+               {},
+               {},
                Outcome::failed_to_seal},
     Transition{retreating, settled, pre_positioning, "tries again"},
-    Transition{retreating, retreat_too_long, finished, "does not get back to the pre-position",
-               aborted, {}, Outcome::failed_to_seal},
+    Transition{retreating,
+               retreat_too_long,
+               finished,
+               "does not get back to the pre-position",
+               aborted,
+               {},
+               Outcome::failed_to_seal},
 
     Transition{pitching_up, vacuum_lost, retreating, "vacuum lost", aborted},
     Transition{pitching_up, pitched_up, unloading, "pitched up"},
@@ -196,7 +262,12 @@ constexpr std::array kTable = {
     Transition{standing, always, resting, "rests", motors_off},
 
     Transition{resting, vacuum_lost, spinning_up, "vacuum weak", motors_on},
-    Transition{resting, rest_over_given_up, finished, "rests after the release was given up", {}, {},
+    Transition{resting,
+               rest_over_given_up,
+               finished,
+               "rests after the release was given up",
+               {},
+               {},
                Outcome::release_aborted},
     Transition{resting, rest_over_stay, finished, "rests on the wall", {}, {}, Outcome::perched},
     Transition{resting, rest_over, spinning_up, "rest over", motors_on},
@@ -214,7 +285,12 @@ constexpr std::array kTable = {
     Transition{resealing, sealed, pitching_up, "vacuum is back", landing_started},
     Transition{resealing, reseal_too_long, backing_off, "no vacuum to rest on"},
 
-    Transition{backing_off, settled, finished, "back at the pre-position", backed_off, {},
+    Transition{backing_off,
+               settled,
+               finished,
+               "back at the pre-position",
+               backed_off,
+               {},
                Outcome::released},
     Transition{backing_off, retreat_too_long, resealing, "the cup does not come off", aborted},
 };

@@ -85,13 +85,14 @@ struct Ending {
 /// Everything that guidance remembers; copyable.
 struct PerchingMemory {
     PerchingState state = PerchingState::pre_positioning;
-    double since_s = 0.0;           ///< when the state began
-    double settled_since_s = -1.0;  ///< since when its condition holds without a break; < 0: it does not
+    double since_s = 0.0;  ///< when the state began
+    double settled_since_s =
+        -1.0;  ///< since when its condition holds without a break; < 0: it does not
     int attempt = 1;
     bool release_given_up = false;
     WallSeen wall;
-    Vector3 line_W_m = Vector3::Zero();    ///< a point of the docking line
-    Vector3 entry_p_W_m = Vector3::Zero(); ///< where the state began
+    Vector3 line_W_m = Vector3::Zero();     ///< a point of the docking line
+    Vector3 entry_p_W_m = Vector3::Zero();  ///< where the state began
     double entry_pitch_rad = 0.0;
     double entry_yaw_rad = 0.0;
     Setpoint setpoint;
@@ -109,8 +110,8 @@ struct EventList {
 [[nodiscard]] PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate,
                                             double time_s);
 
-/// One update: what the sensors say goes in, what the vehicle shall do comes out in memory.setpoint,
-/// what happened in the list. Reads no clock: `time_s` must not run back.
+/// One update: what the sensors say goes in, what the vehicle shall do comes out in
+/// memory.setpoint, what happened in the list. Reads no clock: `time_s` must not run back.
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
             const Readings& readings, const Estimate& estimate, double time_s, EventList& events);
 

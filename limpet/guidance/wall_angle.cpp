@@ -10,7 +10,9 @@ double wall_angle(double left_m, double right_m, double separation_m) {
     return std::atan((left_m - right_m) / separation_m);
 }
 
-Vector3 WallSeen::into_wall_W() const { return {std::cos(heading_rad), std::sin(heading_rad), 0.0}; }
+Vector3 WallSeen::into_wall_W() const {
+    return {std::cos(heading_rad), std::sin(heading_rad), 0.0};
+}
 
 double WallSeen::distance_m(const PerchingParameters& parameters, const Vector3& p_WB_m) const {
     return offset_m - into_wall_W().dot(p_WB_m) - parameters.lidar_x_m;

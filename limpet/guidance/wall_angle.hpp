@@ -21,9 +21,9 @@ namespace limpet {
 /// a vertical plane, horizontal n into it, all its points p have n . p = offset_m.
 struct WallSeen {
     double time_s = -std::numeric_limits<double>::infinity();  ///< of the last pair of echoes
-    double heading_rad = 0.0;  ///< of n
+    double heading_rad = 0.0;                                  ///< of n
     double offset_m = 0.0;
-    double alpha_rad = 0.0;    ///< of the last pair, unfiltered
+    double alpha_rad = 0.0;  ///< of the last pair, unfiltered
     bool ever = false;
 
     [[nodiscard]] Vector3 into_wall_W() const;

@@ -35,8 +35,7 @@ bool pump_rests(const CupParameters& parameters, const Surface& surface, const C
 
 void touch(CupState& state, const Surface& surface, const LipMotion& motion) {
     state.demand = draw_seal_demand(surface, state.random);
-    state.anchor = {
-        .y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
+    state.anchor = {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
     state.status.phase = CupPhase::touching;
     state.status.seal_threshold_N = state.demand.threshold_N;
     ++state.touches;
@@ -110,8 +109,7 @@ const ParameterTable<CupParameters>& cup_table() {
         {"open_time_constant_s", "s", 1e-4, 1e3,
          [](C& c) -> double& { return c.vent.open_time_constant_s; },
          "pressure rises with it in a cup off the wall", "assumed"},
-        {"pump_stop_band_Pa", "Pa", 0.0, 1e5,
-         [](C& c) -> double& { return c.pump_stop_band_Pa; },
+        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, [](C& c) -> double& { return c.pump_stop_band_Pa; },
          "a cycling pump stops this close to the steady vacuum", "assumed"},
         {"pump_restart_band_Pa", "Pa", 0.0, 1e5,
          [](C& c) -> double& { return c.pump_restart_band_Pa; },
@@ -158,10 +156,9 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     state.pump_resting = pump_rests(parameters, surface, state);
     status.pump_running = input.pump_on && !state.pump_resting;
     status.valve_open = input.valve_open;
-    state.mean_pressure_Pa =
-        pressure_after(surface, parameters.vent,
-                       airflow(status.phase, status.pump_running, input.valve_open),
-                       state.mean_pressure_Pa, dt_s);
+    state.mean_pressure_Pa = pressure_after(
+        surface, parameters.vent, airflow(status.phase, status.pump_running, input.valve_open),
+        state.mean_pressure_Pa, dt_s);
     const bool ripples = status.pump_running && is_sealed(status.phase);
     status.pressure_Pa =
         state.mean_pressure_Pa +

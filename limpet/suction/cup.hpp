@@ -17,8 +17,8 @@ namespace limpet {
 //
 //   free       touching    the lip meets the wall, mouth first (the seal's demand is drawn)
 //   touching   free        the lip lifts off                                  -> contact_lost
-//   touching   sealing     pump on, valve shut, press force above the threshold, tilt below its limit
-//   sealing    free        load beyond a limit: pulled, sheared, peeled       -> contact_lost
+//   touching   sealing     pump on, valve shut, press force above the threshold, tilt below its
+//   limit sealing    free        load beyond a limit: pulled, sheared, peeled       -> contact_lost
 //   sealing    unsealing   pump off or valve open
 //   sealing    attached    pressure below the attachment threshold            -> attached
 //   attached   free        load beyond a limit                                -> contact_lost

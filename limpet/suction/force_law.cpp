@@ -19,8 +19,7 @@ double lip_spring_N(const LipParameters& lip, double depth_m) {
 double pull_demand_N(const LipParameters& lip, const LipMotion& motion, bool sealed) {
     const double depth_m = -motion.gap_m;
     // A free lip meets the wall edge first: its damping grows with the area in contact.
-    const double contact =
-        sealed ? 1.0 : std::clamp(depth_m / lip.damping_depth_m, 0.0, 1.0);
+    const double contact = sealed ? 1.0 : std::clamp(depth_m / lip.damping_depth_m, 0.0, 1.0);
     const double push_N =
         lip_spring_N(lip, depth_m) - lip.damping_N_s_m * contact * motion.gap_rate_m_s;
     return sealed ? -push_N : std::min(0.0, -push_N);

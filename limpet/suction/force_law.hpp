@@ -11,9 +11,9 @@
 
 namespace limpet {
 
-// The cup as a compliant 6-DoF force law (docs/decisions/0003): a bushing between lip and wall whose
-// forces have physical limits. Engine contact will not do: hard contacts make the impact grow with
-// 1/dt, and contact friction creeps. The paper's joint is this law's stiff, unbreakable limit.
+// The cup as a compliant 6-DoF force law (docs/decisions/0003): a bushing between lip and wall
+// whose forces have physical limits. Engine contact will not do: hard contacts make the impact grow
+// with 1/dt, and contact friction creeps. The paper's joint is this law's stiff, unbreakable limit.
 //
 //   normal   pushes when compressed; pulls at most F_vac = (P_atm - P) A
 //   shear    spring to the spot that was touched, at most mu N
@@ -25,9 +25,9 @@ namespace limpet {
 struct LipParameters {
     double radius_m = 0.04;
     double stiffness_N_m = 2e4;
-    double hard_stiffness_N_m = 1e5;        ///< beyond hard_depth_m
+    double hard_stiffness_N_m = 1e5;  ///< beyond hard_depth_m
     double hard_depth_m = 4e-3;
-    double damping_N_s_m = 60.0;            ///< ramped in over damping_depth_m before it seals
+    double damping_N_s_m = 60.0;  ///< ramped in over damping_depth_m before it seals
     double damping_depth_m = 1e-3;
     double shear_stiffness_N_m = 2e4;
     double shear_damping_N_s_m = 60.0;
@@ -49,12 +49,12 @@ struct WallPlane {
 
 /// Where the lip is relative to the wall, in T.
 struct LipMotion {
-    double gap_m = 0.0;       ///< lip's centre to the wall, < 0 compressed
+    double gap_m = 0.0;  ///< lip's centre to the wall, < 0 compressed
     double gap_rate_m_s = 0.0;
-    double y_m = 0.0, z_m = 0.0;          ///< lip's centre along the wall
+    double y_m = 0.0, z_m = 0.0;  ///< lip's centre along the wall
     double y_rate_m_s = 0.0, z_rate_m_s = 0.0;
-    Vector3 rotation_rad = Vector3::Zero();      ///< of C against T: x twist, y and z tilt
-    Vector3 rate_rad_s = Vector3::Zero();        ///< angular velocity of C, in T
+    Vector3 rotation_rad = Vector3::Zero();  ///< of C against T: x twist, y and z tilt
+    Vector3 rate_rad_s = Vector3::Zero();    ///< angular velocity of C, in T
     [[nodiscard]] double tilt_rad() const { return std::hypot(rotation_rad.y(), rotation_rad.z()); }
     bool faces_wall = false;  ///< over the wall's area, mouth towards it
 };
@@ -78,8 +78,8 @@ enum class LetGo {
 [[nodiscard]] std::string_view to_string(LetGo reason);
 
 struct LipLoad {
-    Wrench wrench_T;  ///< by the wall on the cup about the lip's centre, in T
-    double pull_N = 0.0;    ///< > 0: the vehicle pulls away from the wall
+    Wrench wrench_T;      ///< by the wall on the cup about the lip's centre, in T
+    double pull_N = 0.0;  ///< > 0: the vehicle pulls away from the wall
     double shear_N = 0.0;
     double peel_N_m = 0.0;
     double pull_margin_N = 0.0;

@@ -18,8 +18,7 @@ struct FirstOrder {
 
 FirstOrder law(const Surface& surface, const VentParameters& vent, Airflow flow) {
     switch (flow) {
-        case Airflow::sealing:
-            return {surface.vacuum_pressure_Pa, surface.sealing_time_constant_s};
+        case Airflow::sealing: return {surface.vacuum_pressure_Pa, surface.sealing_time_constant_s};
         case Airflow::unsealing: return {kAtmosphere_Pa, surface.unsealing_time_constant_s};
         case Airflow::venting:
             return {kAtmosphere_Pa, 1.0 / (1.0 / surface.unsealing_time_constant_s +

@@ -26,8 +26,8 @@ struct VentParameters {
 /// @param dt_s         >= 0 [s]
 /// @return absolute pressure after dt_s [Pa]
 /// Source: paper eqs. (5), (6) and Table II; the valve adds its rate to that of the leak.
-[[nodiscard]] double pressure_after(const Surface& surface, const VentParameters& vent, Airflow flow,
-                                    double pressure_Pa, double dt_s);
+[[nodiscard]] double pressure_after(const Surface& surface, const VentParameters& vent,
+                                    Airflow flow, double pressure_Pa, double dt_s);
 
 /// How long one airflow takes from one pressure to another: the inverse of pressure_after.
 /// @return [s]; infinity when the flow never gets there

@@ -7,7 +7,9 @@
 namespace limpet {
 namespace {
 
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double normal_cdf(double z) {
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
 
 /// 0 and 1 where there is no spread
 double cdf(double value, double median, double sigma) {

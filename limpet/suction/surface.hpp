@@ -13,18 +13,18 @@ struct Surface {
     std::string name = "porous_concrete";
     std::string description;
     std::string source;
-    double vacuum_pressure_Pa = 65000.0;          ///< P_vac of eqs. (5), (6), absolute
-    double sealing_time_constant_s = 0.33;        ///< tau_1
+    double vacuum_pressure_Pa = 65000.0;    ///< P_vac of eqs. (5), (6), absolute
+    double sealing_time_constant_s = 0.33;  ///< tau_1
     double sealing_time_tolerance_s = 0.03;
-    double unsealing_time_constant_s = 0.40;      ///< tau_2
+    double unsealing_time_constant_s = 0.40;  ///< tau_2
     double unsealing_time_tolerance_s = 0.03;
-    double friction = 0.8;                        ///< mu of the lip
-    double seal_threshold_median_N = 31.5;        ///< press force that seals, log-normal
-    double seal_threshold_sigma = 0.30;           ///< of its logarithm
-    double seal_tilt_median_deg = 14.0;           ///< tilt at which half of the touches fail to seal
+    double friction = 0.8;                  ///< mu of the lip
+    double seal_threshold_median_N = 31.5;  ///< press force that seals, log-normal
+    double seal_threshold_sigma = 0.30;     ///< of its logarithm
+    double seal_tilt_median_deg = 14.0;     ///< tilt at which half of the touches fail to seal
     double seal_tilt_sigma_deg = 3.0;
-    double pump_cycles = 0.0;                     ///< 1: tight enough for the pump to switch off
-    double pump_ripple_Pa = 600.0;                ///< amplitude while the pump runs
+    double pump_cycles = 0.0;       ///< 1: tight enough for the pump to switch off
+    double pump_ripple_Pa = 600.0;  ///< amplitude while the pump runs
     double pump_ripple_Hz = 8.0;
 };
 

@@ -36,7 +36,8 @@ TEST(Frames, YawTurnsNorthToEast) {
 TEST(Frames, RotationVectorIsTheLogarithm) {
     for (const double angle : {0.0, 1e-12, 1e-7, 0.3, 3.0}) {
         const Vector3 rotation = angle * Vector3(1.0, -2.0, 2.0) / 3.0;
-        const Vector3 back = rotation_vector_from_quaternion(quaternion_from_rotation_vector(rotation));
+        const Vector3 back =
+            rotation_vector_from_quaternion(quaternion_from_rotation_vector(rotation));
         EXPECT_LT((back - rotation).norm(), 1e-14 + 1e-12 * angle);
     }
 }

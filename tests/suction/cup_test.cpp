@@ -133,7 +133,8 @@ TEST_F(CupOnTheWall, OnConcreteThePumpRunsAndRipples) {
         lowest_Pa = std::min(lowest_Pa, state_.status.pressure_Pa);
         highest_Pa = std::max(highest_Pa, state_.status.pressure_Pa);
     }
-    EXPECT_NEAR(0.5 * (highest_Pa - lowest_Pa), surface_.pump_ripple_Pa, 0.05 * surface_.pump_ripple_Pa);
+    EXPECT_NEAR(0.5 * (highest_Pa - lowest_Pa), surface_.pump_ripple_Pa,
+                0.05 * surface_.pump_ripple_Pa);
 }
 
 TEST_F(CupOnTheWall, EveryTouchDrawsItsOwnThreshold) {
@@ -150,7 +151,8 @@ TEST_F(CupOnTheWall, WallPushesBackInTheWorld) {
     surface_.seal_threshold_median_N = 1e6;
     cup_.p_WF_m.x() = 0.001;
     const CupOutput output = step(model_, state_, surface_, cup_, input_, kStep_s);
-    EXPECT_NEAR(output.wrench_W.force_N.x(), -20.0, 1e-9);  // the wall is to the north: pushes south
+    EXPECT_NEAR(output.wrench_W.force_N.x(), -20.0,
+                1e-9);  // the wall is to the north: pushes south
     EXPECT_NEAR(state_.status.pull_N, -20.0, 1e-9);
 }
 

@@ -36,8 +36,8 @@ TEST_P(PressureOnSurface, UnsealingIsEquationSix) {
 }
 
 TEST_P(PressureOnSurface, TimeToTheLandingThreshold) {
-    const double time_s = time_to_pressure_s(surface_of(GetParam()), {}, Airflow::sealing,
-                                             kAtmosphere_Pa, 88000.0);
+    const double time_s =
+        time_to_pressure_s(surface_of(GetParam()), {}, Airflow::sealing, kAtmosphere_Pa, 88000.0);
     EXPECT_NEAR(time_s, GetParam().time_to_880_s, 5e-4);
 }
 
@@ -69,9 +69,10 @@ TEST(Pressure, ValveReleasesMetalInOrificeTime) {
 }
 
 TEST(Pressure, UnreachablePressureTakesForEver) {
-    EXPECT_TRUE(std::isinf(
-        time_to_pressure_s(Surface{}, {}, Airflow::sealing, kAtmosphere_Pa, 60000.0)));
-    EXPECT_TRUE(std::isinf(time_to_pressure_s(Surface{}, {}, Airflow::unsealing, 70000.0, 65000.0)));
+    EXPECT_TRUE(
+        std::isinf(time_to_pressure_s(Surface{}, {}, Airflow::sealing, kAtmosphere_Pa, 60000.0)));
+    EXPECT_TRUE(
+        std::isinf(time_to_pressure_s(Surface{}, {}, Airflow::unsealing, 70000.0, 65000.0)));
     EXPECT_EQ(time_to_pressure_s(Surface{}, {}, Airflow::sealing, 70000.0, 70000.0), 0.0);
 }
 

@@ -21,7 +21,9 @@ inline constexpr std::array kTableTwo = {
     TableTwo{"metal", 27500.0, 0.25, 16.0, 0.050},
 };
 
-inline void PrintTo(const TableTwo& row, std::ostream* out) { *out << row.name; }
+inline void PrintTo(const TableTwo& row, std::ostream* out) {
+    *out << row.name;
+}
 
 inline Surface surface_of(const TableTwo& row) {
     Surface surface;

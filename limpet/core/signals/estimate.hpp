@@ -13,8 +13,8 @@ struct Estimate {
     Vector3 p_WB_m = Vector3::Zero();
     Vector3 v_WB_m_s = Vector3::Zero();
     Quaternion q_WB = Quaternion::Identity();
-    Vector3 w_WB_B_rad_s = Vector3::Zero();            ///< gyro less its estimated bias
-    Vector3 specific_force_B_m_s2 = Vector3::Zero();   ///< accelerometer less its estimated bias
+    Vector3 w_WB_B_rad_s = Vector3::Zero();           ///< gyro less its estimated bias
+    Vector3 specific_force_B_m_s2 = Vector3::Zero();  ///< accelerometer less its estimated bias
     Vector3 gyro_bias_rad_s = Vector3::Zero();
     Vector3 accelerometer_bias_m_s2 = Vector3::Zero();
     /// Diagonal of the error covariance: position, velocity, attitude (rotation vector in B), gyro

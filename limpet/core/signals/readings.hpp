@@ -11,11 +11,14 @@ namespace limpet {
 /// came has the time stamp -infinity.
 template <class T>
 struct Sample {
-    double time_s = -std::numeric_limits<double>::infinity();  ///< of the measurement, not of arrival
+    double time_s =
+        -std::numeric_limits<double>::infinity();  ///< of the measurement, not of arrival
     T value{};
 
     [[nodiscard]] bool ever() const { return time_s >= 0.0; }
-    [[nodiscard]] bool fresh(double now_s, double limit_s) const { return now_s - time_s <= limit_s; }
+    [[nodiscard]] bool fresh(double now_s, double limit_s) const {
+        return now_s - time_s <= limit_s;
+    }
 };
 
 struct ImuReading {

@@ -30,9 +30,9 @@ struct Truth {
     SliderStatus slider;
     CupStatus cup_status;
     std::array<double, kRotors> rotor_speed_rad_s{};
-    double thrust_N = 0.0;                      ///< sum of the rotors
+    double thrust_N = 0.0;  ///< sum of the rotors
     BatteryStatus battery;
-    Vector3 legs_force_W_N = Vector3::Zero();   ///< by the wall on the legs
+    Vector3 legs_force_W_N = Vector3::Zero();  ///< by the wall on the legs
 };
 
 }  // namespace limpet

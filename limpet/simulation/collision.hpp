@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "limpet/simulation/model.hpp"
+
+namespace limpet {
+
+/// Whether a leg is so near the wall that the engine must look for contacts.
+[[nodiscard]] bool legs_near_wall(const SimulationModel& model, const Kinematics& base);
+
+/// What ends a flight: a propeller in the wall, the vehicle on the ground.
+[[nodiscard]] std::optional<Ending> collision(const SimulationModel& model, const Truth& truth);
+
+/// The surface that the current or the next touch meets.
+[[nodiscard]] const Surface& surface_under_cup(const SimulationModel& model, const CupState& cup);
+
+}  // namespace limpet

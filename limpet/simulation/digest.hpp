@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/truth.hpp"
+
+namespace limpet {
+
+/// Takes one more number into a digest of 64 bits; any changed bit changes the digest.
+inline void digest(std::uint64_t& hash, double value) {
+    constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;  // 2^64 / golden ratio
+    hash = (std::rotl(hash, 23) ^ std::bit_cast<std::uint64_t>(value)) * kOdd;
+}
+
+inline void digest(std::uint64_t& hash, const Vector3& v) {
+    digest(hash, v.x());
+    digest(hash, v.y());
+    digest(hash, v.z());
+}
+
+inline void digest(std::uint64_t& hash, const Quaternion& q) {
+    digest(hash, q.w());
+    digest(hash, Vector3(q.vec()));
+}
+
+/// A tick of the trajectory: what is true and what the autopilot believes. Everything else that a
+/// flight does shows up in these within a few ticks.
+inline void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
+    digest(hash, truth.base.p_WF_m);
+    digest(hash, truth.base.q_WF);
+    digest(hash, truth.base.v_WF_W_m_s);
+    digest(hash, truth.base.w_WF_F_rad_s);
+    digest(hash, truth.slider.position_m);
+    digest(hash, truth.cup_status.pressure_Pa);
+    digest(hash, truth.cup.p_WF_m);
+    for (const double speed : truth.rotor_speed_rad_s) {
+        digest(hash, speed);
+    }
+    digest(hash, estimate.p_WB_m);
+    digest(hash, estimate.q_WB);
+}
+
+}  // namespace limpet

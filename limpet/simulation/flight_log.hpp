@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "limpet/record/recorder.hpp"
+#include "limpet/simulation/flight.hpp"
+
+namespace limpet {
+
+/// Writes a flight's signals as they come: sensors with each new sample, the rest at the scenario's
+/// recording rate.
+class FlightLog {
+public:
+    /// @throws InputError when the file cannot be written
+    FlightLog(const std::filesystem::path& path, const SimulationModel& model);
+
+    /// After every tick, with its events.
+    void tick(const SimulationModel& model, const SimulationState& state, const EventList& events);
+    void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
+
+private:
+    void sensors(const Readings& readings);
+
+    Recorder recorder_;
+    Readings last_;
+};
+
+}  // namespace limpet

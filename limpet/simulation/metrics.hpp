@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "limpet/core/signals/event.hpp"
+#include "limpet/core/signals/truth.hpp"
+#include "limpet/guidance/perching.hpp"
+#include "limpet/suction/force_law.hpp"
+#include "limpet/vehicle/battery.hpp"
+
+namespace limpet {
+
+/// Parts of the manoeuvre in which the cup bears load.
+enum class LoadPhase {
+    hold,      ///< from the touch to the decision
+    land,      ///< pitching up and unloading
+    rest,      ///< motors off
+    take_off,  ///< pitching down
+    level,     ///< waiting for the release
+};
+inline constexpr std::array kLoadPhases = {LoadPhase::hold, LoadPhase::land, LoadPhase::rest,
+                                           LoadPhase::take_off, LoadPhase::level};
+[[nodiscard]] std::string_view to_string(LoadPhase phase);
+
+/// Largest loads on the cup in one phase, and what it had to spare, while it was sealed.
+struct CupLoads {
+    double pull_N = 0.0;
+    double shear_N = 0.0;
+    double peel_N_m = 0.0;
+    double margin_N =
+        std::numeric_limits<double>::infinity();  ///< of pull, shear and peel the least
+};
+
+/// Figures of one flight, from the truth; NaN: did not come to pass. Those of a touch are of the
+/// last docking run.
+struct Metrics {
+    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+    double impact_speed_m_s = kNone;           ///< of the lip along the wall's normal
+    double impact_force_N = kNone;             ///< largest press through the slider, > 0
+    double cup_press_max_N = kNone;            ///< largest press at the lip, > 0
+    double alignment_at_approach_deg = kNone;  ///< heading off the wall's normal
+    double time_to_land_pressure_s = kNone;    ///< from the touch to P_land
+    double pressure_at_hold_end_Pa = kNone;
+    double pressure_min_Pa = kNone;
+    double perched_pitch_deg = kNone;         ///< at the end of the rest
+    double perched_pitch_spread_deg = kNone;  ///< over the last 5 s of it
+    double cup_pull_max_N = kNone;
+    double release_s = kNone;                   ///< from pump_off to detached
+    double pressure_at_release_end_Pa = kNone;  ///< when the release was done or given up
+    double pitch_oscillation_max_deg = kNone;   ///< while waiting for the release
+    double cup_margin_min_N = kNone;
+    double energy_flying_Wh = 0.0;
+    double energy_perched_Wh = 0.0;
+    std::array<CupLoads, kLoadPhases.size()> loads{};
+
+    // bookkeeping
+    double touch_s = kNone;
+    double pump_off_s = kNone;
+    bool awaits_touch = false;
+    double rest_pitch_min_deg = kNone;
+    double rest_pitch_max_deg = kNone;
+};
+
+/// Once a plant step, sub-steps included: the peaks.
+void observe_contact(Metrics& metrics, PerchingState state, const SliderStatus& slider,
+                     const CupStatus& cup);
+/// At the moment the lip meets the wall.
+void observe_touch(Metrics& metrics, double time_s, double speed_m_s);
+/// Once a base tick: pressures, pitch, energy.
+void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, double rest_s,
+                  double land_pressure_Pa, const Truth& truth, const BatteryState& battery);
+/// @param wall  for the true alignment
+void observe_event(Metrics& metrics, const Event& event, const Truth& truth, const WallPlane& wall);
+
+}  // namespace limpet

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/model.hpp"
+
+#include <cmath>
+
+#include "limpet/vehicle/model_writer.hpp"
+
+namespace limpet {
+namespace {
+
+Scene scene_of(const Scenario& scenario) {
+    Scene scene;
+    const WallPlane& plane = scenario.wall.plane;
+    scene.wall = {.present = scenario.wall.present,
+                  .p_WT_m = plane.p_WT_m,
+                  .q_WT = Quaternion(plane.R_WT),
+                  .half_width_m = plane.half_width_m,
+                  .half_height_m = plane.half_height_m,
+                  .surface = scenario.wall.surface.name};
+    scene.ground_z_W_m = scenario.start.ground_z_W_m;
+    return scene;
+}
+
+SensorsModel sensors_of(const Scenario& scenario) {
+    const Airframe& airframe = scenario.airframe;
+    const double half_m = 0.5 * airframe.lidar_separation_m;
+    return {.parameters = scenario.sensors,
+            .has_cup = airframe.has_cup,
+            .lidar_left_p_B_m = {airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
+            .lidar_right_p_B_m = {airframe.lidar_x_m, half_m, airframe.lidar_z_m}};
+}
+
+AutopilotModel autopilot_of(const Scenario& scenario) {
+    std::array<RotorGeometry, kRotors> rotors;
+    for (std::size_t i = 0; i < rotors.size(); ++i) {
+        rotors[i] = {.p_B_m = scenario.airframe.rotor_p_B_m[i],
+                     .direction = static_cast<double>(scenario.airframe.rotor_direction[i]),
+                     .moment_constant_m = scenario.airframe.rotor.moment_constant_m};
+    }
+    return make_autopilot(scenario.autopilot, rotors);
+}
+
+int whole(double value) {
+    return static_cast<int>(std::lround(value));
+}
+
+}  // namespace
+
+std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
+    auto model = std::make_shared<SimulationModel>();
+    model->scenario = scenario;
+    model->mjcf = write_mjcf(scenario.airframe, scene_of(scenario));
+    model->plant = std::make_shared<const MujocoModel>(model->mjcf);
+    model->sensors = sensors_of(scenario);
+    model->autopilot = autopilot_of(scenario);
+    model->task = {.perch = scenario.mission != Mission::hover,
+                   .take_off = scenario.mission == Mission::perch_and_take_off,
+                   .hover_s = scenario.simulation.hover_s};
+    model->cup = {.parameters = scenario.cup, .wall = scenario.wall.plane};
+    model->control_rate_Hz = whole(scenario.sensors.imu_rate_Hz);
+    model->guidance_rate_Hz = whole(scenario.simulation.guidance_rate_Hz);
+    model->record_rate_Hz = whole(scenario.simulation.record_rate_Hz);
+    model->steps_a_tick = whole(kTick_s / scenario.simulation.step_s);
+    model->touch_steps_a_tick = whole(kTick_s / scenario.simulation.touch_step_s);
+    return model;
+}
+
+SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uint32_t run) {
+    const Scenario& scenario = model.scenario;
+    const Airframe& airframe = scenario.airframe;
+    const Quaternion q_WB = quaternion_from_euler({.yaw_rad = scenario.start.yaw_rad});
+    plant.set_pose(scenario.start.p_WB_m, q_WB);
+
+    SimulationState state;
+    state.truth.base = plant.kinematics(Body::base);
+    if (airframe.has_cup) {
+        state.truth.cup = plant.kinematics(Body::cup);
+    }
+    const double hover = hover_command(airframe);
+    state.rotors = spinning(airframe.rotor, hover);
+    state.command = {.command = {hover, hover, hover, hover}, .armed = true};
+    state.battery = charged(airframe.battery);
+    state.truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
+    state.truth.battery = status(airframe.battery, state.battery);
+
+    Estimate estimate;
+    estimate.p_WB_m = scenario.start.p_WB_m;
+    estimate.q_WB = q_WB;
+    estimate.valid = true;
+    state.autopilot = start(model.autopilot, estimate);
+    state.guidance = start_perching(model.task, estimate, 0.0);
+    state.sensors = start(model.sensors, state.truth, scenario.seed, run);
+    state.cup.random = RandomStream(scenario.seed, run, Stream::seal);
+    return state;
+}
+
+}  // namespace limpet

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "limpet/autopilot/builtin.hpp"
+#include "limpet/core/signals/truth.hpp"
+#include "limpet/core/time.hpp"
+#include "limpet/guidance/perching.hpp"
+#include "limpet/plant/mujoco_plant.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/sensors/suite.hpp"
+#include "limpet/simulation/metrics.hpp"
+#include "limpet/suction/cup.hpp"
+#include "limpet/vehicle/battery.hpp"
+#include "limpet/vehicle/rotor.hpp"
+
+namespace limpet {
+
+/// What a flight is made of. Immutable once built: many runs in many threads share one.
+struct SimulationModel {
+    Scenario scenario;
+    std::string mjcf;  ///< the vehicle and its surroundings, as the plant compiled them
+    std::shared_ptr<const MujocoModel> plant;
+    SensorsModel sensors;
+    AutopilotModel autopilot;
+    PerchingTask task;
+    CupModel cup;
+    int control_rate_Hz = 250;  ///< that of the IMU
+    int guidance_rate_Hz = 50;
+    int steps_a_tick = 1;        ///< of the plant in free flight and while hanging
+    int touch_steps_a_tick = 4;  ///< around a touch
+    int record_rate_Hz = 100;
+};
+[[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario);
+
+/// All that changes during a flight except the plant's own state, which lives in the plant. Plain
+/// and copyable: with PlantState it is the whole run, to be saved, branched and resumed
+/// bit-exactly.
+struct SimulationState {
+    Tick tick = 0;
+    Truth truth;
+    SensorsState sensors;
+    AutopilotState autopilot;
+    PerchingMemory guidance;
+    RotorCommand command;
+    RotorsState rotors;
+    BatteryState battery;
+    CupState cup;
+    Tick fine_until = 0;  ///< sub-steps go on until then
+    Metrics metrics;
+    long long physics_steps = 0;
+    std::uint64_t hash = 0;  ///< digest of the trajectory so far
+    std::optional<Ending> ending;
+};
+
+/// The vehicle trimmed in hover at the scenario's start; puts the plant there.
+[[nodiscard]] SimulationState start(const SimulationModel& model, MujocoPlant& plant,
+                                    std::uint32_t run = 0);
+
+/// A run cut at a tick boundary.
+struct Snapshot {
+    SimulationState state;
+    PlantState plant;
+};
+
+}  // namespace limpet

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/result_json.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace limpet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json json_of(const Event& event) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < event.value_count; ++k) {
+        values[std::string(event.values[k].name)] = number(event.values[k].value);
+    }
+    return {{"t_s", event.time_s},
+            {"name", to_string(event.name)},
+            {"station", event.station},
+            {"reason", event.reason},
+            {"values", values}};
+}
+
+Json json_of(const Metrics& m) {
+    return {{"impact_speed_m_s", number(m.impact_speed_m_s)},
+            {"impact_force_N", number(m.impact_force_N)},
+            {"cup_press_max_N", number(m.cup_press_max_N)},
+            {"alignment_at_approach_deg", number(m.alignment_at_approach_deg)},
+            {"time_to_land_pressure_s", number(m.time_to_land_pressure_s)},
+            {"pressure_at_hold_end_Pa", number(m.pressure_at_hold_end_Pa)},
+            {"pressure_min_Pa", number(m.pressure_min_Pa)},
+            {"perched_pitch_deg", number(m.perched_pitch_deg)},
+            {"perched_pitch_spread_deg", number(m.perched_pitch_spread_deg)},
+            {"cup_pull_max_N", number(m.cup_pull_max_N)},
+            {"release_s", number(m.release_s)},
+            {"pressure_at_release_end_Pa", number(m.pressure_at_release_end_Pa)},
+            {"pitch_oscillation_max_deg", number(m.pitch_oscillation_max_deg)},
+            {"cup_margin_min_N", number(m.cup_margin_min_N)},
+            {"energy_flying_Wh", number(m.energy_flying_Wh)},
+            {"energy_perched_Wh", number(m.energy_perched_Wh)}};
+}
+
+Json loads_of(const Metrics& m) {
+    Json loads = Json::object();
+    for (const LoadPhase phase : kLoadPhases) {
+        const CupLoads& load = m.loads[static_cast<std::size_t>(phase)];
+        if (std::isfinite(load.margin_N)) {
+            loads[std::string(to_string(phase))] = {{"pull_N", load.pull_N},
+                                                    {"shear_N", load.shear_N},
+                                                    {"peel_N_m", load.peel_N_m},
+                                                    {"margin_N", load.margin_N}};
+        }
+    }
+    return loads;
+}
+
+Json common(const FlightResult& result) {
+    Json events = Json::array();
+    for (const Event& event : result.events) {
+        events.push_back(json_of(event));
+    }
+    return {{"scenario", result.scenario},          {"seed", result.seed},
+            {"outcome", to_string(result.outcome)}, {"reason", result.reason},
+            {"attempts", result.attempts},          {"events", events},
+            {"metrics", json_of(result.metrics)},   {"loads", loads_of(result.metrics)}};
+}
+
+std::string hex(std::uint64_t value) {
+    return fmt::format("{:016x}", value);
+}
+
+}  // namespace
+
+std::string result_json(const FlightResult& result) {
+    Json json = common(result);
+    json["performance"] = {{"simulated_s", result.performance.simulated_s},
+                           {"wall_s", result.performance.wall_s},
+                           {"real_time_factor", result.performance.real_time_factor()},
+                           {"physics_steps", result.performance.physics_steps}};
+    json["recording"] = result.recording.empty() ? Json(nullptr) : Json(result.recording.string());
+    json["state_hash"] = hex(result.state_hash);
+    return json.dump(2);
+}
+
+std::string summary_json(const FlightResult& result) {
+    Json json = common(result);
+    json["performance"] = {{"simulated_s", result.performance.simulated_s},
+                           {"physics_steps", result.performance.physics_steps}};
+    json["state_hash"] = hex(result.state_hash);
+    return json.dump(2);
+}
+
+}  // namespace limpet

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/step.hpp"
+
+#include "limpet/simulation/collision.hpp"
+#include "limpet/simulation/digest.hpp"
+
+// The loop, drawn in docs/design.md: a line a station, in the order in which data flows.
+//
+//   plant -> sensors -> autopilot.estimate -> guidance -> autopilot.control -> rotors -> plant
+//                                                   └---> pump, valve -> cup ----------> plant
+
+namespace limpet {
+namespace {
+
+/// Around a touch the plant sub-steps: impact forces converge below 0.25 ms (reference:
+/// physics.md).
+bool needs_fine_steps(const SimulationModel& model, const SimulationState& state) {
+    const CupStatus& cup = state.cup.status;
+    return state.tick < state.fine_until ||
+           (cup.phase == CupPhase::free && cup.gap_m < model.scenario.simulation.touch_range_m &&
+            cup.gap_m > -model.scenario.simulation.touch_range_m);
+}
+
+/// Forces inside the slider: the plant integrates spring and damper itself, the stops are ours.
+SliderStatus apply_slider_stops(const SimulationModel& model, Plant& plant) {
+    const SliderMotion motion = plant.slider();
+    const SliderForce force =
+        slider_force(model.scenario.airframe.slider, motion.position_m, motion.velocity_m_s);
+    plant.apply_slider(force.stop_N);
+    return {.position_m = motion.position_m,
+            .velocity_m_s = motion.velocity_m_s,
+            .force_N = -force.total_N()};
+}
+
+/// The cup between wall and mechanism: its wrench goes to the plant, its events to the list.
+void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plant, double time_s,
+               double dt_s, EventList& events) {
+    const Kinematics cup = plant.kinematics(Body::cup);
+    const CupPhase before = state.cup.status.phase;
+    const CupOutput output = step(model.cup, state.cup, surface_under_cup(model, state.cup), cup,
+                                  {.time_s = time_s,
+                                   .press_N = -state.truth.slider.force_N,
+                                   .pump_on = state.guidance.setpoint.pump_on,
+                                   .valve_open = state.guidance.setpoint.valve_open},
+                                  dt_s);
+    if (state.cup.status.phase != CupPhase::free) {
+        plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
+    }
+    if (before == CupPhase::free && state.cup.status.phase != CupPhase::free) {
+        observe_touch(state.metrics, time_s, model.cup.wall.R_WT.col(0).dot(cup.v_WF_W_m_s));
+    }
+    if (output.event) {
+        events.add(*output.event);
+    }
+    if (state.cup.status.phase != before) {
+        state.fine_until =
+            state.tick + static_cast<Tick>(model.scenario.simulation.touch_transient_s / kTick_s);
+    }
+}
+
+/// One base tick of rigid-body truth, in one step or in several.
+void move(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events) {
+    const bool has_cup = model.scenario.airframe.has_cup;
+    const bool fine = has_cup && needs_fine_steps(model, state);
+    const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
+    const StepMode mode{.step_s = kTick_s / steps,
+                        .contacts = legs_near_wall(model, state.truth.base)};
+    const Matrix3 R_WB = state.truth.base.q_WF.toRotationMatrix();
+    const Wrench rotors_B =
+        rotor_wrench_B(model.scenario.airframe, state.rotors, state.truth.base, Vector3::Zero());
+    const Wrench rotors_W{.force_N = R_WB * rotors_B.force_N,
+                          .moment_N_m = R_WB * rotors_B.moment_N_m};
+    for (int k = 0; k < steps; ++k) {
+        const double time_s = seconds(state.tick) + k * mode.step_s;
+        plant.apply(Body::base, rotors_W, plant.kinematics(Body::base).p_WF_m);
+        if (has_cup) {
+            state.truth.slider = apply_slider_stops(model, plant);
+            apply_cup(model, state, plant, time_s, mode.step_s, events);
+            observe_contact(state.metrics, state.guidance.state, state.truth.slider,
+                            state.cup.status);
+        }
+        plant.step(mode);
+    }
+    state.physics_steps += steps;
+    state.truth.thrust_N = -rotors_B.force_N.z();
+}
+
+void see_truth(const SimulationModel& model, SimulationState& state, const Plant& plant) {
+    Truth& truth = state.truth;
+    truth.time_s = seconds(state.tick);
+    truth.base = plant.kinematics(Body::base);
+    if (model.scenario.airframe.has_cup) {
+        truth.cup = plant.kinematics(Body::cup);
+    }
+    truth.cup_status = state.cup.status;
+    truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
+    truth.battery = status(model.scenario.airframe.battery, state.battery);
+    truth.legs_force_W_N = plant.contact_force_W();
+}
+
+}  // namespace
+
+void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events) {
+    const Airframe& airframe = model.scenario.airframe;
+    const double time_s = seconds(state.tick);
+    const bool controls = due(state.tick, model.control_rate_Hz);
+    events.count = 0;
+
+    sense(model.sensors, state.sensors, state.truth, plant, state.tick);
+    const Readings& readings = state.sensors.readings;
+    if (controls) {
+        estimate(model.autopilot, state.autopilot, readings);
+    }
+    if (due(state.tick, model.guidance_rate_Hz)) {
+        update(model.scenario.guidance, model.task, state.guidance, readings,
+               state.autopilot.estimate, time_s, events);
+    }
+    if (controls) {
+        state.command = control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
+    }
+    step(airframe.rotor, state.rotors, state.command, kTick_s,
+         voltage_share(airframe.battery, state.battery.voltage_V));
+    step(airframe.battery, state.battery, mechanical_power_W(airframe.rotor, state.rotors),
+         state.cup.status.pump_running, state.command.armed, kTick_s);
+    move(model, state, plant, events);
+
+    ++state.tick;
+    see_truth(model, state, plant);
+    observe_tick(state.metrics, state.guidance.state, seconds(state.tick) - state.guidance.since_s,
+                 model.scenario.guidance.rest_s, model.scenario.guidance.land_pressure_Pa,
+                 state.truth, state.battery);
+    for (std::size_t k = 0; k < events.count; ++k) {
+        observe_event(state.metrics, events.events[k], state.truth, model.cup.wall);
+    }
+    digest(state.hash, state.truth, state.autopilot.estimate);
+    if (!state.ending) {
+        state.ending =
+            state.guidance.ending ? state.guidance.ending : collision(model, state.truth);
+    }
+}
+
+}  // namespace limpet

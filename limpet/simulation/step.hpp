@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/simulation/model.hpp"
+
+namespace limpet {
+
+/// One base tick of the loop, from the truth at this tick to the truth at the next.
+/// @param events  what happened in it; cleared first
+void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events);
+
+}  // namespace limpet
