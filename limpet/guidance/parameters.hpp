@@ -30,7 +30,7 @@ struct PerchingParameters {
     double drag_1_s = 0.56;       ///< rotor drag per speed and mass, fed forward
     double line_gain_1_s = 0.95;  ///< keeps the line across the docking direction
     double impact_force_N = 8.0;  ///< pressed harder than this: the wall is hit
-    double approach_limit_s = 6.0;
+    double approach_limit_s = 15.0;
     // hold
     double hold_s = 0.5;
     double hold_depth_m = 0.10;         ///< position set-point inside the wall

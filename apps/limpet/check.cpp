@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "limpet/record/recording.hpp"
+#include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/model.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+bool in_folder(const std::filesystem::path& file, std::string_view folder) {
+    return std::filesystem::absolute(file).parent_path().filename() == folder;
+}
+
+void check_recording(const std::string& file, ExitCode& code) {
+    const Recording recording = read_recording(file);
+    if (!recording.damage.empty()) {
+        fmt::print(stderr, "limpet: {}: {}\n", file, recording.damage);
+        code = ExitCode::bad_input;
+        return;
+    }
+    fmt::print("{}: a whole recording, {} topics, {} events\n", file, recording.tables.size(),
+               recording.events.size());
+}
+
+void check_file(const std::string& file, ExitCode& code) {
+    const std::filesystem::path path(file);
+    if (path.extension() == ".mcap") {
+        check_recording(file, code);
+    } else if (path.filename() == "surfaces.yaml") {
+        const auto root = std::filesystem::absolute(path).parent_path();
+        fmt::print("{}: {} surfaces, all good\n", file, load_surfaces(root).size());
+    } else if (in_folder(path, "vehicles")) {
+        const Airframe airframe = load_vehicle(file, data_root());
+        fmt::print("{}: a good vehicle of {:.2f} kg\n", file, airframe.mass_kg);
+    } else {
+        const Scenario scenario = load_scenario(file);
+        (void)build_model(scenario);  // the plant compiles it as well
+        fmt::print("{}: a good scenario: {}\n", file, scenario.description);
+    }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, ExitCode& code) {
+    auto file = std::make_shared<std::string>();
+    CLI::App* verb = app.add_subcommand(
+        "check", "Check a scenario, a vehicle, surfaces.yaml or a recording without flying");
+    verb->add_option("file", *file,
+                     "scenario (name or file), vehicles/*.yaml, surfaces.yaml, *.mcap")
+        ->required()
+        ->type_name("FILE");
+    verb->footer("Exits with 0 when all is good, 2 when not.");
+    verb->callback([file, &code] { check_file(*file, code); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "flight_report.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/csv.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/report/figures.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "limpet/simulation/result_json.hpp"
+#include "output_folder.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct FlyOptions {
+    std::string scenario;
+    std::vector<std::string> overrides;
+    std::optional<std::uint64_t> seed;
+    std::string out;
+    std::string expect;
+    bool json = false;
+    bool quiet = false;
+    bool csv = false;
+    bool no_record = false;
+    bool no_figures = false;
+};
+
+Outcome expected(const std::string& name) {
+    const auto outcome = outcome_from(name);
+    if (!outcome) {
+        throw InputError("--expect " + name +
+                         ": no such outcome; there are perched, released, failed_to_seal, "
+                         "release_aborted, crashed, timed_out");
+    }
+    return *outcome;
+}
+
+Terminal::Voice voice(const FlyOptions& options) {
+    if (options.quiet) {
+        return Terminal::Voice::quiet;
+    }
+    return options.json ? Terminal::Voice::machine : Terminal::Voice::normal;
+}
+
+FlightWatch watch(Terminal& terminal) {
+    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+            .on_progress =
+                [&terminal](double time_s, PerchingState state) {
+                    terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
+                }};
+}
+
+/// Figures and tables beside the recording; returns what was written.
+std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightResult& result,
+                                        Terminal& terminal) {
+    std::vector<std::filesystem::path> files;
+    if (result.recording.empty()) {
+        return files;
+    }
+    const bool figures = !options.no_figures && !options.json && !options.quiet;
+    if (!figures && !options.csv) {
+        return files;
+    }
+    const Recording recording = read_recording(result.recording);
+    const std::filesystem::path folder = result.recording.parent_path();
+    if (options.csv) {
+        const auto tables = write_csv(recording, folder / "csv");
+        files.insert(files.end(), tables.begin(), tables.end());
+    }
+    if (figures) {
+        terminal.progress("drawing figures ...");
+        for (const auto& figure : plot(recording, folder).files) {
+            files.push_back(figure);
+        }
+    }
+    return files;
+}
+
+void fly_one(const FlyOptions& options, ExitCode& code) {
+    const std::optional<Outcome> wanted =
+        options.expect.empty() ? std::nullopt : std::optional(expected(options.expect));
+    const Scenario scenario =
+        load_scenario(options.scenario, {.overrides = options.overrides, .seed = options.seed});
+    const auto model = build_model(scenario);
+
+    Terminal terminal(voice(options));
+    terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
+                  scenario.description);
+    terminal.line(terminal.dim(event_head()));
+
+    std::filesystem::path recording;
+    if (!options.no_record) {
+        const std::filesystem::path folder = options.out.empty()
+                                                 ? std::filesystem::path("out") / scenario.name
+                                                 : std::filesystem::path(options.out);
+        recording = make_folder(folder) / "flight.mcap";
+    }
+    const FlightResult result = fly(model, recording, watch(terminal));
+
+    terminal.line("");
+    for (const std::string& line : flight_summary(result, terminal)) {
+        terminal.line(line);
+    }
+    const auto files = draw(options, result, terminal);
+    if (!recording.empty()) {
+        terminal.line(terminal.bold("written    ") + recording.string());
+        for (const auto& file : files) {
+            terminal.line("           " + file.string());
+        }
+    }
+    if (options.json) {
+        fmt::print("{}\n", result_json(result));
+    }
+    if (wanted && *wanted != result.outcome) {
+        fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
+                   to_string(result.outcome), result.reason);
+        code = ExitCode::other_outcome;
+    }
+}
+
+}  // namespace
+
+void add_fly(CLI::App& app, ExitCode& code) {
+    auto options = std::make_shared<FlyOptions>();
+    CLI::App* verb = app.add_subcommand("fly", "Fly one scenario to its outcome");
+    verb->add_option("scenario", options->scenario, "name (limpet list scenarios) or YAML file")
+        ->required()
+        ->type_name("SCENARIO");
+    verb->add_option("--set", options->overrides,
+                     "turn one number: guidance.dock_speed_m_s=0.8, wall.surface=metal,\n"
+                     "vehicle.slider.stiffness_N_m=400, autopilot.MC_PITCHRATE_I=0 (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    verb->add_option("--seed", options->seed,
+                     "of every random number; the same seed, the same bytes")
+        ->type_name("N");
+    verb->add_option("--out", options->out, "folder for recording and figures (default out/NAME)")
+        ->type_name("DIR");
+    verb->add_option("--expect", options->expect,
+                     "exit with 1 unless the flight ends so: perched, released, failed_to_seal,\n"
+                     "release_aborted, crashed, timed_out")
+        ->type_name("OUTCOME");
+    verb->add_flag("--json", options->json,
+                   "one JSON object on standard output, all else on standard error; no figures");
+    verb->add_flag("--quiet", options->quiet, "say nothing but errors; no figures");
+    verb->add_flag("--csv", options->csv, "write the recording as CSV as well");
+    verb->add_flag("--no-record", options->no_record, "write nothing");
+    verb->add_flag("--no-figures", options->no_figures, "write the recording only");
+    verb->footer(
+        "Examples:\n"
+        "  limpet fly perch_concrete --seed 7\n"
+        "  limpet fly perch_metal --set suction.valve_fitted=true --expect released --json\n"
+        "A flight that runs to any outcome exits with 0; judge it with --expect.");
+    verb->callback([options, &code] { fly_one(*options, code); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <exception>
+#include <string>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/version.hpp"
+#include "verbs.hpp"
+
+namespace {
+
+using limpet::app::ExitCode;
+
+constexpr const char* kAbout =
+    "Limpet simulates perching on walls with a suction cup: a 3.2 kg quadrotor flies up to a "
+    "wall,\n"
+    "presses its cup on it, lands on it, rests with its motors off, takes off and comes back.";
+
+constexpr const char* kFooter =
+    "Start here:\n"
+    "  limpet fly perch_concrete            one flight, with recording and figures in out/\n"
+    "  limpet list scenarios                what there is to fly\n"
+    "  limpet fly perch_metal --set suction.valve_fitted=true\n"
+    "  limpet params guidance               every number that --set can turn\n\n"
+    "Exit codes: 0 done, 1 another outcome than --expect, 2 bad input, 70 a fault of ours.";
+
+void add_verbs(CLI::App& app, ExitCode& code) {
+    using namespace limpet::app;
+    app.require_subcommand(1);
+    add_fly(app, code);
+    add_check(app, code);
+    add_list(app);
+    add_params(app);
+    add_plot(app, code);
+    add_film(app, code);
+    add_csv(app, code);
+    add_export(app);
+}
+
+/// One line on standard error, so that scripts and people find it.
+int fail(ExitCode code, const std::string& message) {
+    fmt::print(stderr, "limpet: {}\n", message);
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{kAbout, "limpet"};
+    app.footer(kFooter);
+    app.set_version_flag("--version", "limpet " + std::string(limpet::kVersion));
+    ExitCode code = ExitCode::ok;
+    try {
+        add_verbs(app, code);
+        app.parse(argc, argv);
+        return static_cast<int>(code);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return fail(ExitCode::bad_input, std::string(error.what()) + " (limpet --help)");
+    } catch (const limpet::InputError& error) {
+        return fail(ExitCode::bad_input, error.what());
+    } catch (const std::exception& error) {
+        return fail(ExitCode::our_fault, std::string("a fault of ours: ") + error.what());
+    }
+}

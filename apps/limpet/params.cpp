@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/scenario/catalogue.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct ParamsOptions {
+    std::string room;
+    std::string format = "text";
+};
+
+std::string range(const ParameterInfo& row) {
+    return fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
+}
+
+void print_text(const std::vector<ParameterInfo>& rows) {
+    std::string section;
+    std::size_t width = 0;
+    for (const ParameterInfo& row : rows) {
+        width = std::max(width, row.name.size());
+    }
+    for (const ParameterInfo& row : rows) {
+        if (row.section != section) {
+            fmt::print("{}{}:\n", section.empty() ? "" : "\n", row.section);
+            section = row.section;
+        }
+        fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width,
+                   fmt::format("{:g}", row.default_value), row.unit, range(row), row.description,
+                   row.source);
+    }
+}
+
+void print_markdown(const std::vector<ParameterInfo>& rows) {
+    fmt::print(
+        "# Parameters\n\nMade by `limpet params --format markdown`. Set them in a scenario, "
+        "or by `--set section.name=value`.\n");
+    std::string section;
+    for (const ParameterInfo& row : rows) {
+        if (row.section != section) {
+            section = row.section;
+            fmt::print(
+                "\n## {}\n\n| name | default | unit | allowed | what | source |\n"
+                "|---|---|---|---|---|---|\n",
+                section);
+        }
+        fmt::print("| `{}` | {:g} | {} | {} | {} | {} |\n", row.name, row.default_value, row.unit,
+                   range(row), row.description, row.source);
+    }
+}
+
+}  // namespace
+
+void add_params(CLI::App& app) {
+    auto options = std::make_shared<ParamsOptions>();
+    CLI::App* verb =
+        app.add_subcommand("params", "Print every number that can be set: default, range, source");
+    verb->add_option(
+            "room", options->room,
+            "one room or section only: guidance, autopilot, sensors, suction, vehicle, ...")
+        ->type_name("ROOM");
+    verb->add_option("--format", options->format, "text or markdown")
+        ->type_name("FORMAT")
+        ->check(CLI::IsMember({"text", "markdown"}));
+    verb->footer("Columns: name, default, unit, allowed range, what it does, [source].");
+    verb->callback([options] {
+        const auto rows = options->room.empty() ? all_parameters() : parameters_of(options->room);
+        options->format == "text" ? print_text(rows) : print_markdown(rows);
+    });
+}
+
+}  // namespace limpet::app

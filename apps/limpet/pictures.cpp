@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/record/csv.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/report/figures.hpp"
+#include "limpet/report/filmstrip.hpp"
+#include "output_folder.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct PictureOptions {
+    std::string recording;
+    std::string out;
+};
+
+using Files = std::vector<std::filesystem::path>;
+using Draw = std::function<Files(const Recording&, const std::filesystem::path& folder)>;
+
+/// Reads, says what is missing, draws what is there, prints what was written.
+void draw(const PictureOptions& options, const Draw& work, ExitCode& code) {
+    const Recording recording = read_recording(options.recording);
+    if (!recording.damage.empty()) {
+        fmt::print(stderr, "limpet: {}: {}\n", options.recording, recording.damage);
+        code = ExitCode::bad_input;
+    }
+    const std::filesystem::path beside = std::filesystem::path(options.recording).parent_path();
+    const std::filesystem::path folder =
+        options.out.empty() ? (beside.empty() ? std::filesystem::path(".") : beside)
+                            : make_folder(options.out);
+    for (const auto& file : work(recording, folder)) {
+        fmt::print("{}\n", file.string());
+    }
+}
+
+void add_verb(CLI::App& app, ExitCode& code, const std::string& name, const std::string& about,
+              Draw work) {
+    auto options = std::make_shared<PictureOptions>();
+    CLI::App* verb = app.add_subcommand(name, about);
+    verb->add_option("recording", options->recording, "an .mcap file, also one that was cut short")
+        ->required()
+        ->type_name("RECORDING");
+    verb->add_option("--out", options->out, "folder (default: that of the recording)")
+        ->type_name("DIR");
+    verb->footer(
+        "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
+        "what is missing is said on standard error and the exit code is 2.");
+    verb->callback([options, work = std::move(work), &code] { draw(*options, work, code); });
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, ExitCode& code) {
+    add_verb(app, code, "plot", "Draw pressure, pitch, force, thrust and distance against time",
+             [](const Recording& recording, const std::filesystem::path& folder) {
+                 return plot(recording, folder).files;
+             });
+}
+
+void add_film(CLI::App& app, ExitCode& code) {
+    add_verb(app, code, "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
+             [](const Recording& recording, const std::filesystem::path& folder) {
+                 return film(recording, folder);
+             });
+}
+
+void add_csv(CLI::App& app, ExitCode& code) {
+    add_verb(app, code, "csv", "Write a recording as CSV, a file a topic",
+             [](const Recording& recording, const std::filesystem::path& folder) {
+                 return write_csv(recording, folder / "csv");
+             });
+}
+
+}  // namespace limpet::app

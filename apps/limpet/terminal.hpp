@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+namespace limpet::app {
+
+/// Where a verb talks to a person: standard output, or standard error when the output is for a
+/// program; silent when asked to be.
+class Terminal {
+public:
+    enum class Voice {
+        normal,   ///< standard output
+        machine,  ///< standard error: standard output carries JSON
+        quiet,    ///< nowhere
+    };
+    explicit Terminal(Voice voice);
+    ~Terminal();
+    Terminal(const Terminal&) = delete;
+    Terminal& operator=(const Terminal&) = delete;
+
+    void line(const std::string& text);
+    /// A line that the next one replaces; nothing where no person watches.
+    void progress(const std::string& text);
+    [[nodiscard]] std::string bold(const std::string& text) const;
+    [[nodiscard]] std::string dim(const std::string& text) const;
+
+private:
+    void clear_progress();
+
+    std::FILE* out_;  ///< nullptr: quiet
+    bool live_ = false;
+    bool progress_shown_ = false;
+};
+
+}  // namespace limpet::app

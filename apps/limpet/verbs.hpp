@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace limpet::app {
+
+/// What the program hands back to the shell.
+enum class ExitCode {
+    ok = 0,
+    other_outcome = 1,  ///< --expect named another one
+    bad_input = 2,      ///< also a damaged recording
+    our_fault = 70,
+};
+
+/// Each adds one verb with its options; its callback does the work and sets the exit code.
+void add_fly(CLI::App& app, ExitCode& code);
+void add_check(CLI::App& app, ExitCode& code);
+void add_list(CLI::App& app);
+void add_params(CLI::App& app);
+void add_plot(CLI::App& app, ExitCode& code);
+void add_film(CLI::App& app, ExitCode& code);
+void add_csv(CLI::App& app, ExitCode& code);
+void add_export(CLI::App& app);
+
+}  // namespace limpet::app

@@ -1,0 +1,73 @@
+# Sourced by ./run, ./test and .ci/run: installs what is missing, configures, builds.
+# Quiet when all is there: a second run takes seconds.
+
+limpet_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+limpet_log=$limpet_root/build/setup.log
+
+say() { printf '%s\n' "$*" >&2; }
+
+# step TEXT COMMAND...: runs it into the log; on failure shows the log's end and stops.
+step() {
+    local text=$1
+    shift
+    say "$text"
+    if ! "$@" >>"$limpet_log" 2>&1; then
+        tail -n 30 "$limpet_log" >&2
+        say "limpet: this failed: $* (all of it: $limpet_log)"
+        exit 1
+    fi
+}
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        say "limpet: packages are missing and this needs root: $*"
+        return 1
+    fi
+}
+
+missing_packages() {
+    local package
+    grep -hv '^#' "$@" | while read -r package; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || echo "$package"
+    done
+}
+
+# install_packages FILE...: the packages listed in the files
+install_packages() {
+    local missing
+    missing=$(missing_packages "$@")
+    [ -n "$missing" ] || return 0
+    if ! command -v apt-get >/dev/null; then
+        say "limpet: install these by your package manager:" $missing
+        exit 1
+    fi
+    say "installing:" $missing
+    export DEBIAN_FRONTEND=noninteractive
+    step "  fetching the package lists ..." as_root apt-get update
+    # shellcheck disable=SC2086  # a list of words
+    step "  installing ..." as_root apt-get install -y --no-install-recommends $missing
+}
+
+# build PRESET [TARGET...]: configures once, then builds what changed
+build() {
+    local preset=$1
+    shift
+    cd "$limpet_root" || exit 1
+    if [ ! -f "build/$preset/build.ninja" ]; then
+        step "configuring ($preset) ..." cmake --preset "$preset"
+    fi
+    if ! ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -q 'no work to do'; then
+        if [ -t 2 ]; then
+            say "building ($preset), a few minutes the first time ..."
+            ninja -C "build/$preset" "$@" >&2 || exit 1
+        else
+            step "building ($preset), a few minutes the first time ..." ninja -C "build/$preset" "$@"
+        fi
+    fi
+}
+
+mkdir -p "$limpet_root/build"

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "puppet.hpp"
+
+namespace limpet {
+namespace {
+
+std::string reason_of_abort(const Puppet& puppet) {
+    for (const Event& event : puppet.events) {
+        if (event.name == EventName::aborted) {
+            return std::string(event.reason);
+        }
+    }
+    return "";
+}
+
+TEST(Faults, NoWallInFrontEndsTheAttempt) {
+    Puppet puppet;
+    puppet.lidar_works = false;
+    puppet.run(60.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(reason_of_abort(puppet), "no pre-position before the wall in time");
+}
+
+TEST(Faults, LidarLostInTheDockingRunRetreats) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::approaching));
+    puppet.lidar_works = false;
+    puppet.run(puppet.parameters.sensor_limit_s + 0.1);
+    EXPECT_EQ(puppet.memory.state, PerchingState::retreating);
+    EXPECT_EQ(reason_of_abort(puppet), "LiDAR lost");
+    puppet.lidar_works = true;
+    puppet.run(120.0);
+    EXPECT_EQ(puppet.memory.attempt, 2);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::released);
+}
+
+TEST(Faults, ForceSensorSilentInTheDockingRunRetreats) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::approaching));
+    puppet.force_works = false;
+    puppet.run(puppet.parameters.sensor_limit_s + 0.1);
+    EXPECT_EQ(puppet.memory.state, PerchingState::retreating);
+    EXPECT_EQ(reason_of_abort(puppet), "force sensor silent");
+}
+
+TEST(Faults, PressureStuckLowNeverStartsADockingRun) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::pre_positioning));
+    puppet.pressure_works = false;
+    puppet.readings.cup_pressure = {0.0, {70000.0}};
+    puppet.run(60.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(reason_of_abort(puppet), "pressure sensor stuck or silent");
+}
+
+TEST(Faults, SilentPressureIsNoSeal) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::holding));
+    puppet.pressure_works = false;
+    ASSERT_TRUE(puppet.run_to(PerchingState::retreating, 1.0));
+}
+
+TEST(Faults, ARunThatMeetsNoWallIsBroken) {
+    Puppet puppet;
+    puppet.parameters.impact_force_N = 100.0;  // never felt
+    ASSERT_TRUE(puppet.run_to(PerchingState::retreating));
+    EXPECT_EQ(reason_of_abort(puppet), "no impact in time");
+}
+
+TEST(Faults, VacuumLostWhileLandingRetreats) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::pitching_up));
+    puppet.run(1.0);
+    puppet.seals = false;
+    ASSERT_TRUE(puppet.run_to(PerchingState::retreating, 3.0));
+    EXPECT_EQ(reason_of_abort(puppet), "vacuum lost");
+}
+
+TEST(Faults, WeakVacuumAtRestStartsTheMotors) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::resting));
+    puppet.seals = false;
+    puppet.leak_tau_s = 2.0;
+    ASSERT_TRUE(puppet.run_to(PerchingState::spinning_up, puppet.parameters.rest_s));
+    EXPECT_EQ(puppet.events.back().reason, "vacuum weak");
+}
+
+TEST(Faults, AReleaseThatTakesTooLongIsGivenUpAndItRestsAgain) {
+    Puppet puppet;
+    puppet.leak_tau_s = 16.0;
+    puppet.vacuum_Pa = 27500.0;
+    puppet.run(200.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+    EXPECT_EQ(reason_of_abort(puppet), "pressure not released in time");
+    EXPECT_TRUE(puppet.memory.setpoint.pump_on);
+    EXPECT_FALSE(puppet.memory.setpoint.armed);
+}
+
+TEST(Faults, AGrowingOscillationInterruptsTheRelease) {
+    Puppet puppet;
+    puppet.leak_tau_s = 16.0;
+    puppet.vacuum_Pa = 27500.0;
+    ASSERT_TRUE(puppet.run_to(PerchingState::releasing));
+    puppet.run(1.0);
+    puppet.swing_deg = puppet.parameters.oscillation_limit_deg + 1.0;
+    puppet.run(0.1);
+    EXPECT_EQ(reason_of_abort(puppet), "oscillation past its limit");
+    EXPECT_TRUE(puppet.memory.setpoint.pump_on);
+    puppet.run(100.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+}
+
+TEST(Faults, LowBatteryStartsNoNewAttempt) {
+    Puppet puppet;
+    puppet.readings.battery = {0.0, {.voltage_V = 20.0, .current_A = 0.0, .remaining = 0.1}};
+    puppet.run(60.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(reason_of_abort(puppet), "battery low");
+}
+
+TEST(Faults, ACupThatStaysStuckIsReportedAndReseals) {
+    Puppet puppet;
+    puppet.parameters.retreat_limit_s = 0.5;  // cannot be back by then
+    ASSERT_TRUE(puppet.run_to(PerchingState::backing_off));
+    ASSERT_TRUE(puppet.run_to(PerchingState::resealing, 1.0));
+    EXPECT_EQ(reason_of_abort(puppet), "the cup does not come off");
+}
+
+}  // namespace
+}  // namespace limpet
