@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/record/recording.hpp"
+
+namespace limpet {
+
+/// Writes a recording as CSV (RFC 4180, but lines end in "\n"): one file a topic, `/truth/pose` as
+/// truth_pose.csv, with units in the column names, and events.csv with the values of an event as
+/// `name=value;name=value`. Numbers are the shortest that read back exactly; nan and inf as such.
+/// Each file is written beside its place and renamed: none is ever half there.
+/// @param folder  made if it is not there
+/// @return the files, in the order of the topics, events.csv last
+/// @throws InputError if a file cannot be written, naming it
+std::vector<std::filesystem::path> write_csv(const Recording& recording,
+                                             const std::filesystem::path& folder);
+
+/// @return the text as a CSV field: in quotes if it holds a comma, a quote or a line break
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+}  // namespace limpet

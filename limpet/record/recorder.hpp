@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/record/mcap_writer.hpp"
+#include "limpet/record/messages.hpp"
+#include "limpet/record/topics.hpp"
+
+namespace limpet {
+
+/// What a recording says of itself. Nothing in it may depend on the wall clock or the machine.
+struct RecordingInfo {
+    std::string scenario;
+    std::uint64_t seed = 0;
+    std::string version;                        ///< of limpet
+    std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
+    messages::RangeSensor range_sensor;
+};
+
+/// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from
+/// 0, so that the same flight gives the same bytes.
+///
+/// The file grows as PATH.part and becomes PATH in finish(); PATH.part of a run that died is
+/// readable (mcap_writer.hpp). Between constructor and finish() nothing is allocated.
+class Recorder {
+public:
+    /// Writes metadata "limpet" (scenario, seed, version), attachments, schemas and channels, which
+    /// thereby survive whatever happens later.
+    /// @throws InputError if the file cannot be written
+    Recorder(const std::filesystem::path& path, const RecordingInfo& info);
+
+    // A sample is recorded at its own time, that of the measurement [s], >= 0.
+    void imu(const Sample<ImuReading>& sample);
+    void range_left(const Sample<RangeReading>& sample);
+    void range_right(const Sample<RangeReading>& sample);
+    void force(const Sample<ForceReading>& sample);
+    void cup_pressure(const Sample<PressureReading>& sample);
+    void motion_capture(const Sample<PoseReading>& sample);
+    void barometer(const Sample<BarometerReading>& sample);
+    void battery(const Sample<BatteryReading>& sample);
+
+    /// Five messages: pose, twist, vehicle, cup, wrench of the cup.
+    void truth(const Truth& truth);
+    void estimate(const Estimate& estimate);
+    void setpoint(double time_s, const Setpoint& setpoint);
+    void guidance(double time_s, std::string_view state, int attempt);
+    void rotor_command(double time_s, const RotorCommand& command);
+    void event(const Event& event);
+
+    /// Attaches "summary.json", writes the index and gives the file its name.
+    /// @throws InputError if the disk does not take it
+    void finish(const std::string& summary_json);
+
+    [[nodiscard]] const std::filesystem::path& path() const { return writer_.path(); }
+
+private:
+    void add_channels();
+    void write(Topic topic, std::int64_t time_ns, messages::Encoded message);
+
+    mcap::Writer writer_;
+    messages::RangeSensor range_sensor_;
+    messages::Buffer buffer_;
+    std::array<std::uint16_t, kTopics.size()> channels_{};
+    std::int64_t last_time_ns_ = 0;
+};
+
+}  // namespace limpet

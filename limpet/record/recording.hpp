@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "limpet/record/mcap_format.hpp"
+#include "limpet/record/table.hpp"
+
+namespace limpet {
+
+/// An event as it was recorded; names are texts, so that recordings of other versions can be read.
+struct RecordedEvent {
+    double time_s = 0.0;
+    std::string station;
+    std::string name;
+    std::string reason;
+    std::vector<std::pair<std::string, double>> values;
+};
+
+/// One column against its topic's time; a view into the recording.
+struct Series {
+    std::span<const double> time_s;
+    std::span<const double> values;
+};
+
+/// A recording read back into memory.
+struct Recording {
+    std::filesystem::path path;
+    std::map<std::string, mcap::StringMap> metadata;  ///< "limpet" -> {"seed" -> "1", ...}
+    std::vector<mcap::Attachment> attachments;
+    std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
+    std::vector<RecordedEvent> events;
+    std::string damage;  ///< what is missing, in one sentence; empty when whole
+
+    /// @throws InputError naming the topics that are there
+    [[nodiscard]] const Table& table(std::string_view topic) const;
+    /// @throws InputError naming the topics or the columns that are there
+    [[nodiscard]] Series series(std::string_view topic, std::string_view column) const;
+    /// @return nullptr if there is none of that name
+    [[nodiscard]] const mcap::Attachment* attachment(std::string_view name) const;
+};
+
+/// Reads a whole recording, or what is whole in a damaged one: see Recording::damage. Any MCAP file
+/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone; topics of another kind are
+/// left out and named in `damage`.
+/// @throws InputError if path is no MCAP file
+[[nodiscard]] Recording read_recording(const std::filesystem::path& path);
+
+}  // namespace limpet

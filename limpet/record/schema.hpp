@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limpet {
+
+/// The basic types of a .msg file; `byte` and `char` are read as uint8.
+enum class Primitive {
+    boolean,
+    int8,
+    uint8,
+    int16,
+    uint16,
+    int32,
+    uint32,
+    int64,
+    uint64,
+    float32,
+    float64,
+    string,
+    time,  ///< builtin_interfaces/msg/Time, read as seconds
+};
+
+/// One line of a .msg file that is no constant.
+struct Field {
+    enum class Shape {
+        single,
+        fixed_array,
+        dynamic_array
+    };
+
+    std::string name;
+    Primitive primitive = Primitive::float64;  ///< if nested_type is empty
+    std::string nested_type;                   ///< full: "geometry_msgs/msg/Point"
+    Shape shape = Shape::single;
+    std::size_t count = 1;  ///< of a fixed array
+};
+
+struct MessageType {
+    std::string name;  ///< full: "geometry_msgs/msg/Pose"
+    std::vector<Field> fields;
+};
+
+/// Reads one .msg text: comments, constants, default values, bounds and arrays of every kind.
+/// @param name  full or short name of the type; names without a package are looked up in its
+/// package
+/// @throws InputError naming type and line
+[[nodiscard]] MessageType parse_message_type(const std::string& name, const std::string& text);
+
+/// Reads a schema in MCAP's encoding "ros2msg".
+/// @return the types that it defines, the one called `name` first
+/// @throws InputError naming type and line
+[[nodiscard]] std::vector<MessageType> parse_ros2msg(const std::string& name,
+                                                     const std::string& text);
+
+/// "geometry_msgs/msg/Point" -> "geometry_msgs/Point"
+[[nodiscard]] std::string short_type_name(std::string_view full);
+/// "geometry_msgs/Point" -> "geometry_msgs/msg/Point"; a full name stays
+[[nodiscard]] std::string full_type_name(std::string_view name);
+
+}  // namespace limpet

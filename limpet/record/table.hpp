@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "limpet/record/schema.hpp"
+
+namespace limpet {
+
+struct Column {
+    std::string name;  ///< "pose.position.x", "rotor_speed_rad_s[0]"
+    std::vector<double> values;
+};
+
+struct TextColumn {
+    std::string name;
+    std::vector<std::string> values;
+};
+
+/// The messages of one topic, a row each; every column is as long as time_s.
+struct Table {
+    std::string topic;
+    std::string type;            ///< "limpet_msgs/msg/CupState"
+    std::vector<double> time_s;  ///< when it was recorded
+    std::vector<Column> columns;
+    std::vector<TextColumn> texts;
+
+    /// @return nullptr if there is none of that name
+    [[nodiscard]] const Column* find(std::string_view column) const;
+    [[nodiscard]] const TextColumn* find_text(std::string_view column) const;
+};
+
+/// Elements of a dynamic array that become columns; what is behind them is read and dropped.
+inline constexpr std::size_t kMaxArrayColumns = 64;
+
+/// Fills a table from CDR messages by their schema alone.
+///
+/// A nested message is flattened with dots, a fixed array with brackets. A dynamic array `a` gives
+/// `a.length` and `a[0]`, `a[1]`..., NaN or empty where it was shorter. Times become seconds,
+/// booleans 0 and 1, 64-bit integers the nearest double. Names of `limpet_msgs` get their units'
+/// capitals back (units.hpp).
+class TableReader {
+public:
+    /// @param types  as parse_ros2msg gives them: the message first
+    /// @param table  outlives the reader; its columns are made here
+    /// @throws InputError for a schema that cannot be flattened: an unknown type, a type within
+    ///         itself, a dynamic array of messages, more than 10,000 fields
+    TableReader(const std::vector<MessageType>& types, Table& table);
+
+    /// Adds a row, or nothing.
+    /// @param cdr  little-endian CDR with its encapsulation header
+    /// @throws mcap::Malformed if it is not what the schema says
+    void append(double time_s, std::span<const std::uint8_t> cdr);
+
+private:
+    /// Reads one value or one dynamic array.
+    struct Step {
+        Primitive primitive = Primitive::float64;
+        bool dynamic = false;
+        std::size_t column = 0;             ///< of the value, or of the array's length
+        std::string name;                   ///< of a dynamic array
+        std::vector<std::size_t> elements;  ///< columns of a dynamic array
+    };
+    class Cdr;
+
+    void flatten(const std::vector<MessageType>& types, const MessageType& type,
+                 const std::string& prefix, int depth);
+    void add_step(const Field& field, const std::string& path);
+    std::size_t add_column(Primitive primitive, const std::string& path);
+    void read_value(Cdr& cdr, Primitive primitive, std::size_t column);
+    void read_array(Cdr& cdr, Step& step);
+    void drop_last_row();
+
+    Table& table_;
+    std::vector<Step> steps_;
+};
+
+}  // namespace limpet

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace limpet {
+
+/// What a recording holds: one channel each, in this order.
+enum class Topic : std::size_t {
+    imu,
+    range_left,
+    range_right,
+    force,
+    cup_pressure,
+    motion_capture,
+    barometer,
+    battery,
+    truth_pose,
+    truth_twist,
+    truth_cup_wrench,
+    truth_vehicle,
+    cup,
+    estimate_pose,
+    estimate_twist,
+    setpoint,
+    guidance,
+    rotor_command,
+    events,
+};
+
+struct TopicInfo {
+    std::string_view name;
+    std::string_view type;
+};
+
+/// Types of ROS are in its frames and units, ours north-east-down, forward-right-down, with units
+/// in the names.
+inline constexpr std::array<TopicInfo, 19> kTopics = {{
+    {"/sensors/imu", "sensor_msgs/msg/Imu"},
+    {"/sensors/range_left", "sensor_msgs/msg/Range"},
+    {"/sensors/range_right", "sensor_msgs/msg/Range"},
+    {"/sensors/force", "geometry_msgs/msg/WrenchStamped"},
+    {"/sensors/cup_pressure", "sensor_msgs/msg/FluidPressure"},
+    {"/sensors/motion_capture", "geometry_msgs/msg/PoseStamped"},
+    {"/sensors/barometer", "sensor_msgs/msg/FluidPressure"},
+    {"/sensors/battery", "sensor_msgs/msg/BatteryState"},
+    {"/truth/pose", "geometry_msgs/msg/PoseStamped"},
+    {"/truth/twist", "geometry_msgs/msg/TwistStamped"},
+    {"/truth/cup_wrench", "geometry_msgs/msg/WrenchStamped"},
+    {"/truth/vehicle", "limpet_msgs/msg/VehicleTruth"},
+    {"/cup", "limpet_msgs/msg/CupState"},
+    {"/estimate/pose", "geometry_msgs/msg/PoseStamped"},
+    {"/estimate/twist", "geometry_msgs/msg/TwistStamped"},
+    {"/setpoint", "limpet_msgs/msg/Setpoint"},
+    {"/guidance", "limpet_msgs/msg/GuidanceState"},
+    {"/rotor_command", "limpet_msgs/msg/RotorCommand"},
+    {"/events", "limpet_msgs/msg/Event"},
+}};
+
+[[nodiscard]] constexpr const TopicInfo& info(Topic topic) {
+    return kTopics[static_cast<std::size_t>(topic)];
+}
+static_assert(info(Topic::events).name == "/events", "enum and table in the same order");
+
+}  // namespace limpet

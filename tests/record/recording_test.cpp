@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/record/recording.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "files.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/mcap_writer.hpp"
+#include "limpet/record/recorder.hpp"
+
+namespace limpet {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+void record_flight(Recorder& recorder, int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+        Truth truth;
+        truth.time_s = tick * 1e-3;
+        truth.base.p_WF_m = {0.001 * tick, std::sin(0.1 * tick), std::cos(0.3 * tick)};
+        truth.thrust_N = std::sqrt(tick);
+        recorder.truth(truth);
+        if (tick % 100 == 0) {
+            recorder.event(make_event(truth.time_s, "guidance", EventName::level));
+        }
+    }
+}
+
+RecordingInfo sample_info() {
+    return {.scenario = "hover",
+            .seed = 1,
+            .version = "0.1.0",
+            .attachments = {{"scenario.yaml", "text/yaml", "a: 1\n", 0},
+                            {"model.xml", "text/xml", std::string(5000, 'x'), 0}},
+            .range_sensor = {}};
+}
+
+std::string message_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Recording, NamesWhatIsThereWhenAskedForWhatIsNot) {
+    const TestFolder folder;
+    Recorder recorder(folder / "a.mcap", sample_info());
+    record_flight(recorder, 3);
+    recorder.finish("{}");
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_THAT(message_of([&] { (void)recording.series("/cup", "pressure_hPa"); }),
+                AllOf(HasSubstr("a.mcap"), HasSubstr("no column pressure_hPa in /cup"),
+                      HasSubstr("pressure_Pa, pull_N")));
+    EXPECT_THAT(message_of([&] { (void)recording.series("/nose", "x"); }),
+                AllOf(HasSubstr("no topic /nose"), HasSubstr("/truth/pose, /truth/twist")));
+    EXPECT_EQ(recording.series("/truth/vehicle", "thrust_N").values.size(), 3u);
+}
+
+TEST(Recording, CutAnywhereItKeepsWhatWasWhole) {
+    const TestFolder folder;
+    {
+        Recorder recorder(folder / "a.mcap", sample_info());
+        record_flight(recorder, 1500);
+        recorder.finish("{}");
+    }
+    const mcap::Bytes file = load(folder / "a.mcap");
+    ASSERT_GT(file.size(), 40 * 997u);
+    const Recording whole = read_recording(folder / "a.mcap");
+    EXPECT_EQ(whole.damage, "");
+    const Series thrust = whole.series("/truth/vehicle", "thrust_N");
+
+    std::size_t rows_before = 0;
+    for (std::size_t cut = 997; cut < file.size(); cut += 997) {
+        store(folder / "cut.mcap", mcap::ByteView(file).first(cut));
+        const Recording part = read_recording(folder / "cut.mcap");
+        EXPECT_NE(part.damage, "") << cut;
+        EXPECT_EQ(part.damage.find('\n'), std::string::npos);
+        if (cut > 6000) {  // attachments stand ahead of the data
+            EXPECT_EQ(part.metadata.at("limpet").at("scenario"), "hover");
+            ASSERT_NE(part.attachment("model.xml"), nullptr);
+        }
+        std::size_t rows = 0;
+        if (!part.tables.empty()) {
+            const Series kept = part.series("/truth/vehicle", "thrust_N");
+            rows = kept.values.size();
+            EXPECT_TRUE(std::equal(kept.values.begin(), kept.values.end(), thrust.values.begin()));
+        }
+        EXPECT_GE(rows, rows_before) << cut;
+        rows_before = rows;
+    }
+    EXPECT_EQ(rows_before, thrust.values.size());
+}
+
+TEST(Recording, AFlightThatDiedIsReadFromItsPart) {
+    const TestFolder folder;
+    {
+        Recorder recorder(folder / "a.mcap", sample_info());
+        record_flight(recorder, 500);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap"));
+    const Recording recording = read_recording(folder / "a.mcap.part");
+    EXPECT_EQ(recording.series("/truth/pose", "pose.position.x").values.size(), 500u);
+    EXPECT_EQ(recording.events.size(), 5u);
+    EXPECT_THAT(recording.damage, AllOf(HasSubstr("not closed"), HasSubstr("0.499 s")));
+    EXPECT_EQ(recording.attachment("summary.json"), nullptr);
+}
+
+TEST(Recording, ReadsOtherPeoplesTopicsAndNamesThoseItCannot) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const auto point = writer.add_schema("p/msg/P", "ros2msg", "float64 height_pa\n");
+        const auto json = writer.add_schema("J", "jsonschema", "{}");
+        const auto good = writer.add_channel(point, "/good", "cdr");
+        const auto bad = writer.add_channel(json, "/bad", "json");
+        const mcap::Bytes message = {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F};
+        writer.write(good, 1, message);
+        writer.write(bad, 2, message);
+        writer.write(good, 3, mcap::ByteView(message).first(6));
+        writer.close();
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    ASSERT_EQ(recording.tables.size(), 1u);
+    EXPECT_EQ(recording.series("/good", "height_pa").values.size(), 1u);
+    EXPECT_THAT(recording.damage,
+                AllOf(HasSubstr("1 damaged record left out, first a message that is shorter"),
+                      HasSubstr("topic /bad is not read")));
+}
+
+TEST(Recording, RefusesWhatIsNone) {
+    const TestFolder folder;
+    EXPECT_THROW((void)read_recording(folder / "none.mcap"), InputError);
+    EXPECT_THROW((void)read_recording(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace limpet

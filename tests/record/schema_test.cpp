@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/record/schema.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/record/mcap_format.hpp"
+#include "limpet/record/message_definitions.hpp"
+#include "limpet/record/table.hpp"
+#include "limpet/record/topics.hpp"
+#include "limpet/record/units.hpp"
+
+namespace limpet {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> column_names(const Table& table) {
+    std::vector<std::string> names;
+    for (const Column& column : table.columns) {
+        names.push_back(column.name);
+    }
+    return names;
+}
+
+template <class Action>
+std::string input_error(Action&& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Schema, ReadsEveryKindOfLine) {
+    const MessageType type = parse_message_type("p/T", R"(
+# a comment
+uint8 A=1
+string B = "x"   # a constant
+float64 x        # a field
+float64 y 3.5
+string<=8 name "none"
+int32[3] fixed
+float32[] dynamic
+float32[<=5] bounded
+Other sibling
+q/Far[2] far
+Header header
+builtin_interfaces/Time stamp
+)");
+    EXPECT_EQ(type.name, "p/msg/T");
+    ASSERT_EQ(type.fields.size(), 10u);
+    EXPECT_EQ(type.fields[0].name, "x");
+    EXPECT_EQ(type.fields[2].primitive, Primitive::string);
+    EXPECT_EQ(type.fields[2].shape, Field::Shape::single);
+    EXPECT_EQ(type.fields[3].shape, Field::Shape::fixed_array);
+    EXPECT_EQ(type.fields[3].count, 3u);
+    EXPECT_EQ(type.fields[4].shape, Field::Shape::dynamic_array);
+    EXPECT_EQ(type.fields[5].shape, Field::Shape::dynamic_array);
+    EXPECT_EQ(type.fields[6].nested_type, "p/msg/Other");
+    EXPECT_EQ(type.fields[7].nested_type, "q/msg/Far");
+    EXPECT_EQ(type.fields[7].count, 2u);
+    EXPECT_EQ(type.fields[8].nested_type, "std_msgs/msg/Header");
+    EXPECT_EQ(type.fields[9].primitive, Primitive::time);
+}
+
+TEST(Schema, SaysWhichLineIsWrong) {
+    EXPECT_THAT(input_error([] { (void)parse_message_type("p/T", "float64 x\nfloat64\n"); }),
+                HasSubstr("p/msg/T line 2: no field name"));
+    EXPECT_THAT(input_error([] { (void)parse_message_type("p/T", "float64[two] x\n"); }),
+                HasSubstr("array length is not a positive number: two"));
+    EXPECT_THAT(input_error([] {
+                    (void)parse_ros2msg("p/T", "uint8 a\n" + std::string(80, '=') + "\nuint8 b\n");
+                }),
+                HasSubstr("MSG:"));
+}
+
+TEST(MessageDefinitions, EveryTopicHasASchemaThatCanBeFlattened) {
+    for (const TopicInfo& topic : kTopics) {
+        Table table;
+        const auto types = parse_ros2msg(std::string(topic.type), ros2msg_schema(topic.type));
+        EXPECT_EQ(types.front().name, topic.type);
+        EXPECT_NO_THROW(TableReader(types, table)) << topic.type;
+        EXPECT_FALSE(table.columns.empty());
+    }
+}
+
+TEST(MessageDefinitions, OursFollowRosAndCarryUnits) {
+    // rosidl accepts no other field names.
+    const std::regex allowed("^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$");
+    const std::regex united(
+        ".*_(rad|m|m_s|m_s2|rad_s|n|n_m|pa|v|a|j)$|.*(remaining|thrust|command|values)$");
+    for (const MessageDefinition& definition : message_definitions()) {
+        const auto type =
+            parse_message_type(std::string(definition.type), std::string(definition.text));
+        const bool ours = type.name.rfind("limpet_msgs/", 0) == 0;
+        for (const Field& field : type.fields) {
+            EXPECT_TRUE(std::regex_match(field.name, allowed)) << type.name << " " << field.name;
+            if (ours && field.nested_type.empty() && field.primitive == Primitive::float64) {
+                EXPECT_TRUE(std::regex_match(field.name, united)) << type.name << " " << field.name;
+            }
+        }
+    }
+}
+
+TEST(MessageDefinitions, ConcatenatesAsRosDoes) {
+    EXPECT_EQ(ros2msg_schema("limpet_msgs/msg/GuidanceState"),
+              "builtin_interfaces/Time stamp\nstring state\nint32 attempt\n" +
+                  std::string(80, '=') +
+                  "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+    EXPECT_THROW((void)ros2msg_schema("p/msg/Unknown"), InternalError);
+}
+
+TEST(Units, ColumnsAreWrittenAsInTheHouse) {
+    const auto ours = [](const char* field) {
+        return column_name("limpet_msgs/msg/CupState", field);
+    };
+    EXPECT_EQ(ours("pressure_pa"), "pressure_Pa");
+    EXPECT_EQ(ours("peel_n_m"), "peel_N_m");
+    EXPECT_EQ(ours("pull_n"), "pull_N");
+    EXPECT_EQ(ours("battery_voltage_v"), "battery_voltage_V");
+    EXPECT_EQ(ours("rotor_speed_rad_s[3]"), "rotor_speed_rad_s[3]");
+    EXPECT_EQ(ours("force_n[0]"), "force_N[0]");
+    EXPECT_EQ(column_name("other_msgs/msg/X", "pressure_pa"), "pressure_pa");
+
+    EXPECT_EQ(column_name_with_unit("geometry_msgs/msg/PoseStamped", "pose.position.x"),
+              "pose.position.x_m");
+    EXPECT_EQ(column_name_with_unit("geometry_msgs/msg/PoseStamped", "pose.orientation.x"),
+              "pose.orientation.x");
+    EXPECT_EQ(column_name_with_unit("sensor_msgs/msg/Range", "range"), "range_m");
+    EXPECT_EQ(column_name_with_unit("limpet_msgs/msg/CupState", "stamp"), "stamp_s");
+}
+
+TEST(TableReader, AlignsAsCdrDoes) {
+    const auto types = parse_ros2msg("p/T",
+                                     "bool b\nfloat64 x\nuint8 c\nint16 d\nstring s\n"
+                                     "float32 f\nbuiltin_interfaces/Time t\n");
+    Table table;
+    TableReader reader(types, table);
+    const std::vector<std::uint8_t> message = {
+        0, 1, 0,    0,                             // little-endian CDR
+        1, 0, 0,    0,    0,    0,    0,    0,     // true, then 7 bytes up to 8
+        0, 0, 0,    0,    0,    0,    0xF8, 0x3F,  // 1.5
+        7, 0, 0xFE, 0xFF,                          // 7, a byte, -2
+        3, 0, 0,    0,    'h',  'i',  0,    0,     // "hi" with its zero, a byte up to 28
+        0, 0, 0x20, 0x40,                          // 2.5
+        2, 0, 0,    0,    0x00, 0x65, 0xCD, 0x1D,  // 2 s and 500,000,000 ns
+    };
+    reader.append(9.0, message);
+    EXPECT_THAT(column_names(table), ElementsAre("b", "x", "c", "d", "f", "t"));
+    const std::vector<double> expected = {1.0, 1.5, 7.0, -2.0, 2.5, 2.5};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_THAT(table.columns[i].values, ElementsAre(expected[i])) << i;
+    }
+    EXPECT_THAT(table.find_text("s")->values, ElementsAre("hi"));
+    EXPECT_THAT(table.time_s, ElementsAre(9.0));
+}
+
+TEST(TableReader, FlattensMessagesWithinMessagesAndArrays) {
+    const std::string text =
+        "q/In[2] in\nuint8[] list\n" + std::string(80, '=') + "\nMSG: q/In\nuint8 a\nuint8 b\n";
+    Table table;
+    TableReader reader(parse_ros2msg("p/T", text), table);
+    reader.append(0.0, std::vector<std::uint8_t>{0, 1, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0});
+    reader.append(1.0, std::vector<std::uint8_t>{0, 1, 0, 0, 5, 6, 7, 8, 2, 0, 0, 0, 9, 10});
+    EXPECT_THAT(column_names(table), ElementsAre("in[0].a", "in[0].b", "in[1].a", "in[1].b",
+                                                 "list.length", "list[0]", "list[1]"));
+    EXPECT_THAT(table.find("in[1].a")->values, ElementsAre(3.0, 7.0));
+    EXPECT_THAT(table.find("list.length")->values, ElementsAre(0.0, 2.0));
+    EXPECT_TRUE(std::isnan(table.find("list[1]")->values[0]));
+    EXPECT_EQ(table.find("list[1]")->values[1], 10.0);
+}
+
+TEST(TableReader, AShortMessageLeavesNoHalfRow) {
+    Table table;
+    TableReader reader(parse_ros2msg("p/T", "uint8[] list\nfloat64 x\nstring s\n"), table);
+    const std::vector<std::vector<std::uint8_t>> broken = {
+        {},
+        {0, 1, 0, 0},
+        {0, 0, 0, 0, 0, 0, 0, 0},                          // big-endian
+        {0, 1, 0, 0, 1, 0, 0, 0, 5, 0, 0, 0, 0, 0, 0, 0},  // x is cut off
+        {0, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 1, 2, 3},     // 4 billion elements
+    };
+    for (const auto& message : broken) {
+        EXPECT_THROW(reader.append(0.0, message), mcap::Malformed);
+        EXPECT_TRUE(table.time_s.empty());
+        EXPECT_TRUE(std::all_of(table.columns.begin(), table.columns.end(),
+                                [](const Column& c) { return c.values.empty(); }));
+        EXPECT_TRUE(table.texts.front().values.empty());
+    }
+}
+
+TEST(TableReader, RefusesSchemasWithoutEnd) {
+    const auto refused = [](const std::string& text) {
+        return input_error([&] {
+            Table table;
+            TableReader reader(parse_ros2msg("p/T", text), table);
+        });
+    };
+    EXPECT_THAT(refused("p/T again\n"), HasSubstr("message within itself"));
+    EXPECT_THAT(refused("p/Unknown x\n"), HasSubstr("unknown type: p/msg/Unknown"));
+    EXPECT_THAT(refused("p/T[] list\n"), HasSubstr("dynamic array of messages"));
+    EXPECT_THAT(refused("float64[999999999] x\n"), HasSubstr("more than 10000 fields"));
+}
+
+}  // namespace
+}  // namespace limpet
