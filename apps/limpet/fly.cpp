@@ -87,8 +87,9 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
 }
 
 void fly_one(const FlyOptions& options, ExitCode& code) {
-    const std::optional<Outcome> wanted =
-        options.expect.empty() ? std::nullopt : std::optional(expected(options.expect));
+    if (!options.expect.empty()) {
+        (void)expected(options.expect);  // before any work
+    }
     const Scenario scenario =
         load_scenario(options.scenario, {.overrides = options.overrides, .seed = options.seed});
     const auto model = build_model(scenario);
@@ -121,7 +122,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (wanted && *wanted != result.outcome) {
+    if (!options.expect.empty() && expected(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
         code = ExitCode::other_outcome;

@@ -22,8 +22,7 @@ struct PictureOptions {
     std::string out;
 };
 
-using Files = std::vector<std::filesystem::path>;
-using Draw = std::function<Files(const Recording&, const std::filesystem::path& folder)>;
+using Draw = std::function<Pictures(const Recording&, const std::filesystem::path& folder)>;
 
 /// Reads, says what is missing, draws what is there, prints what was written.
 void draw(const PictureOptions& options, const Draw& work, ExitCode& code) {
@@ -36,8 +35,12 @@ void draw(const PictureOptions& options, const Draw& work, ExitCode& code) {
     const std::filesystem::path folder =
         options.out.empty() ? (beside.empty() ? std::filesystem::path(".") : beside)
                             : make_folder(options.out);
-    for (const auto& file : work(recording, folder)) {
+    const Pictures pictures = work(recording, folder);
+    for (const auto& file : pictures.files) {
         fmt::print("{}\n", file.string());
+    }
+    for (const std::string& missing : pictures.missing) {
+        fmt::print(stderr, "limpet: {}\n", missing);
     }
 }
 
@@ -61,7 +64,7 @@ void add_verb(CLI::App& app, ExitCode& code, const std::string& name, const std:
 void add_plot(CLI::App& app, ExitCode& code) {
     add_verb(app, code, "plot", "Draw pressure, pitch, force, thrust and distance against time",
              [](const Recording& recording, const std::filesystem::path& folder) {
-                 return plot(recording, folder).files;
+                 return plot(recording, folder);
              });
 }
 
@@ -75,7 +78,7 @@ void add_film(CLI::App& app, ExitCode& code) {
 void add_csv(CLI::App& app, ExitCode& code) {
     add_verb(app, code, "csv", "Write a recording as CSV, a file a topic",
              [](const Recording& recording, const std::filesystem::path& folder) {
-                 return write_csv(recording, folder / "csv");
+                 return Pictures{.files = write_csv(recording, folder / "csv"), .missing = {}};
              });
 }
 

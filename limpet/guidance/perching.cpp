@@ -45,6 +45,10 @@ bool stands_at_pre_position(const Scene& s) {
            s.estimate.v_WB_m_s.norm() < s.parameters.pre_speed_m_s;
 }
 
+bool sees_wall(const Scene& s) {
+    return s.time_s - s.memory.wall.time_s <= s.parameters.sensor_limit_s;
+}
+
 bool faces_wall(const Scene& s) {
     const double off_rad =
         wrap_pi(euler_from_quaternion(s.estimate.q_WB).yaw_rad - s.memory.wall.heading_rad);
@@ -66,7 +70,7 @@ bool is_level(const Scene& s) {
 
 bool settling(const Scene& s) {
     switch (s.memory.state) {
-        case PerchingState::pre_positioning:
+        case PerchingState::pre_positioning: return stands_at_pre_position(s) && sees_wall(s);
         case PerchingState::retreating:
         case PerchingState::backing_off: return stands_at_pre_position(s);
         case PerchingState::aligning: return faces_wall(s);
@@ -107,7 +111,7 @@ bool battery_low(const Scene& s) {
            s.readings.battery.value.remaining < s.parameters.battery_reserve;
 }
 bool wall_lost(const Scene& s) {
-    return s.time_s - s.memory.wall.time_s > s.parameters.sensor_limit_s;
+    return !sees_wall(s);
 }
 bool force_lost(const Scene& s) {
     return !s.readings.force.fresh(s.time_s, s.parameters.sensor_limit_s);

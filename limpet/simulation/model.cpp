@@ -49,8 +49,10 @@ int whole(double value) {
 std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
     auto model = std::make_shared<SimulationModel>();
     model->scenario = scenario;
-    model->mjcf = write_mjcf(scenario.airframe, scene_of(scenario));
-    model->plant = std::make_shared<const MujocoModel>(model->mjcf);
+    Scene scene = scene_of(scenario);
+    model->mjcf = write_mjcf(scenario.airframe, scene);
+    scene.visuals = false;
+    model->plant = std::make_shared<const MujocoModel>(write_mjcf(scenario.airframe, scene));
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_of(scenario);
     model->task = {.perch = scenario.mission != Mission::hover,

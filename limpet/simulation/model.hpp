@@ -23,7 +23,7 @@ namespace limpet {
 /// What a flight is made of. Immutable once built: many runs in many threads share one.
 struct SimulationModel {
     Scenario scenario;
-    std::string mjcf;  ///< the vehicle and its surroundings, as the plant compiled them
+    std::string mjcf;  ///< vehicle and surroundings as MuJoCo can draw them; the plant goes without
     std::shared_ptr<const MujocoModel> plant;
     SensorsModel sensors;
     AutopilotModel autopilot;

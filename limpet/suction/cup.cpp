@@ -58,7 +58,8 @@ std::optional<Event> advance_phase(const CupParameters& parameters, CupState& st
                 status.phase = CupPhase::unsealing;
             } else if (state.mean_pressure_Pa < parameters.attachment_pressure_Pa) {
                 status.phase = CupPhase::attached;
-                return make_event(input.time_s, "cup", EventName::attached, "",
+                return make_event(input.time_s, "cup", EventName::attached,
+                                  "pressure below the attachment threshold",
                                   {{"pressure_Pa", state.mean_pressure_Pa},
                                    {"seal_threshold_N", state.demand.threshold_N}});
             }

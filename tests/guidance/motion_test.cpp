@@ -21,8 +21,8 @@ TEST_P(RunReferenceTest, SpeedIsTheIntegralOfTheAcceleration) {
         const RunReference now = run_reference(t_s, speed, acceleration, ramp);
         ASSERT_NEAR(now.speed_m_s, integral_m_s, 1e-3);
         ASSERT_LE(now.acceleration_m_s2, acceleration + 1e-9);
-        integral_m_s += kDt_s * run_reference(t_s + 0.5 * kDt_s, speed, acceleration, ramp)
-                                    .acceleration_m_s2;
+        integral_m_s +=
+            kDt_s * run_reference(t_s + 0.5 * kDt_s, speed, acceleration, ramp).acceleration_m_s2;
     }
     EXPECT_NEAR(integral_m_s, speed, 1e-3);
 }

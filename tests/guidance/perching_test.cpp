@@ -15,10 +15,9 @@ using testing::ElementsAre;
 TEST(Perching, GoesThroughTheWholeManoeuvre) {
     Puppet puppet;
     puppet.run(120.0);
-    EXPECT_THAT(puppet.names(),
-                ElementsAre(pre_positioned, approach_started, impact, hold_over, landing_started,
-                            perched, motors_off, motors_on, level, pump_off, pressure_released,
-                            backed_off));
+    EXPECT_THAT(puppet.names(), ElementsAre(pre_positioned, approach_started, impact, hold_over,
+                                            landing_started, perched, motors_off, motors_on, level,
+                                            pump_off, pressure_released, backed_off));
     ASSERT_TRUE(puppet.memory.ending);
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::released);
     EXPECT_EQ(puppet.memory.attempt, 1);
@@ -125,8 +124,7 @@ TEST(Perching, ThrustFallsWhilePitchRises) {
     for (; puppet.memory.state != PerchingState::standing &&
            puppet.memory.state != PerchingState::resting;
          puppet.tick()) {
-        if (const auto* attitude =
-                std::get_if<AttitudeSetpoint>(&puppet.memory.setpoint.motion)) {
+        if (const auto* attitude = std::get_if<AttitudeSetpoint>(&puppet.memory.setpoint.motion)) {
             EXPECT_LE(attitude->thrust, thrust + 1e-12);
             thrust = attitude->thrust;
             const double now_rad = euler_from_quaternion(attitude->q_WB).pitch_rad;

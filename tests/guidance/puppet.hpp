@@ -11,8 +11,8 @@
 
 namespace limpet {
 
-/// A vehicle on strings: it does what the set-point says, at once, before a wall to the north. Enough
-/// of a world to walk guidance through its table without any physics.
+/// A vehicle on strings: it does what the set-point says, at once, before a wall to the north.
+/// Enough of a world to walk guidance through its table without any physics.
 class Puppet {
 public:
     static constexpr double kDt_s = 0.02;
@@ -29,12 +29,12 @@ public:
     double yaw_rad = 0.0;
     double pitch_rad = 0.0;
 
-    bool seals = true;            ///< what the wall does
-    double leak_tau_s = 0.4;      ///< how fast the vacuum goes when the pump is off
+    bool seals = true;        ///< what the wall does
+    double leak_tau_s = 0.4;  ///< how fast the vacuum goes when the pump is off
     bool lidar_works = true;
     bool force_works = true;
     bool pressure_works = true;
-    double swing_deg = 0.0;       ///< pitch while waiting for the release
+    double swing_deg = 0.0;  ///< pitch while waiting for the release
     double vacuum_Pa = 65000.0;
 
     Puppet() { restart(); }
@@ -132,7 +132,8 @@ private:
             pressure_Pa = vacuum_Pa + (pressure_Pa - vacuum_Pa) * std::exp(-kDt_s / 0.33);
         } else {
             const double tau_s = memory.setpoint.valve_open ? 0.04 : leak_tau_s;
-            pressure_Pa = kAtmosphere_Pa + (pressure_Pa - kAtmosphere_Pa) * std::exp(-kDt_s / tau_s);
+            pressure_Pa =
+                kAtmosphere_Pa + (pressure_Pa - kAtmosphere_Pa) * std::exp(-kDt_s / tau_s);
         }
         if (pressure_works) {
             readings.cup_pressure = {time_s, {pressure_Pa}};

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "limpet/plant/plant.hpp"
+
+namespace limpet {
+
+/// All that the loop told its plant in one step.
+struct PlantStep {
+    struct Applied {
+        Body body;
+        Wrench wrench_W;
+        Vector3 p_W_m;
+    };
+    std::vector<Applied> applied;
+    double slider_N = 0.0;
+    StepMode mode;
+};
+
+/// A plant that writes down what it is told, so that the same physics can be run again without the
+/// loop: same model, same step schedule, same forces, same contacts.
+class TapePlant final : public Plant {
+public:
+    explicit TapePlant(Plant& plant) : plant_(plant) {}
+
+    void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override {
+        next_.applied.push_back({body, wrench_W, p_W_m});
+        plant_.apply(body, wrench_W, p_W_m);
+    }
+    void apply_slider(double force_N) override {
+        next_.slider_N += force_N;
+        plant_.apply_slider(force_N);
+    }
+    void step(const StepMode& mode) override {
+        next_.mode = mode;
+        steps_.push_back(next_);
+        next_ = {};
+        plant_.step(mode);
+    }
+    [[nodiscard]] Kinematics kinematics(Body body) const override {
+        return plant_.kinematics(body);
+    }
+    [[nodiscard]] SliderMotion slider() const override { return plant_.slider(); }
+    [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
+                                            const Vector3& dir_W) const override {
+        return plant_.ray(origin_W_m, dir_W);
+    }
+    [[nodiscard]] Vector3 contact_force_W() const override { return plant_.contact_force_W(); }
+    [[nodiscard]] PlantState save() const override { return plant_.save(); }
+    void restore(const PlantState& state) override { plant_.restore(state); }
+
+    [[nodiscard]] const std::vector<PlantStep>& steps() const { return steps_; }
+
+private:
+    Plant& plant_;
+    PlantStep next_;
+    std::vector<PlantStep> steps_;
+};
+
+}  // namespace limpet

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "flown.hpp"
+
+namespace limpet {
+namespace {
+
+using enum EventName;
+
+TEST(PerchMetal, ReachesTheVacuumOfTableTwo) {
+    EXPECT_NEAR(flown("perch_metal").result.metrics.pressure_min_Pa, 27500.0, 300.0);
+}
+
+TEST(PerchMetal, AfterSixteenSecondsItIsStillHeld) {
+    const Trace& trace = flown("perch_metal");
+    EXPECT_NEAR(trace.result.metrics.pressure_at_release_end_Pa, 74200.0, 1000.0);
+    EXPECT_NEAR(trace.first(aborted) - trace.first(pump_off), 16.0, 0.05);
+}
+
+TEST(PerchMetal, GivesTheReleaseUpAndRestsOnTheWallAgain) {
+    const Trace& trace = flown("perch_metal");
+    EXPECT_EQ(trace.result.outcome, Outcome::release_aborted);
+    EXPECT_EQ(trace.times(perched).size(), 2U);
+    EXPECT_TRUE(trace.times(detached).empty());
+    const Truth& end = trace.truth.back();
+    EXPECT_EQ(end.cup_status.phase, CupPhase::attached);
+    EXPECT_LT(end.cup_status.pressure_Pa, 40000.0);
+    EXPECT_LT(end.thrust_N, 1e-3);
+    EXPECT_GT(pitch_deg(end), 60.0);
+}
+
+TEST(PerchMetal, ThePumpRestsWhileItHangs) {
+    // Paper, section V.B: no ripple on metal, the pump can turn off.
+    const Trace& trace = flown("perch_metal");
+    const double share = trace.mean(PerchingState::resting, [](const Truth& truth) {
+        return truth.cup_status.pump_running ? 1.0 : 0.0;
+    });
+    EXPECT_LT(share, 0.7);
+    const double on_concrete =
+        flown("perch_concrete").mean(PerchingState::resting, [](const Truth& truth) {
+            return truth.cup_status.pump_running ? 1.0 : 0.0;
+        });
+    EXPECT_EQ(on_concrete, 1.0);
+}
+
+TEST(PerchMetal, WithThePapersMotorsThePitchStaysStill) {
+    // Paper, section V.B: the simulation does not show the oscillation.
+    EXPECT_LT(flown("perch_metal").result.metrics.pitch_oscillation_max_deg, 1.0);
+}
+
+TEST(PerchMetalValve, IsReleasedAtOnce) {
+    const Trace& trace = flown("perch_metal_valve");
+    EXPECT_EQ(trace.result.outcome, Outcome::released);
+    EXPECT_LT(trace.first(detached) - trace.first(valve_open), 0.3);
+}
+
+TEST(OscillationLimit, InterruptsTheRelease) {
+    // A limit below what the take-off leaves behind stands for a swing that grew.
+    const Trace trace =
+        limpet::trace(model_of("perch_metal", {"guidance.oscillation_limit_deg=0.5"}));
+    EXPECT_EQ(trace.result.outcome, Outcome::release_aborted);
+    EXPECT_LT(trace.first(aborted) - trace.first(pump_off), 16.0);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "flown.hpp"
+#include "limpet/simulation/flight_log.hpp"
+
+namespace {
+std::atomic<long long> allocations{0};
+}  // namespace
+
+// Counts every allocation of this program: the loop's steady state must make none.
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size)) {
+        return memory;
+    }
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace limpet {
+namespace {
+
+TEST(SteadyState, TheLoopAllocatesNothing) {
+    Flight flight(model_of("perch_concrete"));
+    flight.tick();
+    const long long before = allocations;
+    while (!flight.ended()) {
+        flight.tick();
+    }
+    EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(SteadyState, NorDoesTheRecorder) {
+    const auto model = model_of("perch_concrete");
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / "steady_state.mcap";
+    FlightLog log(path, *model);
+    Flight flight(model);
+    const auto tick = [&] {
+        const EventList& events = flight.tick();
+        log.tick(*model, flight.state(), events);
+    };
+    tick();
+    const long long before = allocations;
+    while (!flight.ended()) {
+        tick();
+    }
+    // The index of chunks grows by the doubling of a few vectors, not by the message.
+    EXPECT_LT(allocations - before, 64);
+    log.finish("{}");
+    std::filesystem::remove(path);
+}
+
+}  // namespace
+}  // namespace limpet
