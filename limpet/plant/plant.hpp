@@ -27,16 +27,16 @@ struct PlantState {
     std::vector<double> values;
 };
 
-/// How the next steps are taken. Contacts cost half the step; the simulation switches them off while
-/// nothing can touch.
+/// How the next steps are taken. Contacts cost half the step; the simulation switches them off
+/// while nothing can touch.
 struct StepMode {
     double step_s = 1e-3;
     bool contacts = true;
 };
 
 /// Rigid-body truth behind one small interface: it takes wrenches on bodies, steps, and answers
-/// where things are. It knows neither rotor nor cup nor clock. Everything is in W (NED) and B (FRD);
-/// an engine's own axes stay inside the engine's file.
+/// where things are. It knows neither rotor nor cup nor clock. Everything is in W (NED) and B
+/// (FRD); an engine's own axes stay inside the engine's file.
 class Plant {
 public:
     virtual ~Plant() = default;

@@ -26,7 +26,10 @@ inline void digest(std::uint64_t& hash, const Quaternion& q) {
     digest(hash, Vector3(q.vec()));
 }
 
-/// A tick of the trajectory: what is true and what the autopilot believes. Everything else that a
+/// How often a flight is digested: a difference between two runs does not heal within 10 ms.
+inline constexpr int kDigestRate_Hz = 100;
+
+/// A point of the trajectory: what is true and what the autopilot believes. Everything else that a
 /// flight does shows up in these within a few ticks.
 inline void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
     digest(hash, truth.base.p_WF_m);

@@ -37,6 +37,10 @@ std::optional<LoadPhase> load_phase(PerchingState state) {
     throw InternalError("perching state out of range");
 }
 
+double pitch_deg(const Truth& truth) {
+    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
+}
+
 bool bears_load(CupPhase phase) {
     return phase == CupPhase::attached || phase == CupPhase::unsealing;
 }
@@ -96,7 +100,6 @@ void observe_touch(Metrics& metrics, double time_s, double speed_m_s) {
 
 void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, double rest_s,
                   double land_pressure_Pa, const Truth& truth, const BatteryState& battery) {
-    const double pitch_deg = degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
     const CupStatus& cup = truth.cup_status;
     lower(metrics.pressure_min_Pa, cup.pressure_Pa);
     if (std::isnan(metrics.time_to_land_pressure_s) && !std::isnan(metrics.touch_s) &&
@@ -104,14 +107,14 @@ void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, dou
         metrics.time_to_land_pressure_s = truth.time_s - metrics.touch_s;
     }
     if (state == PerchingState::releasing) {
-        raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg));
+        raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg(truth)));
         metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
     }
     if (state == PerchingState::resting) {
-        metrics.perched_pitch_deg = pitch_deg;
+        metrics.perched_pitch_deg = pitch_deg(truth);
         if (state_age_s >= rest_s - kSteady_s) {
-            lower(metrics.rest_pitch_min_deg, pitch_deg);
-            raise(metrics.rest_pitch_max_deg, pitch_deg);
+            lower(metrics.rest_pitch_min_deg, metrics.perched_pitch_deg);
+            raise(metrics.rest_pitch_max_deg, metrics.perched_pitch_deg);
             metrics.perched_pitch_spread_deg =
                 metrics.rest_pitch_max_deg - metrics.rest_pitch_min_deg;
         }

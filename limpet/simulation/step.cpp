@@ -35,7 +35,7 @@ SliderStatus apply_slider_stops(const SimulationModel& model, Plant& plant) {
 /// The cup between wall and mechanism: its wrench goes to the plant, its events to the list.
 void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plant, double time_s,
                double dt_s, EventList& events) {
-    const Kinematics cup = plant.kinematics(Body::cup);
+    const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
     const CupOutput output = step(model.cup, state.cup, surface_under_cup(model, state.cup), cup,
                                   {.time_s = time_s,
@@ -58,6 +58,13 @@ void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plan
     }
 }
 
+void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant) {
+    truth.base = plant.kinematics(Body::base);
+    if (model.scenario.airframe.has_cup) {
+        truth.cup = plant.kinematics(Body::cup);
+    }
+}
+
 /// One base tick of rigid-body truth, in one step or in several.
 void move(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events) {
     const bool has_cup = model.scenario.airframe.has_cup;
@@ -72,7 +79,10 @@ void move(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
                           .moment_N_m = R_WB * rotors_B.moment_N_m};
     for (int k = 0; k < steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
-        plant.apply(Body::base, rotors_W, plant.kinematics(Body::base).p_WF_m);
+        if (k > 0) {
+            see_motion(model, state.truth, plant);
+        }
+        plant.apply(Body::base, rotors_W, state.truth.base.p_WF_m);
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
             apply_cup(model, state, plant, time_s, mode.step_s, events);
@@ -88,10 +98,7 @@ void move(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
 void see_truth(const SimulationModel& model, SimulationState& state, const Plant& plant) {
     Truth& truth = state.truth;
     truth.time_s = seconds(state.tick);
-    truth.base = plant.kinematics(Body::base);
-    if (model.scenario.airframe.has_cup) {
-        truth.cup = plant.kinematics(Body::cup);
-    }
+    see_motion(model, truth, plant);
     truth.cup_status = state.cup.status;
     truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
     truth.battery = status(model.scenario.airframe.battery, state.battery);
@@ -132,7 +139,9 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
     for (std::size_t k = 0; k < events.count; ++k) {
         observe_event(state.metrics, events.events[k], state.truth, model.cup.wall);
     }
-    digest(state.hash, state.truth, state.autopilot.estimate);
+    if (due(state.tick, kDigestRate_Hz)) {
+        digest(state.hash, state.truth, state.autopilot.estimate);
+    }
     if (!state.ending) {
         state.ending =
             state.guidance.ending ? state.guidance.ending : collision(model, state.truth);

@@ -33,6 +33,9 @@ FirstOrder law(const Surface& surface, const VentParameters& vent, Airflow flow)
 double pressure_after(const Surface& surface, const VentParameters& vent, Airflow flow,
                       double pressure_Pa, double dt_s) {
     const FirstOrder first_order = law(surface, vent, flow);
+    if (pressure_Pa == first_order.target_Pa) {
+        return pressure_Pa;  // an open cup, most of a flight
+    }
     return first_order.target_Pa +
            (pressure_Pa - first_order.target_Pa) * std::exp(-dt_s / first_order.time_constant_s);
 }

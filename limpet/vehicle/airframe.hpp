@@ -13,26 +13,26 @@ namespace limpet {
 
 /// Propeller and motor, the Gazebo motor model's parameters. Source: facts.md section 1, Table I.
 struct RotorParameters {
-    double motor_constant_kg_m = 2.5e-5;     ///< k_mot: thrust = k_mot w^2
-    double moment_constant_m = 1.9e-2;       ///< k_mom: torque = k_mom thrust
-    double drag_constant_kg = 8e-4;          ///< lambda_1: drag = lambda_1 w v across the axis
-    double rolling_constant_kg_m = 1e-6;     ///< mu_1: rolling moment = mu_1 w v across the axis
+    double motor_constant_kg_m = 2.5e-5;  ///< k_mot: thrust = k_mot w^2
+    double moment_constant_m = 1.9e-2;    ///< k_mom: torque = k_mom thrust
+    double drag_constant_kg = 8e-4;       ///< lambda_1: drag = lambda_1 w v across the axis
+    double rolling_constant_kg_m = 1e-6;  ///< mu_1: rolling moment = mu_1 w v across the axis
     double time_constant_up_s = 0.0125;
     double time_constant_down_s = 0.025;
-    double command_delay_s = 0.0;            ///< dead time of the speed controller, whole ticks
-    double speed_scale_rad_s = 700.0;        ///< command 1 adds this to the offset
-    double speed_offset_rad_s = 100.0;       ///< at command 0 while armed
+    double command_delay_s = 0.0;       ///< dead time of the speed controller, whole ticks
+    double speed_scale_rad_s = 700.0;   ///< command 1 adds this to the offset
+    double speed_offset_rad_s = 100.0;  ///< at command 0 while armed
     double speed_max_rad_s = 800.0;
-    double radius_m = 0.1524;                ///< of the propeller, 12 in
-    double height_m = 0.04;                  ///< of the propeller planes above the centre of mass
-    double axial_loss_speed_m_s = 25.0;      ///< thrust is gone at this speed along the axis
+    double radius_m = 0.1524;            ///< of the propeller, 12 in
+    double height_m = 0.04;              ///< of the propeller planes above the centre of mass
+    double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
 };
 
 /// Spring slider between body and cup. Source: baseline.md.
 struct SliderParameters {
     double stiffness_N_m = 500.0;
     double damping_N_s_m = 30.0;
-    double preload_N = 5.0;           ///< of the spring against the outer stop
+    double preload_N = 5.0;  ///< of the spring against the outer stop
     double travel_m = 0.090;
     double stop_stiffness_N_m = 2e4;  ///< of both stops
     double stop_damping_N_s_m = 100.0;
@@ -41,13 +41,13 @@ struct SliderParameters {
 
 /// Joint with two degrees of freedom and the cup's body. Lip and seal are in suction/.
 struct CupMountParameters {
-    double joint_x_m = 0.46;               ///< joint ahead of the centre of mass
-    double joint_z_m = 0.0;                ///< below it
-    double lip_offset_m = 0.04;            ///< lip plane ahead of the joint
-    double mass_offset_m = 0.01;           ///< the cup's own centre of mass ahead of the joint
+    double joint_x_m = 0.46;      ///< joint ahead of the centre of mass
+    double joint_z_m = 0.0;       ///< below it
+    double lip_offset_m = 0.04;   ///< lip plane ahead of the joint
+    double mass_offset_m = 0.01;  ///< the cup's own centre of mass ahead of the joint
     double centring_stiffness_N_m_rad = 0.3;
     double centring_damping_N_m_s_rad = 0.02;
-    double range_deg = 85.0;               ///< of each hinge, either way
+    double range_deg = 85.0;  ///< of each hinge, either way
     double radius_m = 0.04;
     double mass_kg = 0.10;
 };
@@ -65,14 +65,15 @@ struct BatteryParameters {
     double cells = 6.0;
     double capacity_Ah = 4.0;
     double internal_resistance_ohm = 0.03;
-    double avionics_power_W = 12.0;     ///< companion computer, autopilot, sensors
+    double avionics_power_W = 12.0;  ///< companion computer, autopilot, sensors
     double pump_power_W = 12.0;
-    double drive_efficiency = 0.75;     ///< motor and speed controller: shaft power / electric power
-    double initial_charge = 1.0;        ///< 0..1
+    double drive_efficiency = 0.75;  ///< motor and speed controller: shaft power / electric power
+    double initial_charge = 1.0;     ///< 0..1
 };
 
 /// ONE description of a vehicle, from which MJCF, SDF and URDF are made. Positions are in B: origin
-/// at the centre of mass of the whole vehicle with the slider at its outer stop, forward-right-down.
+/// at the centre of mass of the whole vehicle with the slider at its outer stop,
+/// forward-right-down.
 struct Airframe {
     std::string name = "perching_uav";
     std::string description;
@@ -91,8 +92,8 @@ struct Airframe {
     CupMountParameters cup;
     LegParameters legs;
     BatteryParameters battery;
-    double lidar_x_m = 0.205;           ///< both LiDARs on the front arms
-    double lidar_separation_m = 0.41;   ///< l of eq. (7)
+    double lidar_x_m = 0.205;          ///< both LiDARs on the front arms
+    double lidar_separation_m = 0.41;  ///< l of eq. (7)
     double lidar_z_m = 0.0;
 };
 

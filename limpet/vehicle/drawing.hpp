@@ -17,11 +17,21 @@ enum class Shape {
     sphere,    ///< size: radius three times
 };
 
-enum class Paint { carbon, aluminium, propeller, blade, rubber, foot, battery, board, pump, hose };
-inline constexpr std::array kPaints = {Paint::carbon, Paint::aluminium, Paint::propeller,
-                                       Paint::blade,  Paint::rubber,    Paint::foot,
-                                       Paint::battery, Paint::board,    Paint::pump,
-                                       Paint::hose};
+enum class Paint {
+    carbon,
+    aluminium,
+    propeller,
+    blade,
+    rubber,
+    foot,
+    battery,
+    board,
+    pump,
+    hose
+};
+inline constexpr std::array kPaints = {
+    Paint::carbon, Paint::aluminium, Paint::propeller, Paint::blade, Paint::rubber,
+    Paint::foot,   Paint::battery,   Paint::board,     Paint::pump,  Paint::hose};
 
 struct PaintLook {
     std::string_view name;

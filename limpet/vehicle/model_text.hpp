@@ -8,30 +8,38 @@
 
 #include "limpet/core/frames.hpp"
 
-/// What the three model writers share: the turn to forward-left-up, and numbers as short as they
-/// can be without losing a bit.
+/// What the three model writers share: the turn to forward-left-up, and numbers as text.
 namespace limpet::model_text {
 
-/// Forward-right-down to forward-left-up, and north-east-down to north-west-up: half a turn about x.
-[[nodiscard]] inline Vector3 flu(const Vector3& v) { return {v.x(), -v.y(), -v.z()}; }
-[[nodiscard]] inline Quaternion flu(const Quaternion& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
+/// Forward-right-down to forward-left-up, north-east-down to north-west-up: half a turn about x.
+[[nodiscard]] inline Vector3 flu(const Vector3& v) {
+    return {v.x(), -v.y(), -v.z()};
+}
+[[nodiscard]] inline Quaternion flu(const Quaternion& q) {
+    return {q.w(), q.x(), -q.y(), -q.z()};
+}
 [[nodiscard]] inline Matrix3 flu(const Matrix3& inertia) {
     const Vector3 signs(1.0, -1.0, -1.0);
     return signs.asDiagonal() * inertia * signs.asDiagonal();
 }
 
-/// Values with blanks between; never "-0".
+/// Values with blanks between, to 15 digits; never "-0".
 template <class... Numbers>
 [[nodiscard]] std::string text(double first, Numbers... rest) {
-    std::string out = fmt::format("{}", first + 0.0);
-    ((out += fmt::format(" {}", static_cast<double>(rest) + 0.0)), ...);
+    std::string out = fmt::format("{:.15g}", first + 0.0);
+    ((out += fmt::format(" {:.15g}", static_cast<double>(rest) + 0.0)), ...);
     return out;
 }
-[[nodiscard]] inline std::string text(const Vector3& v) { return text(v.x(), v.y(), v.z()); }
+[[nodiscard]] inline std::string text(const Vector3& v) {
+    return text(v.x(), v.y(), v.z());
+}
 /// MuJoCo's order: w x y z.
 [[nodiscard]] inline std::string text(const Quaternion& q) {
     return text(q.w(), q.x(), q.y(), q.z());
 }
+/// Roll pitch yaw about fixed axes, the order of SDF and URDF; also straight up and down, where
+/// a rod along x has its pitch.
+[[nodiscard]] std::string text_rpy(const Quaternion& q);
 
 /// Appends <name key="value" .../>.
 template <class... Rest>

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/autopilot/builtin.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "limpet/autopilot/attitude_control.hpp"
+
+namespace limpet {
+namespace {
+
+/// A gap in the calls must not be integrated as a whole. Source: PX4 mc_rate_control.
+constexpr double kLongestInterval_s = 0.02;
+
+AttitudeSetpoint attitude_target(const AutopilotModel& model, AutopilotState& state,
+                                 const VelocitySetpoint& target, bool hold, double dt_s) {
+    return velocity_control(model.parameters, state.position, target, state.estimate.v_WB_m_s, hold,
+                            dt_s);
+}
+
+AttitudeSetpoint attitude_target(const AutopilotModel& model, AutopilotState& state,
+                                 const PositionSetpoint& target, bool hold, double dt_s) {
+    return attitude_target(model, state,
+                           position_control(model.parameters, target, state.estimate.p_WB_m), hold,
+                           dt_s);
+}
+
+AttitudeSetpoint attitude_target(const AutopilotModel&, AutopilotState&,
+                                 const AttitudeSetpoint& target, bool, double) {
+    return {.q_WB = target.q_WB.normalized(), .thrust = std::clamp(target.thrust, 0.0, 1.0)};
+}
+
+AttitudeSetpoint attitude_target(const AutopilotModel&, AutopilotState& state, const IdleSetpoint&,
+                                 bool, double) {
+    return {.q_WB = state.estimate.q_WB, .thrust = 0.0};
+}
+
+/// @return since the last call; 0 at the first one
+double interval(AutopilotState& state, double time_s) {
+    const double dt_s = std::clamp(time_s - state.control_s, 0.0, kLongestInterval_s);
+    state.control_s = time_s;
+    return dt_s;
+}
+
+void disarm(AutopilotState& state) {
+    state.position.integral_m_s2.setZero();
+    state.rate.integral.setZero();
+    state.saturation = {};
+    state.attitude_target = {.q_WB = state.estimate.q_WB, .thrust = 0.0};
+    state.rate_target_rad_s.setZero();
+    state.torque.setZero();
+}
+
+}  // namespace
+
+AutopilotModel make_autopilot(const AutopilotParameters& parameters,
+                              const std::array<RotorGeometry, kRotors>& rotors) {
+    return {.parameters = parameters, .mixer = make_mixer(rotors)};
+}
+
+AutopilotState start(const AutopilotModel& model, const Estimate& initial) {
+    AutopilotState state;
+    state.estimator = start_estimator(model.parameters, initial);
+    state.estimate = estimate_from(model.parameters, state.estimator);
+    state.control_s = initial.time_s;
+    return state;
+}
+
+void estimate(const AutopilotModel& model, AutopilotState& state, const Readings& readings) {
+    update_estimator(model.parameters, state.estimator, readings);
+    state.estimate = estimate_from(model.parameters, state.estimator);
+}
+
+RotorCommand control(const AutopilotModel& model, AutopilotState& state, const Setpoint& setpoint,
+                     double time_s) {
+    const double dt_s = interval(state, time_s);
+    if (dt_s > 0.0) {
+        filter_acceleration(model.parameters, state.position, state.estimate, dt_s);
+        filter_rates(model.parameters, state.rate, state.estimate.w_WB_B_rad_s, dt_s);
+    }
+    if (!setpoint.armed) {
+        disarm(state);
+        return {};
+    }
+    if (std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
+        return {.command = {}, .armed = true};
+    }
+    const bool hold = setpoint.hold_integrators;
+    state.attitude_target = std::visit(
+        [&](const auto& motion) { return attitude_target(model, state, motion, hold, dt_s); },
+        setpoint.motion);
+    state.rate_target_rad_s =
+        attitude_control(model.parameters, state.estimate.q_WB, state.attitude_target.q_WB);
+    state.torque = rate_control(model.parameters, state.rate, state.rate_target_rad_s,
+                                state.saturation, hold, dt_s);
+    const Allocation allocation = allocate(model.mixer, state.torque, state.attitude_target.thrust);
+    state.saturation = allocation.saturation;
+    return {.command = allocation.command, .armed = true};
+}
+
+}  // namespace limpet

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "limpet/autopilot/allocation.hpp"
+#include "limpet/autopilot/estimator.hpp"
+#include "limpet/autopilot/parameters.hpp"
+#include "limpet/autopilot/position_control.hpp"
+#include "limpet/autopilot/rate_control.hpp"
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+
+/// The built-in autopilot: PX4's cascade on an error-state Kalman filter.
+///
+///   readings -> estimator -> estimate
+///                               |
+///   position -> velocity -> attitude + thrust -> rates -> torque -> allocation -> commands
+///        setpoints enter wherever their kind says          ^-- saturation --'
+namespace limpet {
+
+struct AutopilotModel {
+    AutopilotParameters parameters;
+    Mixer mixer;
+};
+
+struct AutopilotState {
+    Estimate estimate;
+    EstimatorState estimator;
+    PositionControlState position;
+    RateControlState rate;
+    Saturation saturation;             ///< of the last allocation
+    double control_s = 0.0;            ///< when control last ran
+    AttitudeSetpoint attitude_target;  ///< the inner setpoints, for telemetry
+    Vector3 rate_target_rad_s = Vector3::Zero();
+    Vector3 torque = Vector3::Zero();  ///< asked of the allocation
+};
+
+/// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently
+[[nodiscard]] AutopilotModel make_autopilot(const AutopilotParameters& parameters,
+                                            const std::array<RotorGeometry, kRotors>& rotors);
+
+/// @param initial  see start_estimator
+[[nodiscard]] AutopilotState start(const AutopilotModel& model, const Estimate& initial);
+
+/// On each new IMU sample; the result is in state.estimate.
+void estimate(const AutopilotModel& model, AutopilotState& state, const Readings& readings);
+
+/// Right after `estimate`, at the same rate. A change of the setpoint's kind makes no jump: every
+/// integrator keeps its value until disarmed. Flies on when the estimate is not valid; who gives
+/// setpoints decides what to do then.
+[[nodiscard]] RotorCommand control(const AutopilotModel& model, AutopilotState& state,
+                                   const Setpoint& setpoint, double time_s);
+
+}  // namespace limpet

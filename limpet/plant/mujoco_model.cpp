@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/plant/mujoco_model.hpp"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <cstring>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/plant/mujoco_errors.hpp"
+
+namespace limpet {
+
+namespace {
+
+/// MuJoCo reads files only; its virtual file system holds one in memory.
+mjModel* compile(const std::string& mjcf) {
+    constexpr const char* kName = "model.xml";
+    if (mjcf.empty()) {
+        throw InputError("MJCF: the model is empty");
+    }
+    const auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    if (mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
+        throw InputError("MJCF: the model is too large");
+    }
+    std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], mjcf.data(), mjcf.size());
+    char message[1000] = "";
+    mjModel* model = mj_loadXML(kName, files.get(), message, sizeof message);
+    mj_deleteVFS(files.get());
+    if (model == nullptr) {
+        throw InputError(fmt::format("MJCF: {}", message));
+    }
+    return model;
+}
+
+int find(const mjModel& model, mjtObj type, const char* what, const char* name) {
+    const int id = mj_name2id(&model, type, name);
+    if (id < 0) {
+        throw InputError(fmt::format("MJCF: there is no {} \"{}\"", what, name));
+    }
+    return id;
+}
+
+int find_joint(const mjModel& model, int body, mjtJoint type, const char* what) {
+    const int joint = model.body_jntadr[body];
+    if (joint < 0 || model.jnt_type[joint] != type) {
+        throw InputError(fmt::format("MJCF: body \"{}\" needs a {} joint first",
+                                     model.names + model.name_bodyadr[body], what));
+    }
+    return joint;
+}
+
+}  // namespace
+
+MujocoModel::MujocoModel(const std::string& mjcf) {
+    guard_mujoco();
+    model_.reset(compile(mjcf));
+    mjModel& model = *model_;
+    Places& at = places_;
+    at.base_body = find(model, mjOBJ_BODY, "body", "base");
+    const int free = find_joint(model, at.base_body, mjJNT_FREE, "free");
+    at.base_position = model.jnt_qposadr[free];
+    at.base_velocity = model.jnt_dofadr[free];
+    at.has_cup = mj_name2id(&model, mjOBJ_BODY, "cup") >= 0;
+    if (at.has_cup) {
+        at.cup_body = find(model, mjOBJ_BODY, "body", "cup");
+        at.carriage_body = find(model, mjOBJ_BODY, "body", "carriage");
+        at.lip_site = find(model, mjOBJ_SITE, "site", "lip");
+        const int slider = find_joint(model, at.carriage_body, mjJNT_SLIDE, "slide");
+        at.slider_position = model.jnt_qposadr[slider];
+        at.slider_velocity = model.jnt_dofadr[slider];
+        model.jnt_limited[slider] = 0;
+    }
+    model.opt.disableflags |=
+        mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_CLAMPCTRL;
+}
+
+MujocoModel::~MujocoModel() = default;
+
+void MujocoModel::Delete::operator()(mjModel_* model) const {
+    mj_deleteModel(model);
+}
+
+}  // namespace limpet

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/plant/mujoco_plant.hpp"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/plant/mujoco_frames.hpp"
+
+namespace limpet {
+
+namespace {
+
+using mujoco_frames::turn;
+using mujoco_frames::turn_attitude;
+
+using Map3 = Eigen::Map<const Vector3>;
+
+/// Visits every array on which the future depends, beside the positions, in the order in which it
+/// is saved. All else that mjData holds follows from these.
+template <class Visit>
+void for_each_state(const mjModel& model, mjData& data, Vector3& contact_force_N, Visit visit) {
+    visit(&data.time, 1);
+    visit(data.qvel, model.nv);
+    visit(data.qacc_warmstart, model.nv);
+    visit(data.qfrc_applied, model.nv);
+    visit(data.xfrc_applied, 6 * model.nbody);
+    visit(contact_force_N.data(), 3);
+}
+
+}  // namespace
+
+MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
+    : model_(std::move(model)),
+      options_(std::make_unique<mjModel>(model_->get())),
+      data_(mj_makeData(options_.get())),
+      integrated_(data_->qpos, data_->qpos + options_->nq) {
+    refresh();
+}
+
+MujocoPlant::~MujocoPlant() = default;
+
+void MujocoPlant::Delete::operator()(mjData_* data) const {
+    mj_deleteData(data);
+}
+
+int MujocoPlant::engine_body(Body body) const {
+    const MujocoModel::Places& at = model_->places();
+    require(body == Body::base || at.has_cup, "this vehicle has a slider and a cup");
+    switch (body) {
+        case Body::base: return at.base_body;
+        case Body::carriage: return at.carriage_body;
+        case Body::cup: return at.cup_body;
+    }
+    throw InternalError("no such body");
+}
+
+void MujocoPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
+    const int id = engine_body(body);
+    const Vector3 force = turn(wrench_W.force_N);
+    // MuJoCo takes the force at the body's own centre of mass.
+    const Vector3 arm = turn(p_W_m) - Map3(data_->xipos + 3 * id);
+    double* applied = data_->xfrc_applied + 6 * id;
+    Eigen::Map<Vector3>(applied) += force;
+    Eigen::Map<Vector3>(applied + 3) += turn(wrench_W.moment_N_m) + arm.cross(force);
+}
+
+void MujocoPlant::apply_slider(double force_N) {
+    require(model_->places().has_cup, "this vehicle has a slider");
+    data_->qfrc_applied[model_->places().slider_velocity] += force_N;
+}
+
+void MujocoPlant::step(const StepMode& mode) {
+    const int without = model_->get().opt.disableflags | (mode.contacts ? 0 : mjDSBL_CONTACT);
+    if (options_->opt.timestep != mode.step_s || options_->opt.disableflags != without) {
+        options_->opt.timestep = mode.step_s;
+        options_->opt.disableflags = without;
+        refresh();
+    }
+    mj_step2(options_.get(), data_.get());
+    // The first half makes new contacts, which have no forces yet.
+    sum_contacts();
+    take_positions();
+    refresh();
+    require_healthy();
+    std::fill_n(data_->xfrc_applied, 6 * options_->nbody, 0.0);
+    std::fill_n(data_->qfrc_applied, options_->nv, 0.0);
+}
+
+void MujocoPlant::take_positions() {
+    std::copy_n(data_->qpos, options_->nq, integrated_.data());
+}
+
+/// MuJoCo's first half normalises the quaternion in place, and once more is not always the same
+/// bits. So it always starts from the positions as they were integrated: a state that is refreshed
+/// again, after a change of mode or in another plant, stays as it is.
+void MujocoPlant::refresh() {
+    std::copy_n(integrated_.data(), options_->nq, data_->qpos);
+    mj_step1(options_.get(), data_.get());
+}
+
+void MujocoPlant::sum_contacts() {
+    contact_force_W_N_.setZero();
+    for (int i = 0; i < data_->ncon; ++i) {
+        const mjContact& contact = data_->contact[i];
+        if (contact.efc_address < 0) {
+            continue;
+        }
+        mjtNum force[6];  // by the first shape on the second, in the contact's axes
+        mj_contactForce(options_.get(), data_.get(), i, force);
+        mjtNum force_world[3];
+        mju_rotVecMatT(force_world, force, contact.frame);
+        const int second = options_->body_weldid[options_->geom_bodyid[contact.geom2]];
+        const double sign = second == 0 ? -1.0 : 1.0;
+        contact_force_W_N_ += sign * turn(force_world);
+    }
+}
+
+/// MuJoCo counts what goes wrong, resets the state and goes on; a flight must not.
+void MujocoPlant::require_healthy() {
+    for (int i = 0; i < mjNWARNING; ++i) {
+        if (data_->warning[i].number > 0) [[unlikely]] {
+            const int info = data_->warning[i].lastinfo;
+            throw InternalError(fmt::format("MuJoCo diverged after {} s: {}", data_->time,
+                                            mju_warningText(i, info)));
+        }
+    }
+}
+
+Kinematics MujocoPlant::kinematics(Body body) const {
+    const int id = engine_body(body);
+    const mjData& data = *data_;
+    const Vector3 origin(body == Body::cup ? data.site_xpos + 3 * model_->places().lip_site
+                                           : data.xpos + 3 * id);
+    // cvel is the motion of the body's material at the vehicle's centre of mass, in world axes.
+    const Map3 w(data.cvel + 6 * id);
+    const Map3 v_at_centre(data.cvel + 6 * id + 3);
+    const Vector3 arm = origin - Map3(data.subtree_com + 3 * options_->body_rootid[id]);
+    const Quaternion q_WF = turn_attitude(data.xquat + 4 * id);
+    return {.p_WF_m = turn(origin),
+            .q_WF = q_WF,
+            .v_WF_W_m_s = turn(Vector3(v_at_centre + w.cross(arm))),
+            .w_WF_F_rad_s = q_WF.conjugate() * turn(w.data())};
+}
+
+SliderMotion MujocoPlant::slider() const {
+    const MujocoModel::Places& at = model_->places();
+    if (!at.has_cup) {
+        return {};
+    }
+    return {.position_m = data_->qpos[at.slider_position],
+            .velocity_m_s = data_->qvel[at.slider_velocity]};
+}
+
+std::optional<double> MujocoPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
+    static constexpr mjtByte kSurroundings[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+    const Vector3 from = turn(origin_W_m);
+    const Vector3 along = turn(dir_W);
+    int shape = -1;
+    const double distance_m = mj_ray(options_.get(), data_.get(), from.data(), along.data(),
+                                     kSurroundings, 1, -1, &shape);
+    return shape < 0 ? std::nullopt : std::optional(distance_m);
+}
+
+PlantState MujocoPlant::save() const {
+    PlantState state{.values = integrated_};
+    Vector3 contact_force_N = contact_force_W_N_;
+    for_each_state(*options_, *data_, contact_force_N, [&state](const double* values, int count) {
+        state.values.insert(state.values.end(), values, values + count);
+    });
+    return state;
+}
+
+void MujocoPlant::restore(const PlantState& state) {
+    int expected = options_->nq;
+    const auto add = [&expected](const double*, int count) { expected += count; };
+    for_each_state(*options_, *data_, contact_force_W_N_, add);
+    require(state.values.size() == static_cast<std::size_t>(expected), "a state of this model");
+    // Also after a divergence: its warnings and half-done work must not outlive it.
+    mj_resetData(options_.get(), data_.get());
+    const double* from = state.values.data();
+    const auto read = [&from](double* values, int count) {
+        std::copy_n(from, count, values);
+        from += count;
+    };
+    read(integrated_.data(), options_->nq);
+    for_each_state(*options_, *data_, contact_force_W_N_, read);
+    refresh();
+}
+
+void MujocoPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+                           const Vector3& w_WB_B_rad_s) {
+    const MujocoModel::Places& at = model_->places();
+    mujoco_frames::write(p_WB_m, data_->qpos + at.base_position);
+    mujoco_frames::write_attitude(q_WB.normalized(), data_->qpos + at.base_position + 3);
+    mujoco_frames::write(v_WB_W_m_s, data_->qvel + at.base_velocity);
+    mujoco_frames::write(w_WB_B_rad_s, data_->qvel + at.base_velocity + 3);
+    take_positions();
+    refresh();
+}
+
+std::span<const double> MujocoPlant::positions() const {
+    return {data_->qpos, static_cast<std::size_t>(options_->nq)};
+}
+
+}  // namespace limpet

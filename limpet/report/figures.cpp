@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/report/figure_script.hpp"
+#include "limpet/report/gnuplot.hpp"
+
+namespace limpet {
+namespace {
+
+/// More points than this many times four cannot be told apart on the page.
+constexpr std::size_t kBins = 1200;
+
+std::string subtitle_of(const Summary& summary) {
+    std::string text = "outcome: " + (summary.outcome.empty() ? "unknown" : words(summary.outcome));
+    if (!summary.reason.empty()) {
+        text += fmt::format(" ({})", summary.reason);
+    }
+    if (!summary.seed.empty()) {
+        text += fmt::format("  ·  seed {}", summary.seed);
+    }
+    return text;
+}
+
+Figure make_figure(const Recording& recording, const Chapter& chapter) {
+    const Summary facts = summary(recording);
+    Figure figure;
+    figure.title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
+                               chapter.title);
+    figure.subtitle = subtitle_of(facts);
+    if (!recording.damage.empty()) {
+        // What closes a recording is its summary: where that is, the end is not what is missing.
+        figure.warning =
+            recording.attachment("summary.json") != nullptr
+                ? "recording damaged"
+                : fmt::format("recording cut at t = {:.2f} s", whole_flight(recording).to_s);
+    }
+    figure.window = chapter.window;
+    figure.panels = panels(recording, chapter.window);
+    for (Panel& panel : figure.panels) {
+        for (Curve& curve : panel.curves) {
+            curve = thinned(curve, chapter.window, kBins);
+        }
+    }
+    for (const RecordedEvent& event : recording.events) {
+        if (chapter.window.holds(event.time_s)) {
+            figure.events.push_back(event);
+        }
+    }
+    std::stable_sort(figure.events.begin(), figure.events.end(),
+                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+    for (const Phase& phase : phases(recording)) {
+        if (phase.window.to_s > chapter.window.from_s && phase.window.from_s < chapter.window.to_s) {
+            figure.phases.push_back(phase);
+        }
+    }
+    return figure;
+}
+
+void draw(const Figure& figure, const std::string& stem, const std::filesystem::path& folder) {
+    std::ofstream data(folder / (stem + ".txt"), std::ios::binary);
+    data << figure_data(figure);
+    data.close();
+    if (!data) {
+        throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
+    }
+    gnuplot::run(folder, figure_script(figure, stem));
+}
+
+}  // namespace
+
+Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
+    const gnuplot::TemporaryFolder work;
+    std::vector<std::filesystem::path> drawn;
+    for (const Chapter& chapter : chapters(recording)) {
+        const Figure figure = make_figure(recording, chapter);
+        if (figure.panels.empty() || chapter.window.span_s() <= 0.0) {
+            continue;
+        }
+        draw(figure, chapter.file, work.path());
+        drawn.push_back(work.path() / (chapter.file + ".png"));
+        drawn.push_back(work.path() / (chapter.file + ".svg"));
+    }
+    if (drawn.empty()) {
+        throw InputError(fmt::format("{}: nothing to plot: {}", recording.path.string(),
+                                     recording.damage.empty() ? "no pressure, pitch, force, thrust "
+                                                                "or distance was recorded"
+                                                              : recording.damage));
+    }
+    Pictures pictures{publish(drawn, folder), missing_topics(recording)};
+    if (!recording.damage.empty()) {
+        pictures.missing.insert(pictures.missing.begin(), recording.damage);
+    }
+    return pictures;
+}
+
+}  // namespace limpet

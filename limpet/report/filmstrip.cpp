@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/filmstrip.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/report/gnuplot.hpp"
+#include "limpet/report/layout.hpp"
+#include "limpet/report/moments.hpp"
+#include "limpet/report/stage.hpp"
+#include "limpet/report/story.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr int kFrameWidth_px = 640;
+constexpr int kFrameHeight_px = 560;
+constexpr int kGap_px = 16;
+constexpr int kMargin_px = 32;
+constexpr int kTitle_px = 84;
+constexpr int kCaption_px = 84;
+
+/// The camera: from the vehicle's right, a little behind and above, so that the wall's face shows.
+constexpr double kTowardsWall_rad = radians(11.0);
+constexpr double kDown_rad = radians(-10.0);
+
+/// From behind the vehicle to a little inside the wall, as the paper's pictures.
+View view_of(const Pose& pose, const std::optional<WallFace>& wall) {
+    constexpr double kRear_m = 0.40, kInside_m = 0.10, kLeastWidth_m = 1.12;
+    Vector3 ahead = wall ? Vector3(-wall->normal) : Vector3(pose.attitude * Vector3::UnitX());
+    ahead.z() = 0.0;
+    ahead.normalize();
+    const Vector3 nose = pose.attitude * Vector3::UnitX();
+    // A wall further off would make a speck of the vehicle: then the vehicle alone is shown.
+    constexpr double kFar_m = 2.6, kNose_m = 0.55;
+    const double to_wall_m = wall ? (wall->centre_m - pose.position_m).dot(ahead) : kFar_m;
+    const double gap_m = to_wall_m > 0.0 && to_wall_m < kFar_m ? to_wall_m : kNose_m;
+    const double rear_m = -kRear_m * std::max(0.55, std::abs(nose.dot(ahead)));
+    const double width_m = std::max(gap_m + kInside_m - rear_m, kLeastWidth_m);
+    View view;
+    view.target_m = pose.position_m + (gap_m + kInside_m - 0.5 * width_m) * ahead;
+    view.target_m.z() += 0.1 * nose.z();
+    view.azimuth_rad = std::atan2(ahead.y(), ahead.x()) + radians(90.0) - kTowardsWall_rad;
+    view.elevation_rad = kDown_rad;
+    const double aspect = static_cast<double>(kFrameWidth_px) / kFrameHeight_px;
+    view.distance_m = 0.5 * width_m / (aspect * std::tan(0.5 * Stage::angle_of_sight_rad())) + 0.25;
+    return view;
+}
+
+struct Sheet {
+    Page page;
+    int columns = 1;
+
+    explicit Sheet(std::size_t frames) {
+        const int count = static_cast<int>(frames);
+        columns = count > 4 ? (count + 1) / 2 : count;
+        const int rows = (count + columns - 1) / columns;
+        page.width_px = 2 * kMargin_px + columns * kFrameWidth_px + (columns - 1) * kGap_px;
+        page.height_px = kTitle_px + rows * (kFrameHeight_px + kCaption_px) + kMargin_px / 2;
+    }
+    [[nodiscard]] int left_px(std::size_t frame) const {
+        return kMargin_px + static_cast<int>(frame) % columns * (kFrameWidth_px + kGap_px);
+    }
+    [[nodiscard]] int top_px(std::size_t frame) const {
+        return kTitle_px + static_cast<int>(frame) / columns * (kFrameHeight_px + kCaption_px);
+    }
+};
+
+void paste(const Image& image, int left_px, int top_px, Image& canvas) {
+    const std::size_t bytes = 3u * static_cast<std::size_t>(image.width_px);
+    for (int row = 0; row < image.height_px; ++row) {
+        const auto from = image.rgb.begin() + static_cast<std::ptrdiff_t>(bytes) * row;
+        const auto to = canvas.rgb.begin() + 3 * ((top_px + row) * canvas.width_px + left_px);
+        std::copy_n(from, bytes, to);
+    }
+}
+
+Image blank(const Page& page) {
+    Image image{page.width_px, page.height_px, {}};
+    image.rgb.assign(3u * static_cast<std::size_t>(page.width_px) *
+                         static_cast<std::size_t>(page.height_px),
+                     0xFF);
+    return image;
+}
+
+std::string label(const Page& page, double x_px, double y_px, const std::string& text, int size,
+                  const char* colour, const char* face = "") {
+    return fmt::format(
+        "set label {} at screen {:.5f}, screen {:.5f} left font 'DejaVu Sans{},{}' textcolor rgb "
+        "'{}' front\n",
+        gnuplot::single_quoted(text), page.x(x_px), page.y(y_px), face, size, colour);
+}
+
+/// The photographs go as raw pixels, the letters by gnuplot over them.
+std::string script_of(const Recording& recording, const std::vector<Moment>& moments,
+                      const Sheet& sheet, const std::string& title, const std::string& stem) {
+    const Page& page = sheet.page;
+    std::string script = fmt::format(
+        "set terminal pngcairo size {0},{1} noenhanced font 'DejaVu Sans,20' background "
+        "'#FFFFFF'\nset output '{2}.png'\nset encoding utf8\nunset key\nunset tics\nunset border\n"
+        "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\n"
+        "set tmargin at screen 1\nset xrange [-0.5:{0}-0.5]\nset yrange [-0.5:{1}-0.5]\n",
+        page.width_px, page.height_px, stem);
+    script += label(page, kMargin_px, 0.5 * kTitle_px, title, 26, "#222B33");
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        const double x = sheet.left_px(i), y = sheet.top_px(i) + kFrameHeight_px;
+        script += label(page, x + 2.0, y + 22.0, fmt::format("{}  {}", i + 1, moments[i].name), 20,
+                        "#222B33");
+        script += label(page, x + 2.0, y + 52.0, caption_at(recording, moments[i].time_s), 18,
+                        "#6B7680");
+    }
+    script += fmt::format(
+        "plot '{}.rgb' binary array=({},{}) flipy format='%uchar%uchar%uchar' using 1:2:3 with "
+        "rgbimage\nunset output\n",
+        stem, page.width_px, page.height_px);
+    return script;
+}
+
+std::filesystem::path make_film(const Recording& recording, Stage& stage,
+                                const std::vector<Moment>& moments, const std::string& title,
+                                const std::string& stem, const std::filesystem::path& folder) {
+    const Sheet sheet(moments.size());
+    Image canvas = blank(sheet.page);
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+        const Pose pose = pose_at(recording, moments[i].time_s);
+        paste(stage.photograph(pose, view_of(pose, stage.wall())), sheet.left_px(i),
+              sheet.top_px(i), canvas);
+    }
+    std::ofstream pixels(folder / (stem + ".rgb"), std::ios::binary);
+    pixels.write(reinterpret_cast<const char*>(canvas.rgb.data()),
+                 static_cast<std::streamsize>(canvas.rgb.size()));
+    pixels.close();
+    if (!pixels) {
+        throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
+    }
+    gnuplot::run(folder, script_of(recording, moments, sheet, title, stem));
+    return folder / (stem + ".png");
+}
+
+std::string title_of(const Recording& recording, const char* what) {
+    const Summary facts = summary(recording);
+    return fmt::format("{}: {}{}{}", facts.scenario.empty() ? "flight" : facts.scenario, what,
+                       facts.seed.empty() ? "" : "  ·  seed ", facts.seed);
+}
+
+}  // namespace
+
+Pictures film(const Recording& recording, const std::filesystem::path& folder) {
+    const mcap::Attachment* model = recording.attachment("model.xml");
+    if (model == nullptr) {
+        throw InputError(
+            fmt::format("{}: no model.xml attached: nothing to draw", recording.path.string()));
+    }
+    if (recording.table("/truth/pose").time_s.empty()) {
+        throw InputError(fmt::format("{}: no poses in /truth/pose", recording.path.string()));
+    }
+    const gnuplot::TemporaryFolder work;
+    Stage stage(model->text, kFrameWidth_px, kFrameHeight_px);
+    std::vector<std::filesystem::path> made;
+    const auto make = [&](const std::vector<Moment>& moments, const char* what, const char* stem) {
+        if (!moments.empty()) {
+            made.push_back(make_film(recording, stage, moments, title_of(recording, what), stem,
+                                     work.path()));
+        }
+    };
+    make(perching_moments(recording), "perching", "perching_film");
+    make(take_off_moments(recording), "take-off", "take_off_film");
+    if (made.empty()) {
+        make(flight_moments(recording), "flight", "flight_film");
+    }
+    Pictures pictures{publish(made, folder), {}};
+    if (!recording.damage.empty()) {
+        pictures.missing.push_back(recording.damage);
+    }
+    return pictures;
+}
+
+}  // namespace limpet

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "limpet/record/recording.hpp"
+#include "limpet/report/pictures.hpp"
+
+namespace limpet {
+
+/// Draws the manoeuvre as a row of pictures, as in the paper's Figs. 9 and 10: `perching_film.png`,
+/// and `take_off_film.png` when the vehicle left the wall; a flight without an approach gives
+/// `flight_film.png`. Rendered off-screen from the attached model.xml and the recorded truth.
+/// @param folder  made when it is not there
+/// @throws InputError when the recording has no model or no poses, for an unwritable folder, or when
+///         gnuplot or OpenGL's software renderer is not installed
+[[nodiscard]] Pictures film(const Recording& recording, const std::filesystem::path& folder);
+
+}  // namespace limpet

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+/// The bridge to gnuplot: a script and its data in a folder of their own, so that no path of the
+/// user's ever stands in a script or on a command line.
+namespace limpet::gnuplot {
+
+/// A new folder under the system's folder for temporary files; goes away with its owner.
+class TemporaryFolder {
+public:
+    /// @throws InputError when it cannot be made
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// @return the text as gnuplot's string in single quotes, whatever it holds; on one line
+[[nodiscard]] std::string single_quoted(std::string_view text);
+
+/// Runs a script inside `folder`; file names in it are relative to that.
+/// @throws InputError when gnuplot is not installed; InternalError with gnuplot's own words when it
+///         does not accept the script
+void run(const std::filesystem::path& folder, const std::string& script);
+
+}  // namespace limpet::gnuplot

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/moments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "limpet/report/story.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr std::size_t kMost = 8;
+constexpr double kApart_s = 0.04;
+
+/// Row of the sample nearest to an instant; the table has rows.
+std::size_t nearest_row(const Table& table, double time_s) {
+    const auto& times = table.time_s;
+    const auto after = std::lower_bound(times.begin(), times.end(), time_s);
+    if (after == times.end()) {
+        return times.size() - 1;
+    }
+    const auto row = static_cast<std::size_t>(after - times.begin());
+    return row > 0 && time_s - times[row - 1] < times[row] - time_s ? row - 1 : row;
+}
+
+/// @return nullopt when there is no such column
+std::optional<double> value_at(const Recording& recording, std::string_view topic,
+                               std::string_view column, double time_s) {
+    const Table* table = find_table(recording, topic);
+    const Column* found = table == nullptr ? nullptr : table->find(column);
+    if (found == nullptr) {
+        return std::nullopt;
+    }
+    return found->values[nearest_row(*table, time_s)];
+}
+
+std::optional<double> pitch_at(const Recording& recording, double time_s) {
+    return value_at(recording, "/truth/vehicle", "pitch_rad", time_s);
+}
+
+/// When the pitch has made a share of its way from the one instant to the other.
+double time_of_pitch(const Recording& recording, const Window& window, double share) {
+    const double from = pitch_at(recording, window.from_s).value_or(0.0);
+    const double to = pitch_at(recording, window.to_s).value_or(0.0);
+    constexpr int kSteps = 400;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double time_s = window.from_s + window.span_s() * i / kSteps;
+        const double made = pitch_at(recording, time_s).value_or(0.0) - from;
+        if (std::abs(made) >= share * std::abs(to - from)) {
+            return time_s;
+        }
+    }
+    return window.to_s;
+}
+
+class Story {
+public:
+    explicit Story(const Recording& recording)
+        : recording_(recording), end_s_(whole_flight(recording).to_s) {}
+
+    void add(double time_s, std::string name) {
+        if (time_s <= end_s_) {
+            moments_.push_back({time_s, std::move(name)});
+        }
+    }
+    /// The first of that name from an instant on, no later than another.
+    const RecordedEvent* add_event(std::string_view name, double after_s, double before_s = 1e300) {
+        const RecordedEvent* event = first_event(recording_, name, after_s);
+        if (event == nullptr || event->time_s > before_s) {
+            return nullptr;
+        }
+        add(event->time_s, words(name));
+        return event;
+    }
+    void add_pitches(double from_s, double to_s, const char* name) {
+        for (const double share : {1.0 / 3.0, 2.0 / 3.0}) {
+            add(time_of_pitch(recording_, {from_s, to_s}, share), name);
+        }
+    }
+
+    [[nodiscard]] std::vector<Moment> told() {
+        std::stable_sort(moments_.begin(), moments_.end(),
+                         [](const Moment& a, const Moment& b) { return a.time_s < b.time_s; });
+        std::vector<Moment> apart;
+        for (Moment& moment : moments_) {
+            if (!apart.empty() && moment.time_s - apart.back().time_s < kApart_s) {
+                apart.back().name += ", " + moment.name;
+            } else {
+                apart.push_back(std::move(moment));
+            }
+        }
+        apart.resize(std::min(apart.size(), kMost));
+        return apart;
+    }
+
+private:
+    const Recording& recording_;
+    double end_s_;
+    std::vector<Moment> moments_;
+};
+
+}  // namespace
+
+std::vector<Moment> perching_moments(const Recording& recording) {
+    const RecordedEvent* approach = last_event(recording, "approach_started");
+    if (approach == nullptr) {
+        return {};
+    }
+    Story story(recording);
+    const double start_s = approach->time_s;
+    const RecordedEvent* before = last_event(recording, "pre_positioned", start_s);
+    story.add(before == nullptr ? start_s : before->time_s,
+              before == nullptr ? "approach started" : "pre-positioned");
+    const RecordedEvent* impact = story.add_event("impact", start_s);
+    if (impact == nullptr) {
+        story.add(0.5 * (start_s + whole_flight(recording).to_s), "approach");
+        return story.told();
+    }
+    story.add(start_s + 0.6 * (impact->time_s - start_s), "approach");
+    if (const auto* retreat = first_event(recording, "retreat_started", impact->time_s)) {
+        story.add(0.5 * (impact->time_s + retreat->time_s), "hold");
+        story.add(retreat->time_s, "retreat started");
+        story.add(retreat->time_s + 1.0, "retreat");
+        return story.told();
+    }
+    story.add_event("attached", impact->time_s);
+    const RecordedEvent* landing = first_event(recording, "landing_started", impact->time_s);
+    const RecordedEvent* perched =
+        landing == nullptr ? nullptr : story.add_event("perched", landing->time_s);
+    if (perched != nullptr) {
+        story.add_pitches(landing->time_s, perched->time_s, "landing");
+        if (const auto* off = first_event(recording, "motors_off", perched->time_s)) {
+            story.add(off->time_s + 1.0, "at rest, motors off");
+        }
+    } else if (landing != nullptr) {
+        story.add(landing->time_s, "landing started");
+    }
+    return story.told();
+}
+
+std::vector<Moment> take_off_moments(const Recording& recording) {
+    const RecordedEvent* start = last_event(recording, "motors_on");
+    if (start == nullptr) {
+        return {};
+    }
+    Story story(recording);
+    story.add(start->time_s, "motors on");
+    if (const auto* level = story.add_event("level", start->time_s)) {
+        story.add_pitches(start->time_s, level->time_s, "pitching down");
+        story.add_event("pressure_released", level->time_s);
+    }
+    story.add_event("aborted", start->time_s);
+    const RecordedEvent* detached = story.add_event("detached", start->time_s);
+    const RecordedEvent* back = story.add_event("backed_off", start->time_s);
+    if (detached != nullptr && back != nullptr) {
+        story.add(0.6 * detached->time_s + 0.4 * back->time_s, "backing off");
+    }
+    return story.told();
+}
+
+std::vector<Moment> flight_moments(const Recording& recording) {
+    const Window whole = whole_flight(recording);
+    const std::vector<Phase> states = phases(recording);
+    std::vector<Moment> moments;
+    for (std::size_t i = 0; i < kMost; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(kMost - 1);
+        const double time_s = whole.from_s + share * whole.span_s();
+        const auto now = std::find_if(states.begin(), states.end(), [time_s](const Phase& phase) {
+            return phase.window.holds(time_s);
+        });
+        moments.push_back({time_s, now == states.end() ? "flight" : words(now->state)});
+    }
+    return moments;
+}
+
+Pose pose_at(const Recording& recording, double time_s) {
+    const Table& table = recording.table("/truth/pose");
+    const std::size_t row = table.time_s.empty() ? 0 : nearest_row(table, time_s);
+    const auto value = [&](const char* column) {
+        return recording.series("/truth/pose", column).values[row];
+    };
+    // ROS has east-north-up: a quarter turn about "up" makes it north-west-up.
+    const Quaternion quarter(std::sqrt(0.5), 0.0, 0.0, -std::sqrt(0.5));
+    Pose pose;
+    pose.position_m = {value("pose.position.y"), -value("pose.position.x"),
+                       value("pose.position.z")};
+    pose.attitude = quarter * Quaternion(value("pose.orientation.w"), value("pose.orientation.x"),
+                                         value("pose.orientation.y"), value("pose.orientation.z"));
+    const auto truth = [&](const char* column) {
+        return value_at(recording, "/truth/vehicle", column, time_s).value_or(0.0);
+    };
+    constexpr double kStanding_rad_s = 20.0;
+    pose.slider_m = truth("slider_position_m");
+    pose.cup_pitch_rad = truth("cup_pitch_rad");
+    pose.cup_yaw_rad = truth("cup_yaw_rad");
+    pose.rotors_turn = truth("rotor_speed_rad_s[0]") > kStanding_rad_s;
+    return pose;
+}
+
+std::string caption_at(const Recording& recording, double time_s) {
+    std::string text = fmt::format("{:.2f} s", time_s);
+    if (const auto pitch_rad = pitch_at(recording, time_s)) {
+        text += fmt::format("   pitch {:.1f}°", degrees(*pitch_rad) + 0.0);
+    }
+    if (const auto pressure_Pa =
+            value_at(recording, "/sensors/cup_pressure", "fluid_pressure", time_s)) {
+        text += fmt::format("   {:.0f} hPa", 0.01 * *pressure_Pa);
+    }
+    return text;
+}
+
+}  // namespace limpet

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace limpet {
+
+/// OpenGL without a screen: an EGL context, current on the thread that made it. Mesa's software
+/// renderer will do; no display server and no graphics card are needed.
+class OffscreenContext {
+public:
+    /// @throws InputError naming what to install when there is no way to draw
+    OffscreenContext();
+    ~OffscreenContext();
+    OffscreenContext(const OffscreenContext&) = delete;
+    OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+private:
+    void* display_ = nullptr;  // EGLDisplay and EGLContext, without their header
+    void* context_ = nullptr;
+};
+
+}  // namespace limpet

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/catalogue.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/sections.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string description_of(const fs::path& file) {
+    try {
+        const YamlNode root = parse_yaml_file(file);
+        const YamlNode* node = root.find("description");
+        return node == nullptr ? "" : read_text(*node);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+std::vector<CatalogueEntry> list_files(const fs::path& folder) {
+    std::vector<CatalogueEntry> entries;
+    for (const std::string& name : names_in(folder)) {
+        entries.push_back({name, description_of(folder / (name + ".yaml"))});
+    }
+    return entries;
+}
+
+}  // namespace
+
+std::vector<CatalogueEntry> list_scenarios(const fs::path& root) {
+    return list_files(root / "scenarios");
+}
+
+std::vector<CatalogueEntry> list_vehicles(const fs::path& root) {
+    return list_files(root / "vehicles");
+}
+
+std::vector<CatalogueEntry> list_surfaces(const fs::path& root) {
+    std::vector<CatalogueEntry> entries;
+    for (const Surface& surface : load_surfaces(root)) {
+        entries.push_back({surface.name, surface.description});
+    }
+    return entries;
+}
+
+std::string_view to_string(FileKind kind) {
+    switch (kind) {
+        case FileKind::scenario: return "scenario";
+        case FileKind::vehicle: return "vehicle";
+        case FileKind::surfaces: return "surfaces";
+    }
+    throw InternalError("file kind out of range");
+}
+
+FileKind check_file(const fs::path& file, const fs::path& root) {
+    if (file.filename() == "surfaces.yaml") {
+        static_cast<void>(load_surfaces(file.parent_path()));
+        return FileKind::surfaces;
+    }
+    const YamlNode tree = parse_yaml_file(file);
+    if (tree.find("mass_kg") != nullptr || tree.find("rotors") != nullptr) {
+        static_cast<void>(load_vehicle_file(file));
+        return FileKind::vehicle;
+    }
+    static_cast<void>(load_scenario_file(file, {{}, {}, root}));
+    return FileKind::scenario;
+}
+
+std::vector<ParameterInfo> all_parameters() {
+    Scenario defaults;
+    std::vector<ParameterInfo> all;
+    for (const Section& section : scenario_sections(defaults)) {
+        for (const BoundParameter& row : section.rows) {
+            all.push_back({.section = section.name,
+                           .name = std::string(row.name),
+                           .unit = std::string(row.unit),
+                           .minimum = row.minimum,
+                           .maximum = row.maximum,
+                           .default_value = *row.value,
+                           .description = std::string(row.description),
+                           .source = std::string(row.source)});
+        }
+    }
+    return all;
+}
+
+std::vector<ParameterInfo> parameters_of(std::string_view room) {
+    const std::string within = std::string(room) + ".";
+    std::vector<ParameterInfo> rows;
+    std::vector<std::string> names;
+    for (ParameterInfo& row : all_parameters()) {
+        if (names.empty() || names.back() != row.section) {
+            names.push_back(row.section);
+        }
+        if (row.section == room || row.section.rfind(within, 0) == 0) {
+            rows.push_back(std::move(row));
+        }
+    }
+    if (rows.empty()) {
+        throw InputError(unknown_name(std::string(room), "room", names));
+    }
+    return rows;
+}
+
+}  // namespace limpet

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
+#include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/sections.hpp"
+
+namespace limpet {
+namespace {
+
+/// Fails where the key is written, or for the whole file when it is not.
+[[noreturn]] void fail_at(const YamlNode& root, const std::string& path, std::string_view what) {
+    const YamlNode* node = &root;
+    for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        node = node->find(std::string_view(path).substr(begin, end - begin));
+        begin = end + 1;
+    }
+    if (node != nullptr) {
+        fail(*node, what);
+    }
+    throw InputError(fmt::format("{}: {}: {}", root.place, path, what));
+}
+
+bool is_whole(double value) {
+    return std::abs(value - std::round(value)) < 1e-6;
+}
+
+void check_mission(const Scenario& scenario, const YamlNode& root) {
+    if (scenario.mission == Mission::hover) {
+        return;
+    }
+    const std::string mission(to_string(scenario.mission));
+    if (!scenario.wall.present) {
+        fail_at(root, "mission", mission + " needs a wall, and there is none");
+    }
+    if (!scenario.airframe.has_cup) {
+        fail_at(root, "mission",
+                fmt::format("{} needs a cup, and {} has none", mission, scenario.airframe.name));
+    }
+    const double lip_x_m = scenario.airframe.cup.joint_x_m + scenario.airframe.cup.lip_offset_m;
+    if (scenario.simulation.start_distance_m <= lip_x_m) {
+        fail_at(root, "simulation.start_distance_m",
+                fmt::format("{} is too close, the lip is {} m ahead of the centre of mass",
+                            scenario.simulation.start_distance_m, number_text(lip_x_m)));
+    }
+}
+
+void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
+    if (!is_whole(kTick_s / simulation.step_s)) {
+        fail_at(root, "simulation.step_s",
+                fmt::format("{} does not divide the tick of {} s", number_text(simulation.step_s),
+                            number_text(kTick_s)));
+    }
+    if (!is_whole(simulation.step_s / simulation.touch_step_s)) {
+        fail_at(root, "simulation.touch_step_s",
+                fmt::format("{} does not divide step_s, {} s", number_text(simulation.touch_step_s),
+                            number_text(simulation.step_s)));
+    }
+}
+
+void check_rates(const std::vector<Section>& sections, const YamlNode& root) {
+    constexpr std::string_view kRate = "rate_Hz";
+    for (const std::string_view name : {"sensors", "simulation"}) {
+        for (const BoundParameter& row : find_section(sections, name).rows) {
+            const bool is_rate = row.name.size() >= kRate.size() &&
+                                 row.name.substr(row.name.size() - kRate.size()) == kRate;
+            if (is_rate && *row.value != std::floor(*row.value)) {
+                fail_at(root, fmt::format("{}.{}", name, row.name),
+                        fmt::format("{} is not a whole number of Hz", number_text(*row.value)));
+            }
+        }
+    }
+}
+
+/// A vehicle may be such that what follows from it is out of range: too heavy to hover.
+void check_derived(const std::vector<Section>& sections, const YamlNode& root) {
+    for (const Section& section : sections) {
+        for (const BoundParameter& row : section.rows) {
+            const bool fits = *row.value >= row.minimum && *row.value <= row.maximum;
+            if (!fits && is_derived(section.name, row.name)) {
+                fail_at(root, "vehicle",
+                        fmt::format("{}.{} follows from it as {:.4g}, allowed {}", section.name,
+                                    row.name, *row.value, allowed_text(row)));
+            }
+        }
+    }
+}
+
+void check_order(const YamlNode& root, const std::string& section, std::string_view low_name,
+                 double low, std::string_view high_name, double high) {
+    if (!(low < high)) {
+        fail_at(
+            root, fmt::format("{}.{}", section, low_name),
+            fmt::format("{} must be below {}, {}", number_text(low), high_name, number_text(high)));
+    }
+}
+
+}  // namespace
+
+void check(const Scenario& scenario, const YamlNode& root) {
+    Scenario bound = scenario;  // sections bind to what may be written
+    const std::vector<Section> sections = scenario_sections(bound);
+    check_derived(sections, root);
+    check_mission(scenario, root);
+    check_steps(scenario.simulation, root);
+    check_rates(sections, root);
+    check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,
+                "detach_pressure_Pa", scenario.guidance.detach_pressure_Pa);
+    check_order(root, "sensors", "lidar_range_min_m", scenario.sensors.lidar_range_min_m,
+                "lidar_range_max_m", scenario.sensors.lidar_range_max_m);
+    check_order(root, "autopilot", "MPC_THR_MIN", scenario.autopilot.MPC_THR_MIN, "MPC_THR_HOVER",
+                scenario.autopilot.MPC_THR_HOVER);
+    check_order(root, "autopilot", "MPC_THR_HOVER", scenario.autopilot.MPC_THR_HOVER, "MPC_THR_MAX",
+                scenario.autopilot.MPC_THR_MAX);
+}
+
+}  // namespace limpet

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/loader.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "limpet/scenario/checks.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/overrides.hpp"
+#include "limpet/scenario/parts.hpp"
+#include "limpet/scenario/sections.hpp"
+#include "limpet/scenario/suggestion.hpp"
+#include "limpet/scenario/writer.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+Mission read_mission(const YamlNode& node) {
+    const std::string word = read_text(node);
+    const auto mission = mission_from(word);
+    if (!mission) {
+        fail(node, fmt::format("\"{}\" is none of hover, perch, perch_and_take_off", shown(word)));
+    }
+    return *mission;
+}
+
+bool says_none(const YamlNode* node) {
+    return node == nullptr || node->kind == YamlNode::Kind::null ||
+           (node->kind == YamlNode::Kind::scalar && node->text == "none");
+}
+
+void read_wall(const YamlNode* node, const fs::path& root, WallSetup& wall) {
+    wall.present = !says_none(node);
+    if (!wall.present) {
+        return;
+    }
+    read_rows(node, bind(wall_table(), wall), {"surface", "first_touches"});
+    const YamlNode* surface = node->find("surface");
+    if (surface == nullptr) {
+        fail(*node, "has no surface, as in `surface: porous_concrete`");
+    }
+    wall.surface = surface_from(*surface, root);
+    const YamlNode* touches = node->find("first_touches");
+    if (touches == nullptr || touches->kind == YamlNode::Kind::null) {
+        return;
+    }
+    if (touches->kind != YamlNode::Kind::list) {
+        fail(*touches, "must be a list of surfaces, as in [spalled_concrete]");
+    }
+    for (const YamlNode& touch : touches->children) {
+        wall.first_touches.push_back(surface_from(touch, root));
+    }
+}
+
+/// Sections are read in the order in which they build on each other: what is derived from the
+/// vehicle and the sensors first, then the keys that may say otherwise.
+void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenario) {
+    if (!is_section(&root)) {
+        fail(root, "is empty");
+    }
+    check_keys(root, {"description", "mission", "vehicle", "seed", "wall", "suction", "guidance",
+                      "autopilot", "sensors", "simulation"});
+    if (const YamlNode* node = root.find("description")) {
+        scenario.description = read_text(*node);
+    }
+    if (const YamlNode* node = root.find("mission")) {
+        scenario.mission = read_mission(*node);
+    }
+    if (const YamlNode* node = root.find("seed")) {
+        scenario.seed = read_count(*node);
+    }
+    const YamlNode* vehicle = root.find("vehicle");
+    if (vehicle == nullptr) {
+        fail(root, "vehicle: is missing, as in `vehicle: perching_uav`");
+    }
+    scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
+    read_wall(root.find("wall"), data, scenario.wall);
+    const std::vector<Section> sections = scenario_sections(scenario);
+    for (const char* name : {"sensors", "simulation"}) {
+        read_rows(root.find(name), find_section(sections, name).rows);
+    }
+    derive(scenario);
+    read_rows(root.find("suction"), find_section(sections, "suction").rows);
+    derive_from_suction(scenario);
+    for (const char* name : {"guidance", "autopilot"}) {
+        read_rows(root.find(name), find_section(sections, name).rows);
+    }
+    lay_out(scenario);
+}
+
+fs::path data_of(const LoadOptions& options) {
+    return options.data_root.empty() ? data_root() : options.data_root;
+}
+
+Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
+    for (const std::string& override_text : options.overrides) {
+        set_override(root, override_text);
+    }
+    read_scenario(root, data_of(options), scenario);
+    scenario.seed = options.seed.value_or(scenario.seed);
+    check(scenario, root);
+    scenario.yaml = to_yaml(scenario);
+    return scenario;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::string& wanted, const LoadOptions& options) {
+    if (is_path(wanted)) {
+        return load_scenario_file(wanted, options);
+    }
+    return load_scenario_file(find_file(wanted, "scenario", data_of(options) / "scenarios"),
+                              options);
+}
+
+Scenario load_scenario_file(const fs::path& file, const LoadOptions& options) {
+    Scenario scenario;
+    scenario.path = file;
+    scenario.name = file.stem().string();
+    YamlNode root = parse_yaml_file(file);
+    return load(std::move(root), std::move(scenario), options);
+}
+
+Scenario load_scenario_text(const std::string& text, const std::string& name,
+                            const LoadOptions& options) {
+    Scenario scenario;
+    scenario.name = name;
+    return load(parse_yaml(text, name), std::move(scenario), options);
+}
+
+}  // namespace limpet

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/scenario/scenario.hpp"
+
+namespace limpet {
+
+struct LoadOptions {
+    /// "key.path=value", applied in order before anything is checked: guidance.hold_s=0.6,
+    /// vehicle.slider.stiffness_N_m=400, wall.surface=metal, wall.surface.friction=0.5.
+    std::vector<std::string> overrides{};
+    std::optional<std::uint64_t> seed{};  ///< after the overrides
+    std::filesystem::path data_root{};    ///< empty: limpet::data_root()
+};
+
+/// Reads, overrides, derives and checks one experiment. A scenario's keys are described in
+/// scenarios/README.md.
+/// @param wanted  path of a file, or a name in scenarios/ of the data
+/// @throws InputError one line: file:line (or --set), key, value, what is allowed
+[[nodiscard]] Scenario load_scenario(const std::string& wanted, const LoadOptions& options = {});
+
+[[nodiscard]] Scenario load_scenario_file(const std::filesystem::path& file,
+                                          const LoadOptions& options = {});
+
+/// The same of a text, such as Scenario::yaml out of a recording.
+/// @param name  of the scenario, and of the text in messages
+[[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,
+                                          const LoadOptions& options = {});
+
+}  // namespace limpet

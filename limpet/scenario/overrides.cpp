@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+/// A value's own tree hangs under the key that it is set to and is found under the command line.
+void adopt(YamlNode& node, const std::string& path, const std::string& place) {
+    node.path = node.path.empty()          ? path
+                : node.path.front() == '[' ? path + node.path
+                                           : path + "." + node.path;
+    node.place = place;
+    for (YamlNode& child : node.children) {
+        adopt(child, path, place);
+    }
+}
+
+YamlNode& entry(YamlNode& map, const std::string& key, const std::string& place) {
+    const auto found = std::find_if(map.children.begin(), map.children.end(),
+                                    [&](const YamlNode& child) { return child.key == key; });
+    if (found != map.children.end()) {
+        return *found;
+    }
+    YamlNode node;
+    node.key = key;
+    node.path = map.path.empty() ? key : map.path + "." + key;
+    node.place = place;
+    map.children.push_back(std::move(node));
+    return map.children.back();
+}
+
+void turn_into_map(YamlNode& node, const std::string& place) {
+    if (node.kind == YamlNode::Kind::list) {
+        throw InputError(fmt::format("{}: {} is a list, set it as a whole", place, node.path));
+    }
+    if (node.kind == YamlNode::Kind::scalar) {
+        YamlNode base = node;
+        base.key = "base";
+        base.path += ".base";
+        node.text.clear();
+        node.quoted = false;
+        node.children = {std::move(base)};
+    }
+    node.kind = YamlNode::Kind::map;
+}
+
+}  // namespace
+
+void set_override(YamlNode& root, std::string_view assignment) {
+    const std::string place = std::string(kSet) + shown(assignment);
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string_view::npos || equals == 0) {
+        throw InputError(place + ": write it as key=value, as in guidance.dock_speed_m_s=1.0");
+    }
+    const std::string path(assignment.substr(0, equals));
+    YamlNode* node = &root;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        if (begin == end) {
+            throw InputError(place + ": a part of the key is empty");
+        }
+        turn_into_map(*node, place);
+        node = &entry(*node, path.substr(begin, end - begin), place);
+        begin = end + 1;
+    }
+    YamlNode value;
+    if (equals + 1 < assignment.size()) {
+        value = parse_yaml(std::string(assignment.substr(equals + 1)), place);
+    }
+    adopt(value, path, place);
+    value.key = node->key;
+    *node = std::move(value);
+}
+
+}  // namespace limpet

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "limpet/scenario/yaml_tree.hpp"
+
+namespace limpet {
+
+/// Puts one `--set key.path=value` into the tree; value is any YAML. Maps on the way are made as
+/// needed; a scalar on the way becomes the entry `base` of a new map, so that
+/// `vehicle.mass_kg=3.4` goes with `vehicle: perching_uav`.
+/// @throws InputError when it is not written as key=value or leads through a list
+void set_override(YamlNode& root, std::string_view assignment);
+
+}  // namespace limpet

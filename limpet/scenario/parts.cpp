@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/parts.hpp"
+
+#include <fmt/format.h>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/sections.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_optional_text(const YamlNode& map, std::string_view key, std::string& text) {
+    if (const YamlNode* node = map.find(key)) {
+        text = read_text(*node);
+    }
+}
+
+/// Either a list of the rows' values in their order or a section.
+void read_diagonal(const YamlNode* node, const std::vector<BoundParameter>& rows) {
+    if (node == nullptr || node->kind != YamlNode::Kind::list) {
+        read_rows(node, rows);
+        return;
+    }
+    if (node->children.size() != rows.size()) {
+        fail(*node, fmt::format("needs {} numbers, has {}", rows.size(), node->children.size()));
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        *rows[i].value = read_number(node->children[i], rows[i]);
+    }
+}
+
+int read_direction(const YamlNode& rotor) {
+    const YamlNode* node = rotor.find("direction");
+    if (node == nullptr) {
+        fail(rotor, "has no direction, must be ccw or cw");
+    }
+    const std::string direction = read_text(*node);
+    if (direction != "ccw" && direction != "cw") {
+        fail(*node, fmt::format("must be ccw or cw, is \"{}\"", shown(direction)));
+    }
+    return direction == "ccw" ? +1 : -1;
+}
+
+void read_rotors(const YamlNode* node, Airframe& airframe) {
+    if (node == nullptr) {
+        return;
+    }
+    if (node->kind != YamlNode::Kind::list || node->children.size() != kRotors) {
+        fail(*node, fmt::format("must be a list of {} rotors", kRotors));
+    }
+    for (std::size_t i = 0; i < kRotors; ++i) {
+        const YamlNode& rotor = node->children[i];
+        if (!is_section(&rotor)) {
+            fail(rotor, "is empty, needs x_m, y_m and direction");
+        }
+        read_rows(&rotor, rotor_rows(airframe.rotor_p_B_m[i]), {"direction"});
+        airframe.rotor_direction[i] = read_direction(rotor);
+    }
+}
+
+/// @param with_base  in a scenario; a vehicle file stands for itself
+void read_vehicle(const YamlNode& map, bool with_base, Airframe& airframe) {
+    if (!is_section(&map)) {
+        fail(map, "is empty, must describe a vehicle");
+    }
+    std::vector<std::string_view> others = {"name", "description", "has_cup", "rotors"};
+    if (with_base) {
+        others.push_back("base");
+    }
+    std::vector<Section> sections = vehicle_sections(airframe);
+    for (const Section& section : sections) {
+        if (!section.name.empty()) {
+            others.push_back(section.name);
+        }
+    }
+    for (const Section& section : sections) {
+        if (section.name.empty()) {
+            read_rows(&map, section.rows, others);
+        } else if (section.name == "inertia_kg_m2") {
+            read_diagonal(map.find(section.name), section.rows);
+        } else {
+            read_rows(map.find(section.name), section.rows);
+        }
+    }
+    read_optional_text(map, "name", airframe.name);
+    read_optional_text(map, "description", airframe.description);
+    if (const YamlNode* node = map.find("has_cup")) {
+        airframe.has_cup = read_flag(*node);
+    }
+    read_rotors(map.find("rotors"), airframe);
+    for (Vector3& p_B_m : airframe.rotor_p_B_m) {
+        p_B_m.z() = -airframe.rotor.height_m;
+    }
+}
+
+void validate_at(const YamlNode& node, const Airframe& airframe) {
+    try {
+        validate(airframe);
+    } catch (const InputError& error) {
+        fail(node, error.what());
+    }
+}
+
+void read_surface(const YamlNode& map, const std::vector<std::string_view>& others,
+                  Surface& surface) {
+    std::vector<std::string_view> texts = {"description", "source"};
+    texts.insert(texts.end(), others.begin(), others.end());
+    read_rows(&map, bind(surface_table(), surface), texts);
+    read_optional_text(map, "description", surface.description);
+    read_optional_text(map, "source", surface.source);
+}
+
+/// @param row  an entry of surfaces.yaml
+Surface surface_of(const YamlNode& row) {
+    Surface surface;
+    surface.name = row.key;
+    read_surface(row, {}, surface);
+    return surface;
+}
+
+std::string unknown_surface(const std::string& name, const YamlNode& all) {
+    std::vector<std::string> names;
+    for (const YamlNode& row : all.children) {
+        names.push_back(row.key);
+    }
+    return unknown_name(name, "surface", names);
+}
+
+/// The base's name as the scenario gives it; empty when it gives none.
+std::string base_of(const YamlNode& node) {
+    if (node.kind == YamlNode::Kind::scalar) {
+        return node.text;
+    }
+    const YamlNode* base = is_section(&node) ? node.find("base") : nullptr;
+    return base == nullptr ? "" : read_text(*base);
+}
+
+}  // namespace
+
+Airframe load_vehicle(const std::string& wanted, const fs::path& root) {
+    return load_vehicle_file(find_file(wanted, "vehicle", root / "vehicles"));
+}
+
+Airframe load_vehicle_file(const fs::path& file) {
+    const YamlNode root = parse_yaml_file(file);
+    Airframe airframe;
+    airframe.name = file.stem().string();
+    read_vehicle(root, false, airframe);
+    validate_at(root, airframe);
+    return airframe;
+}
+
+std::vector<Surface> load_surfaces(const fs::path& root) {
+    const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
+    std::vector<Surface> surfaces;
+    for (const YamlNode& row : all.children) {
+        surfaces.push_back(surface_of(row));
+    }
+    return surfaces;
+}
+
+Surface load_surface(const std::string& name, const fs::path& root) {
+    const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
+    const YamlNode* row = all.find(name);
+    if (row == nullptr) {
+        throw InputError(unknown_surface(name, all));
+    }
+    return surface_of(*row);
+}
+
+Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder) {
+    Airframe airframe;
+    if (const std::string base = base_of(node); !base.empty()) {
+        fs::path file;
+        try {
+            file = find_file(base, "vehicle", root / "vehicles");
+        } catch (const InputError& error) {
+            fail(node, error.what());
+        }
+        airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file);
+    }
+    if (node.kind == YamlNode::Kind::map) {
+        read_vehicle(node, true, airframe);
+        validate_at(node, airframe);
+    }
+    return airframe;
+}
+
+Surface surface_from(const YamlNode& node, const fs::path& root) {
+    Surface surface;
+    if (const std::string base = base_of(node); !base.empty()) {
+        const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
+        const YamlNode* row = all.find(base);
+        if (row == nullptr) {
+            fail(node, unknown_surface(base, all));
+        }
+        surface = surface_of(*row);
+    }
+    if (node.kind == YamlNode::Kind::map) {
+        read_surface(node, {"base", "name"}, surface);
+        read_optional_text(node, "name", surface.name);
+    }
+    return surface;
+}
+
+}  // namespace limpet

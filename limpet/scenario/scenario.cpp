@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/scenario.hpp"
+
+#include <array>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
+
+namespace limpet {
+
+std::string_view to_string(Mission mission) {
+    switch (mission) {
+        case Mission::hover: return "hover";
+        case Mission::perch: return "perch";
+        case Mission::perch_and_take_off: return "perch_and_take_off";
+    }
+    throw InternalError("mission out of range");
+}
+
+std::optional<Mission> mission_from(std::string_view name) {
+    for (const Mission mission :
+         std::array{Mission::hover, Mission::perch, Mission::perch_and_take_off}) {
+        if (to_string(mission) == name) {
+            return mission;
+        }
+    }
+    return std::nullopt;
+}
+
+const ParameterTable<SimulationParameters>& simulation_table() {
+    using S = SimulationParameters;
+    static const ParameterTable<S> table = {
+        {"time_limit_s", "s", 0.1, 3600.0, [](S& s) -> double& { return s.time_limit_s; },
+         "then the outcome is timed_out", "assumed: twice a slow flight"},
+        {"hover_s", "s", 0.1, 3600.0, [](S& s) -> double& { return s.hover_s; },
+         "how long mission hover hovers", "assumed: settles in 5 s"},
+        {"start_distance_m", "m", 0.6, 10.0, [](S& s) -> double& { return s.start_distance_m; },
+         "from the wall to the centre of mass",
+         "assumed: behind the pre-position, paper IV: 1.5 m"},
+        {"start_offset_m", "m", -5.0, 5.0, [](S& s) -> double& { return s.start_offset_m; },
+         "sideways, right of the heading", "assumed: something to correct"},
+        {"start_yaw_deg", "deg", -45.0, 45.0, [](S& s) -> double& { return s.start_yaw_deg; },
+         "nose right of the wall's normal", "assumed: beyond the paper's 2 deg"},
+        {"start_height_m", "m", 0.3, 100.0, [](S& s) -> double& { return s.start_height_m; },
+         "centre of mass above the ground", "assumed: indoor flights"},
+        {"contact_range_m", "m", 0.05, 10.0, [](S& s) -> double& { return s.contact_range_m; },
+         "legs closer to the wall than this: engine contacts on", "assumed: far beyond a step"},
+        {"touch_range_m", "m", 0.001, 1.0, [](S& s) -> double& { return s.touch_range_m; },
+         "lip closer to the wall than this and closing: sub-steps on",
+         "assumed: 16 steps ahead at 1.2 m/s"},
+        {"touch_transient_s", "s", 0.0, 3600.0, [](S& s) -> double& { return s.touch_transient_s; },
+         "sub-steps for so long after a touch or a release", "physics.md, baseline.md"},
+        {"step_s", "s", 1e-5, kTick_s, [](S& s) -> double& { return s.step_s; },
+         "plant step in free flight and while hanging; divides the tick of 1 ms",
+         "physics.md: stable and converged at 1 ms"},
+        {"touch_step_s", "s", 1e-5, kTick_s, [](S& s) -> double& { return s.touch_step_s; },
+         "plant step around a touch; divides step_s", "baseline.md: cup peak within 6 %"},
+        {"record_rate_Hz", "Hz", 1.0, 1000.0, [](S& s) -> double& { return s.record_rate_Hz; },
+         "true states in the recording, whole; sensors are recorded as they come",
+         "assumed: shows every mode of the vehicle"},
+        {"guidance_rate_Hz", "Hz", 1.0, 1000.0, [](S& s) -> double& { return s.guidance_rate_Hz; },
+         "guidance, whole", "assumed: offboard setpoints of a ROS node"},
+    };
+    return table;
+}
+
+const ParameterTable<WallSetup>& wall_table() {
+    using W = WallSetup;
+    static const ParameterTable<W> table = {
+        {"heading_deg", "deg", -360.0, 360.0, [](W& w) -> double& { return w.heading_deg; },
+         "direction of travel into the wall, from north, clockwise", "convention: to the north"},
+        {"lean_deg", "deg", -30.0, 30.0, [](W& w) -> double& { return w.lean_deg; },
+         "> 0: the top leans away from the vehicle", "paper: vertical"},
+        {"width_m", "m", 0.2, 100.0, [](W& w) -> double& { return w.width_m; },
+         "of the wall, half on each side of the line of flight", "assumed: wide enough"},
+        {"height_m", "m", 0.2, 100.0, [](W& w) -> double& { return w.height_m; },
+         "of the wall, half above and half below the start", "assumed: high enough"},
+    };
+    return table;
+}
+
+void lay_out(Scenario& scenario) {
+    const SimulationParameters& simulation = scenario.simulation;
+    const Matrix3 R_WH =
+        Eigen::AngleAxisd(radians(scenario.wall.heading_deg), Vector3::UnitZ()).toRotationMatrix();
+    // About y by a negative angle: x turns down, so that the outward normal turns up.
+    const Matrix3 R_HT =
+        Eigen::AngleAxisd(-radians(scenario.wall.lean_deg), Vector3::UnitY()).toRotationMatrix();
+    scenario.wall.plane = {.p_WT_m = R_WH.col(0) * simulation.start_distance_m,
+                           .R_WT = R_WH * R_HT,
+                           .half_width_m = 0.5 * scenario.wall.width_m,
+                           .half_height_m = 0.5 * scenario.wall.height_m};
+    scenario.start = {
+        .p_WB_m = R_WH.col(1) * simulation.start_offset_m,
+        .yaw_rad = wrap_pi(radians(scenario.wall.heading_deg + simulation.start_yaw_deg)),
+        .ground_z_W_m = simulation.start_height_m};
+}
+
+}  // namespace limpet

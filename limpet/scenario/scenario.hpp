@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/autopilot/parameters.hpp"
+#include "limpet/core/frames.hpp"
+#include "limpet/guidance/parameters.hpp"
+#include "limpet/sensors/parameters.hpp"
+#include "limpet/suction/cup.hpp"
+#include "limpet/suction/surface.hpp"
+#include "limpet/vehicle/airframe.hpp"
+#include "limpet/vehicle/model_writer.hpp"
+
+namespace limpet {
+
+enum class Mission {
+    hover,               ///< stay where it starts
+    perch,               ///< perch and rest
+    perch_and_take_off,  ///< perch, rest, take off, back to the pre-position
+};
+[[nodiscard]] std::string_view to_string(Mission mission);
+/// @return nullopt for a name that is none
+[[nodiscard]] std::optional<Mission> mission_from(std::string_view name);
+
+/// What the flight is set up with besides the rooms' own parameters.
+struct SimulationParameters {
+    double time_limit_s = 120.0;     ///< then the outcome is timed_out
+    double hover_s = 20.0;           ///< of mission hover
+    double start_distance_m = 2.2;   ///< from the wall to the centre of mass
+    double start_offset_m = 0.10;    ///< sideways, east of a wall to the north
+    double start_yaw_deg = 6.0;      ///< off the wall's normal
+    double start_height_m = 1.5;     ///< above the ground
+    double contact_range_m = 0.25;   ///< legs closer to the wall than this: engine contacts on
+    double touch_range_m = 0.02;     ///< lip closer than this and closing: sub-steps on
+    double touch_transient_s = 0.3;  ///< sub-steps for so long after a touch or a release
+    double step_s = 1e-3;            ///< plant step in free flight and while hanging
+    double touch_step_s = 2.5e-4;    ///< plant step around a touch
+    double record_rate_Hz = 100.0;   ///< of true states; sensors are recorded as they come
+    double guidance_rate_Hz = 50.0;
+};
+[[nodiscard]] const ParameterTable<SimulationParameters>& simulation_table();
+
+/// The wall: where, which way, of what.
+struct WallSetup {
+    bool present = false;      ///< `wall: none`, or no such key: there is none
+    double heading_deg = 0.0;  ///< direction of travel into the wall, from north, clockwise
+    double lean_deg = 0.0;     ///< > 0: the top leans away from the vehicle
+    double width_m = 4.0;
+    double height_m = 4.0;
+    WallPlane plane;  ///< made of the above, see lay_out()
+    Surface surface;
+    /// Surface met by the first, second, ... touch; `surface` after those.
+    std::vector<Surface> first_touches;
+};
+
+[[nodiscard]] const ParameterTable<WallSetup>& wall_table();
+
+/// Where the vehicle is when the flight begins.
+struct Start {
+    Vector3 p_WB_m = Vector3::Zero();
+    double yaw_rad = 0.0;
+    double ground_z_W_m = 1.5;  ///< W's z of the floor, down positive
+};
+
+/// One experiment, checked and immutable; nothing downstream reads YAML.
+struct Scenario {
+    std::string name;
+    std::string description;
+    std::filesystem::path path;
+    std::string yaml;  ///< the text with every override applied: flies the same again
+    std::uint64_t seed = 1;
+    Mission mission = Mission::perch_and_take_off;
+    Airframe airframe;
+    WallSetup wall;
+    Start start;
+    CupParameters cup;
+    SensorParameters sensors;
+    AutopilotParameters autopilot;
+    PerchingParameters guidance;
+    SimulationParameters simulation;
+};
+
+/// Fills `wall.plane` and `start` from the numbers of `wall` and `simulation`. W's origin is where
+/// the vehicle would start without the sideways offset; the wall's is start_distance_m ahead of it
+/// along the heading, at the same height.
+void lay_out(Scenario& scenario);
+
+}  // namespace limpet

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/sections.hpp"
+
+#include <algorithm>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+/// Takes the rows whose names begin with `prefix` out of `rows` and drops it from their names:
+/// `lidar_x_m` of the table is `lidar: {x_m: ...}` in the file.
+std::vector<BoundParameter> take_group(std::vector<BoundParameter>& rows, std::string_view prefix,
+                                       std::string_view suffix = {}) {
+    std::vector<BoundParameter> group;
+    std::vector<BoundParameter> rest;
+    for (BoundParameter& row : rows) {
+        if (row.name.substr(0, prefix.size()) == prefix) {
+            row.name.remove_prefix(prefix.size());
+            row.name.remove_suffix(suffix.size());
+            group.push_back(row);
+        } else {
+            rest.push_back(row);
+        }
+    }
+    rows = std::move(rest);
+    return group;
+}
+
+std::vector<BoundParameter> joined(std::vector<BoundParameter> first,
+                                   const std::vector<BoundParameter>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+}  // namespace
+
+std::vector<Section> vehicle_sections(Airframe& airframe) {
+    std::vector<BoundParameter> top = bind(airframe_table(), airframe);
+    std::vector<BoundParameter> inertia = take_group(top, "inertia_", "_kg_m2");
+    std::vector<BoundParameter> lidar = take_group(top, "lidar_");
+    std::vector<BoundParameter> pump = take_group(top, "pump_");
+    return {{"", std::move(top)},
+            {"inertia_kg_m2", std::move(inertia)},
+            {"lidar", std::move(lidar)},
+            {"pump", std::move(pump)},
+            {"rotor", bind(rotor_table(), airframe.rotor)},
+            {"slider", bind(slider_table(), airframe.slider)},
+            {"cup", bind(cup_mount_table(), airframe.cup)},
+            {"legs", bind(leg_table(), airframe.legs)},
+            {"battery", bind(battery_table(), airframe.battery)}};
+}
+
+std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
+    return {{"x_m", "m", -5.0, 5.0, &p_B_m.x(), "hub ahead of the centre of mass", "vehicle file"},
+            {"y_m", "m", -5.0, 5.0, &p_B_m.y(), "hub right of it", "vehicle file"}};
+}
+
+std::vector<Section> scenario_sections(Scenario& scenario) {
+    std::vector<Section> sections;
+    for (Section& section : vehicle_sections(scenario.airframe)) {
+        section.name = section.name.empty() ? "vehicle" : "vehicle." + section.name;
+        sections.push_back(std::move(section));
+    }
+    sections.push_back({"wall", bind(wall_table(), scenario.wall)});
+    sections.push_back({"wall.surface", bind(surface_table(), scenario.wall.surface)});
+    sections.push_back(
+        {"suction", joined(bind(cup_table(), scenario.cup), bind(lip_table(), scenario.cup.lip))});
+    sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
+    sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
+    sections.push_back({"sensors", bind(sensor_table(), scenario.sensors)});
+    sections.push_back({"simulation", bind(simulation_table(), scenario.simulation)});
+    return sections;
+}
+
+const Section& find_section(const std::vector<Section>& sections, std::string_view name) {
+    const auto found = std::find_if(sections.begin(), sections.end(),
+                                    [&](const Section& section) { return section.name == name; });
+    require(found != sections.end(), "the section is one of ours");
+    return *found;
+}
+
+}  // namespace limpet

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+
+/// Rows that stand together in a YAML text. The one place that says which table is read where:
+/// loader, writer, `limpet params` and the tests go through it.
+struct Section {
+    std::string name;  ///< dotted: "guidance", "vehicle.slider", "wall.surface"
+    std::vector<BoundParameter> rows;
+};
+
+/// Sections of a vehicle file; "" is its top. Positions of the rotors are a list, not a section.
+[[nodiscard]] std::vector<Section> vehicle_sections(Airframe& airframe);
+
+/// Place and direction of one rotor: an item of a vehicle's list `rotors`.
+[[nodiscard]] std::vector<BoundParameter> rotor_rows(Vector3& p_B_m);
+
+/// Sections of a scenario, each bound to its values in `scenario`.
+[[nodiscard]] std::vector<Section> scenario_sections(Scenario& scenario);
+
+/// @return the section of that name @throws InternalError when there is none
+[[nodiscard]] const Section& find_section(const std::vector<Section>& sections,
+                                          std::string_view name);
+
+}  // namespace limpet

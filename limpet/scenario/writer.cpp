@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/sections.hpp"
+
+namespace limpet {
+namespace {
+
+/// Double-quoted scalar, all in one line.
+std::string in_quotes(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+        } else {
+            out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+        }
+    }
+    return out + "\"";
+}
+
+class Writer {
+public:
+    void line(int indent, std::string_view text) {
+        fmt::format_to(std::back_inserter(text_), "{:{}}{}\n", "", 2 * indent, text);
+    }
+    void value(int indent, std::string_view key, std::string_view text) {
+        line(indent, fmt::format("{}: {}", key, text));
+    }
+    void rows(int indent, const std::vector<BoundParameter>& rows) {
+        for (const BoundParameter& row : rows) {
+            value(indent, row.name, number_text(*row.value));
+        }
+    }
+    [[nodiscard]] std::string take() { return std::move(text_); }
+
+private:
+    std::string text_;
+};
+
+void write_vehicle(Writer& writer, Airframe& airframe) {
+    writer.line(0, "vehicle:");
+    writer.value(1, "name", in_quotes(airframe.name));
+    writer.value(1, "description", in_quotes(airframe.description));
+    writer.value(1, "has_cup", airframe.has_cup ? "true" : "false");
+    for (const Section& section : vehicle_sections(airframe)) {
+        if (section.name.empty()) {
+            writer.rows(1, section.rows);
+        } else {
+            writer.line(1, section.name + ":");
+            writer.rows(2, section.rows);
+        }
+    }
+    writer.line(1, "rotors:");
+    for (std::size_t i = 0; i < kRotors; ++i) {
+        const Vector3& p_B_m = airframe.rotor_p_B_m[i];
+        writer.line(
+            2, fmt::format("- {{x_m: {}, y_m: {}, direction: {}}}", number_text(p_B_m.x()),
+                           number_text(p_B_m.y()), airframe.rotor_direction[i] > 0 ? "ccw" : "cw"));
+    }
+}
+
+/// @param first  of the lines: "surface:" or the dash of a list's item
+void write_surface(Writer& writer, int indent, std::string_view first, Surface surface) {
+    writer.line(indent, first);
+    writer.value(indent + 1, "name", in_quotes(surface.name));
+    writer.value(indent + 1, "description", in_quotes(surface.description));
+    writer.value(indent + 1, "source", in_quotes(surface.source));
+    writer.rows(indent + 1, bind(surface_table(), surface));
+}
+
+void write_wall(Writer& writer, WallSetup& wall) {
+    if (!wall.present) {
+        writer.value(0, "wall", "none");
+        return;
+    }
+    writer.line(0, "wall:");
+    writer.rows(1, bind(wall_table(), wall));
+    write_surface(writer, 1, "surface:", wall.surface);
+    if (!wall.first_touches.empty()) {
+        writer.line(1, "first_touches:");
+        for (const Surface& surface : wall.first_touches) {
+            write_surface(writer, 2, "-", surface);
+        }
+    }
+}
+
+/// Rows of a section but for those that would be derived alike.
+void write_section(Writer& writer, const Section& section, const Section& derived) {
+    writer.line(0, section.name + ":");
+    for (std::size_t i = 0; i < section.rows.size(); ++i) {
+        const BoundParameter& row = section.rows[i];
+        if (!is_derived(section.name, row.name) || *row.value != *derived.rows[i].value) {
+            writer.value(1, row.name, number_text(*row.value));
+        }
+    }
+}
+
+}  // namespace
+
+std::string to_yaml(const Scenario& scenario) {
+    Scenario copy = scenario;  // sections bind to what may be written
+    Scenario alike = scenario;
+    derive(alike);
+    Writer writer;
+    writer.value(0, "description", in_quotes(copy.description));
+    writer.value(0, "mission", to_string(copy.mission));
+    writer.value(0, "seed", fmt::format("{}", copy.seed));
+    write_vehicle(writer, copy.airframe);
+    write_wall(writer, copy.wall);
+    const std::vector<Section> sections = scenario_sections(copy);
+    const std::vector<Section> derived = scenario_sections(alike);
+    for (const std::string_view name :
+         {"suction", "guidance", "autopilot", "sensors", "simulation"}) {
+        write_section(writer, find_section(sections, name), find_section(derived, name));
+    }
+    return writer.take();
+}
+
+}  // namespace limpet

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/yaml_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+#include "limpet/scenario/suggestion.hpp"
+
+namespace limpet {
+namespace {
+
+/// What a node is, for "must be a number, is ...".
+std::string what_it_is(const YamlNode& node) {
+    switch (node.kind) {
+        case YamlNode::Kind::null: return "empty";
+        case YamlNode::Kind::scalar: return "\"" + shown(node.text) + "\"";
+        case YamlNode::Kind::list: return "a list";
+        case YamlNode::Kind::map: return "a section";
+    }
+    return "";
+}
+
+[[noreturn]] void fail_type(const YamlNode& node, std::string_view wanted) {
+    fail(node, fmt::format("must be {}, is {}", wanted, what_it_is(node)));
+}
+
+bool is_plain(const YamlNode& node) {
+    return node.kind == YamlNode::Kind::scalar && !node.quoted;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::optional<bool> flag_of(const YamlNode& node) {
+    const std::string word = is_plain(node) ? lower(node.text) : "";
+    return word == "true"    ? std::optional(true)
+           : word == "false" ? std::optional(false)
+                             : std::nullopt;
+}
+
+/// .nan, -.inf and how else people write them.
+bool is_not_finite(const std::string& text) {
+    std::string word = lower(text);
+    word.erase(0, word.find_first_not_of("+-."));
+    return word == "nan" || word == "inf" || word == "infinity";
+}
+
+/// Decimal only, and the same in every locale.
+std::optional<double> number_of(const std::string& text) {
+    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
+        return std::nullopt;
+    }
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    double value = 0.0;
+    stream >> value;
+    const bool overflow = stream.fail() && std::abs(value) > 1.0;
+    if (overflow || (!stream.fail() && stream.peek() == std::istringstream::traits_type::eof())) {
+        return value;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool is_section(const YamlNode* section) {
+    if (section == nullptr || section->kind == YamlNode::Kind::null) {
+        return false;
+    }
+    if (section->kind != YamlNode::Kind::map) {
+        fail_type(*section, "a section (key: value)");
+    }
+    return true;
+}
+
+void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
+                std::string_view ask) {
+    for (const YamlNode& child : map.children) {
+        if (std::find(allowed.begin(), allowed.end(), child.key) == allowed.end()) {
+            fail(child, "unknown key" + hint(child.key, allowed, ask));
+        }
+    }
+}
+
+double read_number(const YamlNode& node, const BoundParameter& row) {
+    const bool is_switch = row.minimum == 0.0 && row.maximum == 1.0;
+    if (is_switch) {
+        if (const auto flag = flag_of(node)) {
+            return *flag ? 1.0 : 0.0;
+        }
+    }
+    if (is_plain(node) && is_not_finite(node.text)) {
+        fail(node, fmt::format("{} is not a finite number, allowed {}", shown(node.text),
+                               allowed_text(row)));
+    }
+    const auto value = is_plain(node) ? number_of(node.text) : std::nullopt;
+    if (!value) {
+        fail_type(node, "a number");
+    }
+    if (!(*value >= row.minimum && *value <= row.maximum)) {
+        fail(node,
+             fmt::format("{} is out of range, allowed {}", shown(node.text), allowed_text(row)));
+    }
+    return *value;
+}
+
+std::string read_text(const YamlNode& node) {
+    if (node.kind != YamlNode::Kind::scalar) {
+        fail_type(node, "text");
+    }
+    return node.text;
+}
+
+bool read_flag(const YamlNode& node) {
+    const auto flag = flag_of(node);
+    if (!flag) {
+        fail_type(node, "true or false");
+    }
+    return *flag;
+}
+
+std::uint64_t read_count(const YamlNode& node) {
+    std::uint64_t value = 0;
+    const char* end = node.text.data() + node.text.size();
+    const auto result = std::from_chars(node.text.data(), end, value);
+    if (!is_plain(node) || result.ec != std::errc{} || result.ptr != end) {
+        fail_type(node, "a whole number 0..18446744073709551615");
+    }
+    return value;
+}
+
+void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
+               const std::vector<std::string_view>& others) {
+    if (!is_section(section)) {
+        return;
+    }
+    std::vector<std::string_view> allowed = others;
+    for (const BoundParameter& row : rows) {
+        allowed.push_back(row.name);
+    }
+    const std::string room = section->path.substr(0, section->path.find('.'));
+    check_keys(*section, allowed, fmt::format("`limpet params {}` lists what there is", room));
+    for (const BoundParameter& row : rows) {
+        if (const YamlNode* node = section->find(row.name)) {
+            *row.value = read_number(*node, row);
+        }
+    }
+}
+
+std::string number_text(double value) {
+    return fmt::format("{}", value);
+}
+
+std::string allowed_text(const BoundParameter& row) {
+    return fmt::format("{}..{}{}{}", number_text(row.minimum), number_text(row.maximum),
+                       row.unit == "-" ? "" : " ", row.unit == "-" ? "" : row.unit);
+}
+
+}  // namespace limpet

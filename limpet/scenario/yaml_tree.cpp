@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/yaml_tree.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr std::size_t kLargestFile_B = 1'000'000;
+constexpr std::size_t kLongestShown = 60;
+
+/// A command line has no lines worth counting.
+std::string place_of(const std::string& name, const YAML::Mark& mark) {
+    return name.rfind(kSet, 0) == 0 ? name : fmt::format("{}:{}", name, std::max(mark.line, 0) + 1);
+}
+
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    return text;
+}
+
+/// Builds the tree from yaml-cpp's events, which keep duplicate keys and marks apart.
+class TreeBuilder : public YAML::EventHandler {
+public:
+    explicit TreeBuilder(std::string name) : name_(std::move(name)) {}
+
+    void OnDocumentStart(const YAML::Mark& mark) override {
+        if (documents_++ > 0) {
+            refuse(mark, "holds more than one document");
+        }
+    }
+    void OnDocumentEnd() override {}
+    void OnAnchor(const YAML::Mark& mark, const std::string& /*anchor*/) override {
+        refuse(mark, "anchors (&name) are not supported");
+    }
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+        refuse(mark, "aliases (*name) are not supported");
+    }
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+        close(open(mark, YamlNode::Kind::null));
+    }
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
+                  const std::string& value) override {
+        if (expects_key()) {
+            take_key(mark, value);
+            return;
+        }
+        YamlNode node = open(mark, YamlNode::Kind::scalar, tag);
+        node.text = value;
+        node.quoted = tag == "!";
+        close(std::move(node));
+    }
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
+                         YAML::EmitterStyle::value /*style*/) override {
+        stack_.push_back(open(mark, YamlNode::Kind::list, tag));
+    }
+    void OnSequenceEnd() override { close_top(); }
+    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
+                    YAML::EmitterStyle::value /*style*/) override {
+        stack_.push_back(open(mark, YamlNode::Kind::map, tag));
+    }
+    void OnMapEnd() override { close_top(); }
+
+    [[nodiscard]] YamlNode take() { return std::move(root_); }
+
+private:
+    [[noreturn]] void refuse(const YAML::Mark& mark, std::string_view what) const {
+        throw InputError(fmt::format("{}: {}", place_of(name_, mark), what));
+    }
+
+    [[nodiscard]] bool expects_key() const {
+        return !stack_.empty() && stack_.back().kind == YamlNode::Kind::map && key_.empty();
+    }
+
+    void take_key(const YAML::Mark& mark, const std::string& key) {
+        const YamlNode& map = stack_.back();
+        if (key.empty()) {
+            refuse(mark, "a key is empty");
+        }
+        if (const YamlNode* first = map.find(key)) {
+            refuse(mark, fmt::format("{}: is given twice, first at {}", shown(first->path),
+                                     first->place));
+        }
+        key_ = key;
+        key_place_ = place_of(name_, mark);
+    }
+
+    YamlNode open(const YAML::Mark& mark, YamlNode::Kind kind, const std::string& tag = "?") {
+        if (expects_key()) {
+            refuse(mark, "a key must be a plain word, not a list or a section");
+        }
+        if (!tag.empty() && tag != "?" && tag != "!") {
+            refuse(mark, fmt::format("tags ({}) are not supported", shown(tag)));
+        }
+        YamlNode node;
+        node.kind = kind;
+        node.place = place_of(name_, mark);
+        if (!stack_.empty() && stack_.back().kind == YamlNode::Kind::map) {
+            const std::string& parent = stack_.back().path;
+            node.key = key_;
+            node.path = parent.empty() ? key_ : parent + "." + key_;
+            node.place = key_place_;
+            key_.clear();
+        } else if (!stack_.empty()) {
+            node.path = fmt::format("{}[{}]", stack_.back().path, stack_.back().children.size());
+        }
+        return node;
+    }
+
+    void close(YamlNode node) {
+        if (stack_.empty()) {
+            root_ = std::move(node);
+        } else {
+            stack_.back().children.push_back(std::move(node));
+        }
+    }
+
+    void close_top() {
+        YamlNode node = std::move(stack_.back());
+        stack_.pop_back();
+        close(std::move(node));
+    }
+
+    std::string name_;
+    std::string key_;
+    std::string key_place_;
+    std::vector<YamlNode> stack_;
+    YamlNode root_;
+    int documents_ = 0;
+};
+
+/// Control characters, among them the zeros of a binary file, are in no text that a human wrote.
+bool is_text(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 0x20 ? byte != 0x7f : c == '\n' || c == '\r' || c == '\t';
+    });
+}
+
+std::string read_file(const std::filesystem::path& path, const std::string& name) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        throw InputError(name + ": is a directory, not a file");
+    }
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    }
+    std::string text(kLargestFile_B + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad()) {
+        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    }
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kLargestFile_B) {
+        throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
+    }
+    return text;
+}
+
+}  // namespace
+
+const YamlNode* YamlNode::find(std::string_view name) const {
+    if (kind != Kind::map) {
+        return nullptr;
+    }
+    const auto found = std::find_if(children.begin(), children.end(),
+                                    [&](const YamlNode& child) { return child.key == name; });
+    return found == children.end() ? nullptr : &*found;
+}
+
+YamlNode parse_yaml(const std::string& text, const std::string& name) {
+    if (!is_text(text)) {
+        throw InputError(name + ": is not a text file");
+    }
+    TreeBuilder builder(name);
+    try {
+        std::istringstream stream(text);
+        YAML::Parser parser(stream);
+        while (parser.HandleNextDocument(builder)) {
+        }
+    } catch (const YAML::Exception& error) {
+        throw InputError(fmt::format("{}: is not valid YAML: {} (column {})",
+                                     place_of(name, error.mark), error.msg,
+                                     std::max(error.mark.column, 0) + 1));
+    }
+    YamlNode root = builder.take();
+    if (root.kind == YamlNode::Kind::null) {
+        throw InputError(name + ": is empty");
+    }
+    root.place = name;  // what is wrong with the whole is in no line
+    return root;
+}
+
+YamlNode parse_yaml_file(const std::filesystem::path& path) {
+    const std::string name = shown_path(path);
+    return parse_yaml(read_file(path, name), name);
+}
+
+std::string shown_path(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto relative = std::filesystem::proximate(path, error);
+    const bool outside = error || relative.empty() || *relative.begin() == "..";
+    return one_line(outside ? path.string() : relative.string());
+}
+
+std::string shown(std::string_view text) {
+    if (text.size() <= kLongestShown) {
+        return one_line(std::string(text));
+    }
+    std::size_t cut = kLongestShown;
+    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) {
+        --cut;  // not within a character of UTF-8
+    }
+    return one_line(std::string(text.substr(0, cut))) + "...";
+}
+
+void fail(const YamlNode& node, std::string_view what) {
+    const bool told =
+        node.path.empty() || node.place.rfind(std::string(kSet) + node.path + "=", 0) == 0;
+    throw InputError(told ? fmt::format("{}: {}", node.place, what)
+                          : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
+}
+
+}  // namespace limpet

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/vehicle/airframe.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+
+namespace {
+
+constexpr double kRodRadius_m = 0.01;
+
+/// Inertia about the origin of B of a body whose own is about its centre (Steiner).
+Matrix3 about_origin(const BodyInertia& body) {
+    const Matrix3 arm = skew(body.centre_B_m);
+    return body.inertia_kg_m2 - body.mass_kg * arm * arm;
+}
+
+/// @throws InputError unless some real body has this mass and inertia
+void require_physical(const std::string& what, double mass_kg, const Matrix3& inertia_kg_m2) {
+    if (!(mass_kg > 0.0)) {
+        throw InputError(fmt::format("{}: mass_kg is {}, must be > 0", what, mass_kg));
+    }
+    const Vector3 principal =
+        Eigen::SelfAdjointEigenSolver<Matrix3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
+    if (!(principal[0] > 0.0) || !(principal[0] + principal[1] >= principal[2])) {
+        throw InputError(fmt::format(
+            "{}: principal inertias are {:.4g}, {:.4g} and {:.4g} kg m2, must be > 0 and the two "
+            "smaller ones together at least the largest",
+            what, principal[0], principal[1], principal[2]));
+    }
+}
+
+}  // namespace
+
+void validate(const Airframe& airframe) {
+    for (int i = 0; i < kRotors; ++i) {
+        const auto index = static_cast<std::size_t>(i);
+        const double z_m = airframe.rotor_p_B_m[index].z();
+        if (!(std::abs(z_m + airframe.rotor.height_m) <= 1e-9)) {
+            throw InputError(fmt::format("{}: rotor {}: z_m is {}, must be -height_m = {}",
+                                         airframe.name, i, z_m, -airframe.rotor.height_m));
+        }
+        if (std::abs(airframe.rotor_direction[index]) != 1) {
+            throw InputError(fmt::format("{}: rotor {}: direction is {}, must be +1 or -1",
+                                         airframe.name, i, airframe.rotor_direction[index]));
+        }
+    }
+    require_physical(airframe.name, airframe.mass_kg, airframe.inertia_kg_m2.asDiagonal());
+    if (!airframe.has_cup) {
+        return;
+    }
+    const BodyInertia cup = cup_inertia(airframe);
+    const BodyInertia carriage = carriage_inertia(airframe);
+    require_physical(airframe.name + ": cup", cup.mass_kg, cup.inertia_kg_m2);
+    require_physical(airframe.name + ": carriage", carriage.mass_kg, carriage.inertia_kg_m2);
+    const BodyInertia base = base_inertia(airframe);
+    require_physical(airframe.name + ": base (the whole less slider and cup)", base.mass_kg,
+                     base.inertia_kg_m2);
+}
+
+BodyInertia carriage_inertia(const Airframe& airframe) {
+    const double mass_kg = airframe.slider.mass_kg;
+    const double length_m = 2.0 * airframe.slider.travel_m;
+    const double along = 0.5 * mass_kg * kRodRadius_m * kRodRadius_m;
+    const double across =
+        mass_kg * (length_m * length_m / 12.0 + kRodRadius_m * kRodRadius_m / 4.0);
+    return {.mass_kg = mass_kg,
+            .centre_B_m = {airframe.cup.joint_x_m - 0.5 * length_m, 0.0, airframe.cup.joint_z_m},
+            .inertia_kg_m2 = Vector3(along, across, across).asDiagonal()};
+}
+
+BodyInertia cup_inertia(const Airframe& airframe) {
+    const CupMountParameters& cup = airframe.cup;
+    const double along = 0.5 * cup.mass_kg * cup.radius_m * cup.radius_m;
+    const double across = 0.5 * along + cup.mass_kg * cup.lip_offset_m * cup.lip_offset_m / 12.0;
+    return {.mass_kg = cup.mass_kg,
+            .centre_B_m = {cup.joint_x_m + cup.mass_offset_m, 0.0, cup.joint_z_m},
+            .inertia_kg_m2 = Vector3(along, across, across).asDiagonal()};
+}
+
+BodyInertia base_inertia(const Airframe& airframe) {
+    BodyInertia base{.mass_kg = airframe.mass_kg,
+                     .centre_B_m = Vector3::Zero(),
+                     .inertia_kg_m2 = airframe.inertia_kg_m2.asDiagonal()};
+    if (!airframe.has_cup) {
+        return base;
+    }
+    Vector3 moment_kg_m = Vector3::Zero();
+    for (const BodyInertia& part : {carriage_inertia(airframe), cup_inertia(airframe)}) {
+        base.mass_kg -= part.mass_kg;
+        moment_kg_m -= part.mass_kg * part.centre_B_m;
+        base.inertia_kg_m2 -= about_origin(part);
+    }
+    base.centre_B_m = moment_kg_m / base.mass_kg;
+    const Matrix3 arm = skew(base.centre_B_m);
+    base.inertia_kg_m2 += base.mass_kg * arm * arm;
+    return base;
+}
+
+SliderForce slider_force(const SliderParameters& slider, double position_m, double velocity_m_s) {
+    SliderForce force;
+    force.spring_N =
+        slider.preload_N - slider.stiffness_N_m * position_m - slider.damping_N_s_m * velocity_m_s;
+    // A stop is a bumper, not a magnet: it only pushes back into the travel.
+    const double inner_m = position_m + slider.travel_m;
+    if (position_m > 0.0) {
+        force.stop_N = std::min(0.0, -slider.stop_stiffness_N_m * position_m -
+                                         slider.stop_damping_N_s_m * velocity_m_s);
+    } else if (inner_m < 0.0) {
+        force.stop_N = std::max(
+            0.0, -slider.stop_stiffness_N_m * inner_m - slider.stop_damping_N_s_m * velocity_m_s);
+    }
+    return force;
+}
+
+}  // namespace limpet

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/vehicle/rotor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+double steady_speed_rad_s(const RotorParameters& rotor, double command) {
+    return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * std::clamp(command, 0.0, 1.0);
+}
+
+}  // namespace
+
+double motor_constant_kg_m(double thrust_coefficient, double density_kg_m3, double diameter_m) {
+    return thrust_coefficient * density_kg_m3 * std::pow(diameter_m, 4) / (4.0 * kPi * kPi);
+}
+
+double moment_constant_m(double torque_coefficient, double thrust_coefficient, double diameter_m) {
+    return torque_coefficient / thrust_coefficient * diameter_m;
+}
+
+RotorsState spinning(const RotorParameters& rotor, double command) {
+    const double asked_rad_s = steady_speed_rad_s(rotor, command);
+    RotorsState state;
+    for (auto& asked : state.asked_rad_s) {
+        asked.fill(asked_rad_s);
+    }
+    state.speed_rad_s.fill(std::min(asked_rad_s, rotor.speed_max_rad_s));
+    return state;
+}
+
+double hover_command(const Airframe& airframe) {
+    const double thrust_N = airframe.mass_kg * kGravity_m_s2 / kRotors;
+    const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.motor_constant_kg_m);
+    return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
+}
+
+void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& command,
+          double dt_s, double voltage_share) {
+    const auto delay = static_cast<std::size_t>(std::lround(rotor.command_delay_s / dt_s));
+    require(delay < kCommandDelaySteps, "the rotors' dead time fits their delay line");
+    for (std::size_t i = 0; i < kRotors; ++i) {
+        state.asked_rad_s[state.next][i] =
+            command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
+    }
+    const auto& asked_rad_s =
+        state.asked_rad_s[(state.next + kCommandDelaySteps - delay) % kCommandDelaySteps];
+    state.next = (state.next + 1) % kCommandDelaySteps;
+
+    const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
+    const double keep_up = std::exp(-dt_s / rotor.time_constant_up_s);
+    const double keep_down = std::exp(-dt_s / rotor.time_constant_down_s);
+    for (std::size_t i = 0; i < kRotors; ++i) {
+        const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
+        const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
+        state.speed_rad_s[i] =
+            target_rad_s + error_rad_s * (error_rad_s < 0.0 ? keep_up : keep_down);
+    }
+}
+
+Wrench rotor_wrench_B(const Airframe& airframe, const RotorsState& state, const Kinematics& base,
+                      const Vector3& wind_W_m_s) {
+    const RotorParameters& rotor = airframe.rotor;
+    const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
+    Wrench sum;
+    for (std::size_t i = 0; i < kRotors; ++i) {
+        const double speed_rad_s = state.speed_rad_s[i];
+        const double direction = airframe.rotor_direction[i];
+        const Vector3& p_B_m = airframe.rotor_p_B_m[i];
+        const Vector3 v_m_s = v_air_B_m_s + base.w_WF_F_rad_s.cross(p_B_m);
+        const Vector3 v_perp_m_s(v_m_s.x(), v_m_s.y(), 0.0);
+
+        const double still_thrust_N =
+            rotor.motor_constant_kg_m * speed_rad_s * std::abs(speed_rad_s);
+        const double left =
+            std::clamp(1.0 - std::abs(v_m_s.z()) / rotor.axial_loss_speed_m_s, 0.0, 1.0);
+        Vector3 force_N = -std::abs(speed_rad_s) * rotor.drag_constant_kg * v_perp_m_s;
+        force_N.z() = -still_thrust_N * left;
+
+        // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
+        Vector3 moment_N_m =
+            -std::abs(speed_rad_s) * direction * rotor.rolling_constant_kg_m * v_perp_m_s;
+        moment_N_m.z() = direction * rotor.moment_constant_m * still_thrust_N;
+
+        sum.force_N += force_N;
+        sum.moment_N_m += p_B_m.cross(force_N) + moment_N_m;
+    }
+    return sum;
+}
+
+double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state) {
+    double cubes = 0.0;
+    for (const double speed_rad_s : state.speed_rad_s) {
+        cubes += std::abs(speed_rad_s) * speed_rad_s * speed_rad_s;
+    }
+    return rotor.moment_constant_m * rotor.motor_constant_kg_m * cubes;
+}
+
+}  // namespace limpet

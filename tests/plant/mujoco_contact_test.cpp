@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "plants.hpp"
+
+namespace limpet {
+namespace {
+
+TEST(Ray, MeasuresTheDistanceToASlantedWall) {
+    Scene scene = test::wall_ahead();
+    scene.wall.q_WT = quaternion_from_euler({.yaw_rad = radians(20.0)});
+    MujocoPlant plant(test::compile(Airframe{}, scene));
+    // The wall's plane through (1.5, 0) with normal (cos 20, sin 20): along x from y = +-0.2 it is
+    // 1.5 -+ 0.2 tan 20 away. The vehicle, in the way, is transparent.
+    const Vector3 north(1.0, 0.0, 0.0);
+    const double slant = 0.2 * std::tan(radians(20.0));
+    EXPECT_NEAR(plant.ray({0.0, 0.2, 0.0}, north).value(), 1.5 - slant, 1e-12);
+    EXPECT_NEAR(plant.ray({0.0, -0.2, 0.0}, north).value(), 1.5 + slant, 1e-12);
+    const Vector3 square_on = scene.wall.q_WT * north;
+    EXPECT_NEAR(plant.ray(Vector3::Zero(), square_on).value(), 1.5 * std::cos(radians(20.0)),
+                1e-12);
+}
+
+TEST(Ray, MissesWhatIsNotThere) {
+    MujocoPlant plant(test::compile(Airframe{}));
+    EXPECT_FALSE(plant.ray(Vector3::Zero(), -Vector3::UnitX()));
+    EXPECT_FALSE(plant.ray({0.0, 2.01, 0.0}, Vector3::UnitX()));
+    EXPECT_TRUE(plant.ray({0.0, 1.99, 0.0}, Vector3::UnitX()));
+    EXPECT_FALSE(plant.ray({0.0, 0.0, -2.01}, Vector3::UnitX()));
+    EXPECT_FALSE(plant.ray(Vector3::Zero(), -Vector3::UnitZ()));
+}
+
+TEST(Ray, FindsTheGroundBelow) {
+    MujocoPlant plant(test::compile(Airframe{}));
+    EXPECT_NEAR(plant.ray({0.0, 0.0, 1.0}, Vector3::UnitZ()).value(), 9.0, 1e-12);
+}
+
+TEST(Ray, NeedsNoWall) {
+    Scene scene = test::wall_ahead();
+    scene.wall.present = false;
+    MujocoPlant plant(test::compile(Airframe{}, scene));
+    EXPECT_FALSE(plant.ray(Vector3::Zero(), Vector3::UnitX()));
+}
+
+/// Weightless in front of the wall, nose up by 60 deg, leg tips just off it; pushed towards it
+/// through the middle of the tips.
+struct LegsOnWall {
+    Airframe airframe;
+    MujocoPlant plant{test::compile(airframe)};
+    Vector3 tips_B{airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m};
+
+    LegsOnWall() {
+        const Quaternion q_WB = quaternion_from_euler({.pitch_rad = radians(60.0)});
+        const double reach_m = (q_WB * tips_B).x() + airframe.legs.tip_radius_m;
+        plant.set_pose({1.5 - reach_m - 1e-4, 0.0, 0.0}, q_WB);
+    }
+
+    void step(double push_N, const StepMode& mode) {
+        const Kinematics base = plant.kinematics(Body::base);
+        plant.apply_slider(
+            slider_force(airframe.slider, plant.slider().position_m, plant.slider().velocity_m_s)
+                .stop_N);
+        plant.apply(Body::base,
+                    {.force_N = {0.0, 0.0, -airframe.mass_kg * kGravity_m_s2},
+                     .moment_N_m = Vector3::Zero()},
+                    base.p_WF_m);
+        plant.apply(Body::base, {.force_N = {push_N, 0.0, 0.0}, .moment_N_m = Vector3::Zero()},
+                    {base.p_WF_m.x(), base.p_WF_m.y(), (base.p_WF_m + base.q_WF * tips_B).z()});
+        plant.step(mode);
+    }
+};
+
+TEST(Contact, LegsCarryThePush) {
+    LegsOnWall legs;
+    Vector3 impulse_N_s = Vector3::Zero();
+    for (int i = 0; i < 400; ++i) {
+        legs.step(20.0, {.step_s = 1e-3, .contacts = true});
+        impulse_N_s += 1e-3 * legs.plant.contact_force_W();
+    }
+    EXPECT_NEAR(legs.plant.contact_force_W().x(), -20.0, 1.5);
+    EXPECT_NEAR(impulse_N_s.x(), -20.0 * 0.4, 0.15);
+    EXPECT_NEAR(impulse_N_s.y(), 0.0, 1e-9);
+    const Kinematics base = legs.plant.kinematics(Body::base);
+    const double tip_x = (base.p_WF_m + base.q_WF * legs.tips_B).x();
+    EXPECT_NEAR(tip_x, 1.5 - legs.airframe.legs.tip_radius_m, 1e-3);
+}
+
+TEST(Contact, CanBeSwitchedOff) {
+    LegsOnWall legs;
+    for (int i = 0; i < 200; ++i) {
+        legs.step(20.0, {.step_s = 1e-3, .contacts = false});
+        ASSERT_EQ(legs.plant.contact_force_W(), Vector3::Zero());
+    }
+    const Kinematics base = legs.plant.kinematics(Body::base);
+    EXPECT_GT((base.p_WF_m + base.q_WF * legs.tips_B).x(), 1.55);
+}
+
+TEST(Contact, SwitchedOnItIsFeltInTheVeryNextStep) {
+    LegsOnWall legs;
+    while ((legs.plant.kinematics(Body::base).p_WF_m +
+            legs.plant.kinematics(Body::base).q_WF * legs.tips_B)
+               .x() < 1.49) {
+        legs.step(20.0, {.step_s = 1e-3, .contacts = false});
+    }
+    legs.step(20.0, {.step_s = 1e-3, .contacts = true});
+    EXPECT_LT(legs.plant.contact_force_W().x(), 0.0);
+}
+
+}  // namespace
+}  // namespace limpet

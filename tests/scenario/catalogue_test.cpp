@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/catalogue.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/scenario/test_data.hpp"
+
+namespace limpet {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::Field;
+
+auto entry(const std::string& name, const std::string& description) {
+    return ::testing::AllOf(Field(&CatalogueEntry::name, name),
+                            Field(&CatalogueEntry::description, description));
+}
+
+TEST(Catalogue, ListsWhatThereIsInOrder) {
+    const TestData data;
+    data.write("scenarios/another.yaml", "description: one more\nmission: hover\n");
+    data.write("scenarios/README.md", "not a scenario");
+    EXPECT_THAT(list_scenarios(data.root()),
+                ElementsAre(entry("another", "one more"), entry("first", "the first")));
+    EXPECT_THAT(list_vehicles(data.root()), ElementsAre(entry("small", "a small one")));
+    EXPECT_THAT(list_surfaces(data.root()),
+                ElementsAre(entry("stone", "grey"), entry("glass", "clear")));
+}
+
+TEST(Catalogue, ListsABrokenFileWithItsFault) {
+    const TestData data;
+    const std::string path = data.write("scenarios/broken.yaml", "");
+    EXPECT_THAT(list_scenarios(data.root()),
+                ElementsAre(entry("broken", path + ": is empty"), entry("first", "the first")));
+}
+
+TEST(Catalogue, FindsNoFolderEmpty) {
+    EXPECT_TRUE(list_scenarios("/no/such/folder").empty());
+}
+
+TEST(Catalogue, TakesSurfacesByName) {
+    const TestData data;
+    EXPECT_EQ(load_surface("glass", data.root()).pump_cycles, 1.0);
+    EXPECT_EQ(error_of([&] { return load_surface("glas", data.root()); }),
+              "\"glas\": no such surface (did you mean glass?); there are stone, glass");
+}
+
+TEST(Catalogue, PrintsTheRowsOfARoom) {
+    const auto vehicle = parameters_of("vehicle");
+    const auto slider = parameters_of("vehicle.slider");
+    EXPECT_GT(vehicle.size(), slider.size());
+    ASSERT_FALSE(slider.empty());
+    EXPECT_EQ(slider[0].name, "stiffness_N_m");
+    EXPECT_EQ(slider[0].default_value, 500.0);
+    EXPECT_EQ(parameters_of("guidance").size(), perching_table().size());
+    EXPECT_EQ(error_of([] { return parameters_of("guidence"); }).substr(0, 50),
+              "\"guidence\": no such room (did you mean guidance?);");
+}
+
+TEST(Catalogue, ChecksAnyOfItsFiles) {
+    const TestData data;
+    const auto check = [&](const char* name) {
+        return std::string(to_string(check_file(data.root() / name, data.root())));
+    };
+    EXPECT_EQ(check("scenarios/first.yaml"), "scenario");
+    EXPECT_EQ(check("vehicles/small.yaml"), "vehicle");
+    EXPECT_EQ(check("surfaces.yaml"), "surfaces");
+    data.write("surfaces.yaml", "stone: {friction: -1}\n");
+    EXPECT_NE(error_of([&] { return check("surfaces.yaml"); }), "");
+    data.write("vehicles/small.yaml", "mass_kg: -1\n");
+    EXPECT_NE(error_of([&] { return check("vehicles/small.yaml"); }), "");
+    EXPECT_NE(error_of([&] { return check("scenarios/first.yaml"); }), "");
+}
+
+TEST(DataRoot, IsWhereTheEnvironmentSays) {
+    const TestData data;
+    ::setenv("LIMPET_DATA", data.root().c_str(), 1);
+    EXPECT_EQ(data_root(), data.root());
+    ::setenv("LIMPET_DATA", "/no/such/folder", 1);
+    EXPECT_EQ(error_of([] { return data_root(); }),
+              "LIMPET_DATA=/no/such/folder: holds no surfaces.yaml");
+    ::unsetenv("LIMPET_DATA");
+    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SOURCE_DIR));
+}
+
+}  // namespace
+}  // namespace limpet
