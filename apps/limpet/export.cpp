@@ -2,14 +2,12 @@
 #include <fmt/core.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
-#include "limpet/core/errors.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/vehicle/model_writer.hpp"
+#include "output.hpp"
 #include "verbs.hpp"
 
 namespace limpet::app {
@@ -38,22 +36,6 @@ std::string model_text(const ExportOptions& options) {
         scene.wall.p_WT_m.x() = 1.7;  // about the pre-position, before it
     }
     return write_mjcf(airframe, scene);
-}
-
-/// Whole or not at all.
-void write_file(const std::filesystem::path& path, const std::string& text) {
-    const std::filesystem::path part = path.string() + ".part";
-    std::ofstream file(part, std::ios::binary);
-    file << text;
-    file.close();
-    std::error_code error;
-    if (file) {
-        std::filesystem::rename(part, path, error);
-    }
-    if (!file || error) {
-        std::filesystem::remove(part, error);
-        throw InputError("--out " + path.string() + ": cannot be written");
-    }
 }
 
 }  // namespace

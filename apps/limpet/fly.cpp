@@ -15,7 +15,7 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
-#include "output_folder.hpp"
+#include "output.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

@@ -11,7 +11,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
-#include "output_folder.hpp"
+#include "output.hpp"
 #include "verbs.hpp"
 
 namespace limpet::app {
@@ -76,9 +76,16 @@ void add_film(CLI::App& app, ExitCode& code) {
 }
 
 void add_csv(CLI::App& app, ExitCode& code) {
-    add_verb(app, code, "csv", "Write a recording as CSV, a file a topic",
+    add_verb(app, code, "csv",
+             "Write a recording as CSV, a file a topic, and the files attached to it",
              [](const Recording& recording, const std::filesystem::path& folder) {
-                 return Pictures{.files = write_csv(recording, folder / "csv"), .missing = {}};
+                 Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
+                 for (const mcap::Attachment& attachment : recording.attachments) {
+                     const auto path = folder / "csv" / attachment.name;
+                     write_file(path, attachment.text);
+                     written.files.push_back(path);
+                 }
+                 return written;
              });
 }
 

@@ -14,12 +14,10 @@
 namespace limpet {
 namespace {
 
-using gnuplot::single_quoted;
-
 // Restrained, told apart by lightness as well as by hue (Okabe and Ito's set, toned down).
 constexpr const char* kInk = "#222B33";
 constexpr const char* kFaint = "#6B7680";
-constexpr const char* kGrid = "#E4E8EC";
+constexpr const char* kGrid = "#DDE2E7";
 constexpr const char* kShade = "#F4F6F8";
 constexpr const char* kEventLine = "#B4BDC6";
 constexpr const char* kWarning = "#B3261E";
@@ -50,7 +48,7 @@ Pen pen_of(Trace trace) {
         case Trace::measured: return {"#6FA8D6", 1.8};
         case Trace::measured_2: return {"#D98E04", 1.2};
         case Trace::truth: return {"#0B3C5D", 1.6};
-        case Trace::estimated: return {"#F0A35E", 3.2};
+        case Trace::estimated: return {"#F0A35E", 2.8};
     }
     throw InternalError("trace out of range");
 }
@@ -70,8 +68,7 @@ struct Layout {
     double panels_top_px = 0.0;
 
     [[nodiscard]] double plot_top_px(std::size_t panel) const {
-        return panels_top_px + kHeader_px +
-               static_cast<double>(panel) * (kHeader_px + kPlot_px);
+        return panels_top_px + kHeader_px + static_cast<double>(panel) * (kHeader_px + kPlot_px);
     }
     [[nodiscard]] double plot_bottom_px(std::size_t panel) const {
         return plot_top_px(panel) + kPlot_px - kBelow_px;
@@ -96,7 +93,8 @@ public:
     [[nodiscard]] std::string body() {
         add("set multiplot\nset encoding utf8\nunset key\nset tics scale 0.4\n");
         add("set border 3 lc rgb '{}' lw 0.8\n", kFaint);
-        add("set tics nomirror textcolor rgb '{}'\nset grid lt 1 lc rgb '{}' lw 0.8\n", kInk, kGrid);
+        add("set tics nomirror textcolor rgb '{}'\nset grid lt 1 lc rgb '{}' lw 0.8\n", kInk,
+            kGrid);
         title();
         ribbon();
         events();
@@ -120,8 +118,8 @@ private:
 
     void label(double x_px, double y_px, const std::string& text, double size_px,
                const std::string& colour, const char* options = "left noenhanced") {
-        add("set label {} at {} {} font 'DejaVu Sans,{}' textcolor rgb '{}' front\n", single_quoted(text),
-            at(x_px, y_px), options, size_px, colour);
+        add("set label {} at {} {} font 'DejaVu Sans,{}' textcolor rgb '{}' front\n",
+            gnuplot::literal(text), at(x_px, y_px), options, size_px, colour);
     }
 
     void line(double x0_px, double y0_px, double x1_px, double y1_px, const char* colour,
@@ -275,15 +273,15 @@ std::string figure_data(const Figure& figure) {
 std::string figure_script(const Figure& figure, const std::string& stem) {
     const Layout layout = layout_of(figure);
     const std::string body = Script(figure, layout).body();
-    const std::string size =
-        fmt::format("size {},{} font 'DejaVu Sans,{}' background '#FFFFFF'",
-                    layout.page.width_px, layout.page.height_px, kFont_px);
+    const std::string size = fmt::format("size {},{} font 'DejaVu Sans,{}' background '#FFFFFF'",
+                                         layout.page.width_px, layout.page.height_px, kFont_px);
     const std::string data = fmt::format("DATA = '{}.txt'\n", stem);
     return data +
            // Fonts are measured in points of 1/72 in at 96 dpi there, in pixels here.
-           fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size, stem) +
-           body +
-           fmt::format("reset\nset terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
+           fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size,
+                       stem) +
+           body + fmt::format("reset\nset terminal svg {}\nset output '{}.svg'\n", size, stem) +
+           body;
 }
 
 }  // namespace limpet

@@ -30,8 +30,8 @@ std::string subtitle_of(const Summary& summary) {
 Figure make_figure(const Recording& recording, const Chapter& chapter) {
     const Summary facts = summary(recording);
     Figure figure;
-    figure.title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
-                               chapter.title);
+    figure.title =
+        fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario, chapter.title);
     figure.subtitle = subtitle_of(facts);
     if (!recording.damage.empty()) {
         // What closes a recording is its summary: where that is, the end is not what is missing.
@@ -55,7 +55,8 @@ Figure make_figure(const Recording& recording, const Chapter& chapter) {
     std::stable_sort(figure.events.begin(), figure.events.end(),
                      [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
     for (const Phase& phase : phases(recording)) {
-        if (phase.window.to_s > chapter.window.from_s && phase.window.from_s < chapter.window.to_s) {
+        if (phase.window.to_s > chapter.window.from_s &&
+            phase.window.from_s < chapter.window.to_s) {
             figure.phases.push_back(phase);
         }
     }
@@ -92,11 +93,7 @@ Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
                                                                 "or distance was recorded"
                                                               : recording.damage));
     }
-    Pictures pictures{publish(drawn, folder), missing_topics(recording)};
-    if (!recording.damage.empty()) {
-        pictures.missing.insert(pictures.missing.begin(), recording.damage);
-    }
-    return pictures;
+    return {publish(drawn, folder), missing_topics(recording)};
 }
 
 }  // namespace limpet

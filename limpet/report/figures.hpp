@@ -9,8 +9,8 @@
 namespace limpet {
 
 /// Draws a flight against time as in the paper's Figs. 11 to 15: cup pressure, pitch, force through
-/// the slider, thrust and distance to the wall over a common time axis, with the flight's events and
-/// the states of guidance. PNG and SVG of each: `overview`, and when they happened `perching`,
+/// the slider, thrust and distance to the wall over a common time axis, with the flight's events
+/// and the states of guidance. PNG and SVG of each: `overview`, and when they happened `perching`,
 /// `take_off`, `failed_attempt` (story.hpp says what each shows). A panel without data is left out.
 /// A damaged recording is drawn as far as it goes and its figures say so.
 /// @param folder  made when it is not there

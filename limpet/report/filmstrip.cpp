@@ -81,9 +81,9 @@ void paste(const Image& image, int left_px, int top_px, Image& canvas) {
 
 Image blank(const Page& page) {
     Image image{page.width_px, page.height_px, {}};
-    image.rgb.assign(3u * static_cast<std::size_t>(page.width_px) *
-                         static_cast<std::size_t>(page.height_px),
-                     0xFF);
+    image.rgb.assign(
+        3u * static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px),
+        0xFF);
     return image;
 }
 
@@ -92,7 +92,7 @@ std::string label(const Page& page, double x_px, double y_px, const std::string&
     return fmt::format(
         "set label {} at screen {:.5f}, screen {:.5f} left font 'DejaVu Sans{},{}' textcolor rgb "
         "'{}' front\n",
-        gnuplot::single_quoted(text), page.x(x_px), page.y(y_px), face, size, colour);
+        gnuplot::literal(text), page.x(x_px), page.y(y_px), face, size, colour);
 }
 
 /// The photographs go as raw pixels, the letters by gnuplot over them.
@@ -110,8 +110,8 @@ std::string script_of(const Recording& recording, const std::vector<Moment>& mom
         const double x = sheet.left_px(i), y = sheet.top_px(i) + kFrameHeight_px;
         script += label(page, x + 2.0, y + 22.0, fmt::format("{}  {}", i + 1, moments[i].name), 20,
                         "#222B33");
-        script += label(page, x + 2.0, y + 52.0, caption_at(recording, moments[i].time_s), 18,
-                        "#6B7680");
+        script +=
+            label(page, x + 2.0, y + 52.0, caption_at(recording, moments[i].time_s), 18, "#6B7680");
     }
     script += fmt::format(
         "plot '{}.rgb' binary array=({},{}) flipy format='%uchar%uchar%uchar' using 1:2:3 with "
@@ -163,8 +163,8 @@ Pictures film(const Recording& recording, const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> made;
     const auto make = [&](const std::vector<Moment>& moments, const char* what, const char* stem) {
         if (!moments.empty()) {
-            made.push_back(make_film(recording, stage, moments, title_of(recording, what), stem,
-                                     work.path()));
+            made.push_back(
+                make_film(recording, stage, moments, title_of(recording, what), stem, work.path()));
         }
     };
     make(perching_moments(recording), "perching", "perching_film");
@@ -172,11 +172,7 @@ Pictures film(const Recording& recording, const std::filesystem::path& folder) {
     if (made.empty()) {
         make(flight_moments(recording), "flight", "flight_film");
     }
-    Pictures pictures{publish(made, folder), {}};
-    if (!recording.damage.empty()) {
-        pictures.missing.push_back(recording.damage);
-    }
-    return pictures;
+    return {publish(made, folder), {}};
 }
 
 }  // namespace limpet

@@ -12,7 +12,8 @@ namespace limpet {
 /// and `take_off_film.png` when the vehicle left the wall; a flight without an approach gives
 /// `flight_film.png`. Rendered off-screen from the attached model.xml and the recorded truth.
 /// @param folder  made when it is not there
-/// @throws InputError when the recording has no model or no poses, for an unwritable folder, or when
+/// @throws InputError when the recording has no model or no poses, for an unwritable folder, or
+/// when
 ///         gnuplot or OpenGL's software renderer is not installed
 [[nodiscard]] Pictures film(const Recording& recording, const std::filesystem::path& folder);
 

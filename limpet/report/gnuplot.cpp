@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -73,16 +74,20 @@ TemporaryFolder::~TemporaryFolder() {
     std::filesystem::remove_all(path_, ignored);
 }
 
-std::string single_quoted(std::string_view text) {
-    std::string out = "'";
+std::string literal(std::string_view text) {
+    constexpr std::string_view kPlain = " .,:;_+-=/()[]#&%~";
+    std::string out = "\"";
     for (const char c : text) {
-        const bool control = static_cast<unsigned char>(c) < 0x20;
-        out += control ? ' ' : c;
-        if (c == '\'') {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20) {
+            out += ' ';
+        } else if (byte >= 0x80 || std::isalnum(byte) != 0 || kPlain.find(c) != kPlain.npos) {
             out += c;
+        } else {
+            out += fmt::format("\\{:03o}", byte);
         }
     }
-    return out + "'";
+    return out + "\"";
 }
 
 void run(const std::filesystem::path& folder, const std::string& script) {

@@ -24,8 +24,9 @@ private:
     std::filesystem::path path_;
 };
 
-/// @return the text as gnuplot's string in single quotes, whatever it holds; on one line
-[[nodiscard]] std::string single_quoted(std::string_view text);
+/// @return the text as a string of gnuplot's language, whatever it holds; on one line. Quotes,
+/// backquotes (commands!), backslashes and their like go as octal numbers.
+[[nodiscard]] std::string literal(std::string_view text);
 
 /// Runs a script inside `folder`; file names in it are relative to that.
 /// @throws InputError when gnuplot is not installed; InternalError with gnuplot's own words when it

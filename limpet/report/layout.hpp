@@ -16,7 +16,8 @@ struct Page {
     [[nodiscard]] double y(double from_top_px) const { return 1.0 - from_top_px / height_px; }
 };
 
-/// Moves marks on a line apart: as little as possible in the sense of least squares, in their order.
+/// Moves marks on a line apart: as little as possible in the sense of least squares, in their
+/// order.
 /// @param wanted  ascending
 /// @param gap     between neighbours, at least; less when they do not fit
 /// @return between low and high

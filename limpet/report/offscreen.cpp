@@ -11,9 +11,10 @@ namespace limpet {
 namespace {
 
 [[noreturn]] void give_up(const char* what) {
-    throw InputError(fmt::format("cannot draw without a screen: {} (EGL error {:#x}); needed: "
-                                 "apt-get install libegl1 libgl1-mesa-dri",
-                                 what, eglGetError()));
+    throw InputError(
+        fmt::format("cannot draw without a screen: {} (EGL error {:#x}); needed: "
+                    "apt-get install libegl1 libgl1-mesa-dri",
+                    what, eglGetError()));
 }
 
 /// A display that is no device and no window system.

@@ -28,7 +28,13 @@ struct Source {
     double scale;
 };
 
-enum PanelIndex : std::size_t { kPressure, kPitch, kForce, kThrust, kDistance };
+enum PanelIndex : std::size_t {
+    kPressure,
+    kPitch,
+    kForce,
+    kThrust,
+    kDistance
+};
 
 constexpr std::array<Source, 8> kSources = {{
     {kPressure, "measured", Trace::measured, "/sensors/cup_pressure", "fluid_pressure",
@@ -46,12 +52,16 @@ constexpr std::array<Source, 8> kSources = {{
 std::array<Panel, 5> templates() {
     return {{
         // Levels: the paper, section IV; facts.md section 3.
-        {.title = "cup pressure", .unit = "hPa", .levels = {{"P_{land} 880", 880.0}, {"detach 980", 980.0}},
+        {.title = "cup pressure",
+         .unit = "hPa",
+         .levels = {{"P_{land} 880", 880.0}, {"detach 980", 980.0}},
          .least_span = 100.0},
         {.title = "pitch", .unit = "deg", .least_span = 6.0},
         {.title = "force through the slider", .unit = "N", .least_span = 20.0},
         {.title = "total thrust", .unit = "N", .least_span = 10.0, .from_zero = true},
-        {.title = "distance of the LiDARs to the wall", .unit = "m", .least_span = 0.5,
+        {.title = "distance of the LiDARs to the wall",
+         .unit = "m",
+         .least_span = 0.5,
          .from_zero = true},
     }};
 }
@@ -81,8 +91,8 @@ Curve estimated_pitch(const Recording& recording, const Window& window) {
         return curve;
     }
     std::array<const Column*, 4> q{};
-    constexpr std::array kNames = {"pose.orientation.w", "pose.orientation.x",
-                                   "pose.orientation.y", "pose.orientation.z"};
+    constexpr std::array kNames = {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y",
+                                   "pose.orientation.z"};
     std::transform(kNames.begin(), kNames.end(), q.begin(),
                    [table](const char* name) { return table->find(name); });
     if (std::find(q.begin(), q.end(), nullptr) != q.end()) {
@@ -167,7 +177,8 @@ Curve thinned(const Curve& curve, const Window& window, std::size_t bins) {
             kept[3] = end;
         }
         std::sort(kept.begin(), kept.end());
-        // A stretch with a gap in it stays whole: gaps are rare, and comparisons with NaN are false.
+        // A stretch with a gap in it stays whole: gaps are rare, and comparisons with NaN are
+        // false.
         for (std::size_t i = first; i < end; ++i) {
             if (gap || std::find(kept.begin(), kept.end(), i) != kept.end()) {
                 thin.time_s.push_back(curve.time_s[i]);

@@ -12,10 +12,10 @@
 namespace limpet {
 
 enum class Trace {
-    measured,     ///< what a sensor said
-    measured_2,   ///< what its twin said
-    truth,        ///< what was so
-    estimated,    ///< what the autopilot believed
+    measured,    ///< what a sensor said
+    measured_2,  ///< what its twin said
+    truth,       ///< what was so
+    estimated,   ///< what the autopilot believed
 };
 
 /// A curve; NaN where there is a gap.
@@ -48,8 +48,9 @@ struct Panel {
 /// cup has is not missed on one without.
 [[nodiscard]] std::vector<std::string> missing_topics(const Recording& recording);
 
-/// A curve with at most four points for each of `bins` equal stretches of the window: first, lowest,
-/// highest, last, so that no peak and no gap is lost. Curves that have fewer points stay as they are.
+/// A curve with at most four points for each of `bins` equal stretches of the window: first,
+/// lowest, highest, last, so that no peak and no gap is lost. Curves that have fewer points stay as
+/// they are.
 [[nodiscard]] Curve thinned(const Curve& curve, const Window& window, std::size_t bins);
 
 /// Ends of an axis.

@@ -7,10 +7,10 @@
 
 namespace limpet {
 
-/// What came out of a recording.
+/// What came out of a recording. What damage took from it is in Recording::damage.
 struct Pictures {
     std::vector<std::filesystem::path> files;
-    std::vector<std::string> missing;  ///< what could not be shown and why, one sentence each
+    std::vector<std::string> missing;  ///< what could not be shown and why, a sentence each
 };
 
 /// Copies finished files into a folder, which is made when it is not there. Each appears under its

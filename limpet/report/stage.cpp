@@ -146,8 +146,8 @@ struct Stage::Parts {
             mjr_makeContext(model.get(), &renderer, mjFONTSCALE_100);
         } catch (const InternalError& problem) {
             mjv_freeScene(&scene);
-            throw InputError(fmt::format("cannot draw: {}; needed: apt-get install libegl-dev libgl-dev",
-                                         problem.what()));
+            throw InputError(fmt::format(
+                "cannot draw: {}; needed: apt-get install libegl-dev libgl-dev", problem.what()));
         }
         mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
         require(renderer.currentBuffer == mjFB_OFFSCREEN, "MuJoCo has a buffer to draw into");
@@ -237,8 +237,8 @@ Image Stage::photograph(const Pose& pose, const View& view) {
         p.show_material("propeller", true, kBlur);
         const Pixels with = p.render(camera, false);
         for (std::size_t i = 0; i < picture.size(); ++i) {
-            picture[i] = static_cast<std::uint8_t>(
-                std::clamp(picture[i] + with[i] - without[i], 0, 255));
+            picture[i] =
+                static_cast<std::uint8_t>(std::clamp(picture[i] + with[i] - without[i], 0, 255));
         }
     }
     return shrunk(picture, p.width_px, p.height_px);

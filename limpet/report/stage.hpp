@@ -46,7 +46,8 @@ struct WallFace {
 /// A vehicle and its surroundings, ready to be photographed. Belongs to the thread that made it.
 class Stage {
 public:
-    /// @param mjcf  a whole model with the names of model_writer.hpp; what is not there is not moved
+    /// @param mjcf  a whole model with the names of model_writer.hpp; what is not there is not
+    /// moved
     /// @throws InputError with MuJoCo's words when the model does not compile or has no body `base`
     ///         with a free joint, and when nothing can be drawn on this machine
     Stage(const std::string& mjcf, int width_px, int height_px);

@@ -59,9 +59,9 @@ Window whole_flight(const Recording& recording) {
 
 const RecordedEvent* first_event(const Recording& recording, std::string_view name,
                                  double after_s) {
-    const auto found = std::find_if(
-        recording.events.begin(), recording.events.end(),
-        [&](const RecordedEvent& e) { return e.name == name && e.time_s >= after_s; });
+    const auto found =
+        std::find_if(recording.events.begin(), recording.events.end(),
+                     [&](const RecordedEvent& e) { return e.name == name && e.time_s >= after_s; });
     return found == recording.events.end() ? nullptr : &*found;
 }
 

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -48,29 +47,6 @@ std::vector<CatalogueEntry> list_surfaces(const fs::path& root) {
         entries.push_back({surface.name, surface.description});
     }
     return entries;
-}
-
-std::string_view to_string(FileKind kind) {
-    switch (kind) {
-        case FileKind::scenario: return "scenario";
-        case FileKind::vehicle: return "vehicle";
-        case FileKind::surfaces: return "surfaces";
-    }
-    throw InternalError("file kind out of range");
-}
-
-FileKind check_file(const fs::path& file, const fs::path& root) {
-    if (file.filename() == "surfaces.yaml") {
-        static_cast<void>(load_surfaces(file.parent_path()));
-        return FileKind::surfaces;
-    }
-    const YamlNode tree = parse_yaml_file(file);
-    if (tree.find("mass_kg") != nullptr || tree.find("rotors") != nullptr) {
-        static_cast<void>(load_vehicle_file(file));
-        return FileKind::vehicle;
-    }
-    static_cast<void>(load_scenario_file(file, {{}, {}, root}));
-    return FileKind::scenario;
 }
 
 std::vector<ParameterInfo> all_parameters() {

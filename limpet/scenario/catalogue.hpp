@@ -24,19 +24,6 @@ struct CatalogueEntry {
 /// @throws InputError when surfaces.yaml is not right
 [[nodiscard]] std::vector<CatalogueEntry> list_surfaces(const std::filesystem::path& root);
 
-enum class FileKind {
-    scenario,
-    vehicle,
-    surfaces,
-};
-[[nodiscard]] std::string_view to_string(FileKind kind);
-
-/// Checks a whole file as a flight would: surfaces.yaml by its name, a vehicle by its mass or
-/// rotors, a scenario otherwise.
-/// @throws InputError for the first fault
-[[nodiscard]] FileKind check_file(const std::filesystem::path& file,
-                                  const std::filesystem::path& root);
-
 /// Every number that a scenario can set, with the section in which it is set.
 [[nodiscard]] std::vector<ParameterInfo> all_parameters();
 

@@ -111,18 +111,11 @@ Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
 }  // namespace
 
 Scenario load_scenario(const std::string& wanted, const LoadOptions& options) {
-    if (is_path(wanted)) {
-        return load_scenario_file(wanted, options);
-    }
-    return load_scenario_file(find_file(wanted, "scenario", data_of(options) / "scenarios"),
-                              options);
-}
-
-Scenario load_scenario_file(const fs::path& file, const LoadOptions& options) {
     Scenario scenario;
-    scenario.path = file;
-    scenario.name = file.stem().string();
-    YamlNode root = parse_yaml_file(file);
+    scenario.path = is_path(wanted) ? fs::path(wanted)
+                                    : find_file(wanted, "scenario", data_of(options) / "scenarios");
+    scenario.name = scenario.path.stem().string();
+    YamlNode root = parse_yaml_file(scenario.path);
     return load(std::move(root), std::move(scenario), options);
 }
 

@@ -25,9 +25,6 @@ struct LoadOptions {
 /// @throws InputError one line: file:line (or --set), key, value, what is allowed
 [[nodiscard]] Scenario load_scenario(const std::string& wanted, const LoadOptions& options = {});
 
-[[nodiscard]] Scenario load_scenario_file(const std::filesystem::path& file,
-                                          const LoadOptions& options = {});
-
 /// The same of a text, such as Scenario::yaml out of a recording.
 /// @param name  of the scenario, and of the text in messages
 [[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,

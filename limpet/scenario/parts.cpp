@@ -105,6 +105,15 @@ void validate_at(const YamlNode& node, const Airframe& airframe) {
     }
 }
 
+Airframe load_vehicle_file(const fs::path& file) {
+    const YamlNode root = parse_yaml_file(file);
+    Airframe airframe;
+    airframe.name = file.stem().string();
+    read_vehicle(root, false, airframe);
+    validate_at(root, airframe);
+    return airframe;
+}
+
 void read_surface(const YamlNode& map, const std::vector<std::string_view>& others,
                   Surface& surface) {
     std::vector<std::string_view> texts = {"description", "source"};
@@ -145,17 +154,11 @@ Airframe load_vehicle(const std::string& wanted, const fs::path& root) {
     return load_vehicle_file(find_file(wanted, "vehicle", root / "vehicles"));
 }
 
-Airframe load_vehicle_file(const fs::path& file) {
-    const YamlNode root = parse_yaml_file(file);
-    Airframe airframe;
-    airframe.name = file.stem().string();
-    read_vehicle(root, false, airframe);
-    validate_at(root, airframe);
-    return airframe;
-}
-
 std::vector<Surface> load_surfaces(const fs::path& root) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
+    if (!is_section(&all)) {
+        fail(all, "is empty");
+    }
     std::vector<Surface> surfaces;
     for (const YamlNode& row : all.children) {
         surfaces.push_back(surface_of(row));

@@ -23,7 +23,6 @@ namespace limpet {
 /// @param wanted  name in root/vehicles, or a path
 /// @param root    data_root()
 [[nodiscard]] Airframe load_vehicle(const std::string& wanted, const std::filesystem::path& root);
-[[nodiscard]] Airframe load_vehicle_file(const std::filesystem::path& file);
 /// @param name  key of root/surfaces.yaml
 [[nodiscard]] Surface load_surface(const std::string& name, const std::filesystem::path& root);
 /// @return all of them, in the file's order

@@ -60,8 +60,8 @@ struct Attempt {
     double begin_s = 0.0;  ///< when it began
 
     [[nodiscard]] double pitch_rad(double t) const {
-        const double lean = -4.0 * smoothstep((t - kApproach_s) / 0.3) *
-                            smoothstep((kImpact_s + 0.1 - t) / 0.3);
+        const double lean =
+            -4.0 * smoothstep((t - kApproach_s) / 0.3) * smoothstep((kImpact_s + 0.1 - t) / 0.3);
         const double up = smoothstep((t - kDecision_s) / 5.0);
         const double down = 1.0 - smoothstep((t - kMotorsOn_s - 1.0) / 5.0);
         return radians(lean + (sealed ? kPitch_deg * up * down : 0.0));

@@ -189,11 +189,10 @@ TEST_F(BadInput, ValuesThatDoNotFitEachOther) {
 }
 
 TEST_F(BadInput, AVehicleTooHeavyToHover) {
-    EXPECT_EQ(
-        error_of([&] {
-            return data_.load_text("mission: hover\nvehicle: {base: small, mass_kg: 20}\n");
-        }),
-        "x.yaml:2: vehicle: autopilot.MPC_THR_HOVER follows from it as 1.858, allowed 0.1..0.95");
+    EXPECT_EQ(error_of([&] {
+                  return data_.load_text("mission: hover\nvehicle: {base: small, mass_kg: 20}\n");
+              }),
+              "x.yaml:2: vehicle: guidance.hover_thrust follows from it as 1.858, allowed 0.01..1");
 }
 
 }  // namespace

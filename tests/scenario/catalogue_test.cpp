@@ -37,6 +37,13 @@ TEST(Catalogue, ListsABrokenFileWithItsFault) {
                 ElementsAre(entry("broken", path + ": is empty"), entry("first", "the first")));
 }
 
+TEST(Catalogue, RefusesSurfacesThatAreNone) {
+    const TestData data;
+    const std::string path = data.write("surfaces.yaml", "[stone, glass]\n");
+    EXPECT_EQ(error_of([&] { return list_surfaces(data.root()); }),
+              path + ": must be a section (key: value), is a list");
+}
+
 TEST(Catalogue, FindsNoFolderEmpty) {
     EXPECT_TRUE(list_scenarios("/no/such/folder").empty());
 }
@@ -58,21 +65,6 @@ TEST(Catalogue, PrintsTheRowsOfARoom) {
     EXPECT_EQ(parameters_of("guidance").size(), perching_table().size());
     EXPECT_EQ(error_of([] { return parameters_of("guidence"); }).substr(0, 50),
               "\"guidence\": no such room (did you mean guidance?);");
-}
-
-TEST(Catalogue, ChecksAnyOfItsFiles) {
-    const TestData data;
-    const auto check = [&](const char* name) {
-        return std::string(to_string(check_file(data.root() / name, data.root())));
-    };
-    EXPECT_EQ(check("scenarios/first.yaml"), "scenario");
-    EXPECT_EQ(check("vehicles/small.yaml"), "vehicle");
-    EXPECT_EQ(check("surfaces.yaml"), "surfaces");
-    data.write("surfaces.yaml", "stone: {friction: -1}\n");
-    EXPECT_NE(error_of([&] { return check("surfaces.yaml"); }), "");
-    data.write("vehicles/small.yaml", "mass_kg: -1\n");
-    EXPECT_NE(error_of([&] { return check("vehicles/small.yaml"); }), "");
-    EXPECT_NE(error_of([&] { return check("scenarios/first.yaml"); }), "");
 }
 
 TEST(DataRoot, IsWhereTheEnvironmentSays) {

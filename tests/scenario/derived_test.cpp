@@ -46,6 +46,11 @@ TEST_F(Derived, TheEarthsFieldIsTheSensors) {
     EXPECT_NEAR(s.autopilot.mag_field_down_gauss, 0.5 * std::sqrt(3.0) / 2.0, 1e-15);
 }
 
+TEST_F(Derived, GuidanceKnowsOfTheValve) {
+    EXPECT_EQ(load({}).guidance.valve_fitted, 0.0);
+    EXPECT_EQ(load({"suction.valve_fitted=true"}).guidance.valve_fitted, 1.0);
+}
+
 TEST_F(Derived, GivenKeysWin) {
     const Scenario s = load({"guidance.hover_thrust=0.5", "autopilot.MPC_THR_HOVER=0.6",
                              "suction.radius_m=0.03", "guidance.lidar_x_m=0.1"});

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::app {
+namespace fs = std::filesystem;
+
+fs::path make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        throw InputError("--out " + folder.string() +
+                         ": cannot make this folder: " + error.message());
+    }
+    if (!fs::is_directory(folder)) {
+        throw InputError("--out " + folder.string() + ": is not a folder");
+    }
+    if (access(folder.c_str(), W_OK | X_OK) != 0) {
+        throw InputError("--out " + folder.string() + ": may not be written to");
+    }
+    return folder;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+    const fs::path part = path.string() + ".part";
+    std::error_code error;
+    {
+        std::ofstream file(part, std::ios::binary);
+        file << text;
+        file.close();
+        if (file) {
+            fs::rename(part, path, error);
+        } else {
+            error = std::make_error_code(std::errc::io_error);
+        }
+    }
+    if (error) {
+        std::error_code ignored;
+        fs::remove(part, ignored);
+        throw InputError("--out " + path.string() + ": cannot be written");
+    }
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kGood = "mission: hover\nvehicle: perching_uav\n";
+
+/// Bad input: one clear line on standard error, exit code 2, and not a file more than before.
+void expect_refused(const Bench& bench, const std::vector<std::string>& arguments,
+                    const std::vector<std::string>& texts) {
+    const auto before = bench.files();
+    const Finished finished = bench.run(arguments);
+    EXPECT_EQ(finished.exit_code, 2) << finished.err;
+    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+    EXPECT_EQ(finished.out, "");
+    for (const std::string& text : texts) {
+        EXPECT_THAT(finished.err, HasSubstr(text));
+    }
+    EXPECT_EQ(bench.files(), before);
+}
+
+TEST(BadInput, MissingFile) {
+    expect_refused(Bench{}, {"fly", "nowhere.yaml"}, {"nowhere.yaml", "no such file"});
+}
+
+TEST(BadInput, UnknownScenarioNamesWhatThereIs) {
+    expect_refused(Bench{}, {"fly", "perch_concret"}, {"perch_concret", "perch_concrete"});
+}
+
+TEST(BadInput, YamlSyntax) {
+    const Bench bench;
+    (void)bench.write("x.yaml", std::string(kGood) + "wall: {surface: metal\n");
+    expect_refused(bench, {"fly", "x.yaml"}, {"x.yaml:"});
+}
+
+TEST(BadInput, UnknownKeyWithItsLineAndASuggestion) {
+    const Bench bench;
+    (void)bench.write("x.yaml", std::string(kGood) + "simulation:\n  hovers_s: 3\n");
+    expect_refused(bench, {"fly", "x.yaml"}, {"x.yaml:4", "hovers_s", "hover_s"});
+}
+
+TEST(BadInput, WrongTypeOutOfRangeAndNan) {
+    const Bench bench;
+    for (const char* value : {"fast", "-1", ".nan", "[1, 2]"}) {
+        (void)bench.write("x.yaml", std::string(kGood) + "simulation:\n  hover_s: " + value + "\n");
+        expect_refused(bench, {"fly", "x.yaml"}, {"x.yaml:4", "simulation.hover_s", "0.1..3600"});
+    }
+}
+
+TEST(BadInput, UnknownSurfaceAndVehicle) {
+    const Bench bench;
+    expect_refused(bench, {"fly", "perch_concrete", "--set", "wall.surface=steel"},
+                   {"steel", "metal"});
+    expect_refused(bench, {"fly", "hover", "--set", "vehicle=perching_uva"},
+                   {"perching_uva", "perching_uav"});
+    expect_refused(bench, {"export", "nothing"}, {"nothing", "iris"});
+}
+
+TEST(BadInput, ADirectoryAndAnEmptyFile) {
+    const Bench bench;
+    fs::create_directories(bench.folder() / "folder.yaml");
+    expect_refused(bench, {"fly", "folder.yaml"}, {"folder.yaml", "directory"});
+    (void)bench.write("empty.yaml", "");
+    expect_refused(bench, {"fly", "empty.yaml"}, {"empty.yaml", "empty"});
+}
+
+TEST(BadInput, SettingsNameThemselves) {
+    const Bench bench;
+    expect_refused(bench, {"fly", "hover", "--set", "guidance.dock_speed_m_s=9"},
+                   {"--set", "guidance.dock_speed_m_s", "0.01..3"});
+    expect_refused(bench, {"fly", "hover", "--set", "guidance.dock_sped_m_s=1"},
+                   {"dock_speed_m_s"});
+    expect_refused(bench, {"fly", "hover", "--set", "nonsense"}, {"nonsense"});
+    expect_refused(bench, {"fly", "hover", "--seed", "minus one"}, {"seed"});
+}
+
+TEST(BadInput, UnwritableOut) {
+    const Bench bench;
+    (void)bench.write("taken", "a file");
+    expect_refused(bench, {"fly", "hover", "--out", "taken"}, {"--out", "taken"});
+    expect_refused(bench, {"fly", "hover", "--out", "/proc/limpet"}, {"--out", "/proc/limpet"});
+    expect_refused(bench, {"export", "iris", "--out", "nowhere/iris.xml"}, {"nowhere/iris.xml"});
+}
+
+TEST(BadInput, UnknownVerbAndOption) {
+    const Bench bench;
+    expect_refused(bench, {"flie"}, {"flie"});
+    expect_refused(bench, {"fly", "hover", "--sed", "3"}, {"--sed"});
+    expect_refused(bench, {"list", "planets"}, {"planets"});
+    expect_refused(bench, {"params", "kitchen"}, {"kitchen", "guidance"});
+    expect_refused(bench, {}, {"--help"});
+}
+
+TEST(BadInput, WhatIsNoRecording) {
+    const Bench bench;
+    (void)bench.write("x.mcap", "not a recording at all");
+    (void)bench.write("empty.mcap", "");
+    for (const char* verb : {"plot", "film", "csv", "check"}) {
+        expect_refused(bench, {verb, "x.mcap"}, {"x.mcap"});
+        expect_refused(bench, {verb, "empty.mcap"}, {"empty.mcap"});
+        expect_refused(bench, {verb, "nowhere.mcap"}, {"nowhere.mcap"});
+    }
+}
+
+TEST(BadInput, ARecordingCutInHalfIsPlottedAsFarAsItGoes) {
+    const Bench bench;
+    ASSERT_EQ(bench.run({"fly", "perch_concrete", "--json", "--out", "."}).exit_code, 0);
+    const fs::path recording = bench.folder() / "flight.mcap";
+    fs::resize_file(recording, fs::file_size(recording) / 2);
+    const Finished plot = bench.run({"plot", "flight.mcap", "--out", "figures"});
+    EXPECT_EQ(plot.exit_code, 2);
+    EXPECT_THAT(plot.err, HasSubstr("flight.mcap"));
+    EXPECT_TRUE(fs::exists(bench.folder() / "figures/overview.png"));
+    EXPECT_EQ(bench.run({"check", "flight.mcap"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Verbs, EachHasAHelpThatNamesItsOptions) {
+    const Bench bench;
+    EXPECT_THAT(bench.run({"--help"}).out, HasSubstr("limpet fly perch_concrete"));
+    for (const char* verb : {"fly", "check", "list", "params", "plot", "film", "csv", "export"}) {
+        const Finished help = bench.run({verb, "--help"});
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.out, HasSubstr("--help"));
+        EXPECT_EQ(help.err, "");
+    }
+}
+
+TEST(Verbs, Version) {
+    const Finished version = Bench{}.run({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_THAT(version.out, testing::MatchesRegex("limpet [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(Verbs, ListsWhatShips) {
+    const Bench bench;
+    for (const char* name : {"perch_concrete", "perch_cinder_block", "perch_turbine_blade",
+                             "perch_metal", "perch_metal_valve", "failed_perch", "hover"}) {
+        EXPECT_THAT(bench.run({"list", "scenarios"}).out, HasSubstr(name));
+        EXPECT_EQ(bench.run({"check", name}).exit_code, 0) << name;
+    }
+    for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
+        EXPECT_THAT(bench.run({"list", "surfaces"}).out, HasSubstr(name));
+    }
+    EXPECT_THAT(bench.run({"list", "vehicles"}).out, HasSubstr("iris"));
+}
+
+TEST(Verbs, ParamsOfOneRoomAndTheGeneratedPage) {
+    const Bench bench;
+    EXPECT_THAT(bench.run({"params", "guidance"}).out, HasSubstr("dock_speed_m_s"));
+    EXPECT_THAT(bench.run({"params", "guidance"}).out, Not(HasSubstr("MPC_XY_P")));
+    EXPECT_EQ(bench.run({"params", "--format", "markdown"}).out,
+              text_of(std::filesystem::path(LIMPET_SOURCE_DIR) / "docs/parameters.md"))
+        << "limpet params --format markdown > docs/parameters.md";
+}
+
+TEST(Verbs, ExportsEveryFormat) {
+    const Bench bench;
+    EXPECT_THAT(bench.run({"export", "perching_uav"}).out, HasSubstr("<mujoco"));
+    EXPECT_THAT(bench.run({"export", "perching_uav", "--format", "sdf"}).out, HasSubstr("<sdf"));
+    EXPECT_THAT(bench.run({"export", "iris", "--format", "urdf"}).out, HasSubstr("<robot"));
+    ASSERT_EQ(bench.run({"export", "perching_uav", "--wall", "metal", "--out", "a.xml"}).exit_code,
+              0);
+    EXPECT_THAT(text_of(bench.folder() / "a.xml"), HasSubstr("wall"));
+}
+
+TEST(Verbs, FilmDrawsTheManoeuvre) {
+    const Bench bench;
+    ASSERT_EQ(bench.run({"fly", "perch_concrete", "--json", "--out", "."}).exit_code, 0);
+    const Finished film = bench.run({"film", "flight.mcap"});
+    EXPECT_EQ(film.exit_code, 0) << film.err;
+    EXPECT_GT(std::filesystem::file_size(bench.folder() / "perching_film.png"), 50000U);
+    EXPECT_GT(std::filesystem::file_size(bench.folder() / "take_off_film.png"), 50000U);
+}
+
+}  // namespace
+}  // namespace limpet
