@@ -55,7 +55,7 @@ void add_check(CLI::App& app, ExitCode& code) {
                      "scenario (name or file), vehicles/*.yaml, surfaces.yaml, *.mcap")
         ->required()
         ->type_name("FILE");
-    verb->footer("Exits with 0 when all is good, 2 when not.");
+    verb->footer("Exits with 0 when all is good, 2 when not.\n");
     verb->callback([file, &code] { check_file(*file, code); });
 }
 

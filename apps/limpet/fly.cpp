@@ -94,11 +94,6 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
         load_scenario(options.scenario, {.overrides = options.overrides, .seed = options.seed});
     const auto model = build_model(scenario);
 
-    Terminal terminal(voice(options));
-    terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
-                  scenario.description);
-    terminal.line(terminal.dim(event_head()));
-
     std::filesystem::path recording;
     if (!options.no_record) {
         const std::filesystem::path folder = options.out.empty()
@@ -106,6 +101,11 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
                                                  : std::filesystem::path(options.out);
         recording = make_folder(folder) / "flight.mcap";
     }
+    Terminal terminal(voice(options));
+    terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
+                  scenario.description);
+    terminal.line(terminal.dim(event_head()));
+
     const FlightResult result = fly(model, recording, watch(terminal));
 
     terminal.line("");
@@ -162,7 +162,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
         "Examples:\n"
         "  limpet fly perch_concrete --seed 7\n"
         "  limpet fly perch_metal --set suction.valve_fitted=true --expect released --json\n"
-        "A flight that runs to any outcome exits with 0; judge it with --expect.");
+        "A flight that runs to any outcome exits with 0; judge it with --expect.\n");
     verb->callback([options, &code] { fly_one(*options, code); });
 }
 

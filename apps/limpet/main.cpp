@@ -23,7 +23,7 @@ constexpr const char* kFooter =
     "  limpet list scenarios                what there is to fly\n"
     "  limpet fly perch_metal --set suction.valve_fitted=true\n"
     "  limpet params guidance               every number that --set can turn\n\n"
-    "Exit codes: 0 done, 1 another outcome than --expect, 2 bad input, 70 a fault of ours.";
+    "Exit codes: 0 done, 1 another outcome than --expect, 2 bad input, 70 a fault of ours.\n";
 
 void add_verbs(CLI::App& app, ExitCode& code) {
     using namespace limpet::app;
@@ -36,6 +36,21 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_film(app, code);
     add_csv(app, code);
     add_export(app);
+}
+
+/// The first word must be a verb; said before the parser only misses one.
+void require_verb(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2 || argv[1][0] == '-') {
+        return;
+    }
+    std::string verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (verb->get_name() == argv[1]) {
+            return;
+        }
+        verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+    }
+    throw limpet::InputError("\"" + std::string(argv[1]) + "\": no such verb; there are " + verbs);
 }
 
 /// One line on standard error, so that scripts and people find it.
@@ -53,6 +68,7 @@ int main(int argc, char** argv) {
     ExitCode code = ExitCode::ok;
     try {
         add_verbs(app, code);
+        require_verb(app, argc, argv);
         app.parse(argc, argv);
         return static_cast<int>(code);
     } catch (const CLI::Success& help) {

@@ -69,7 +69,7 @@ void add_params(CLI::App& app) {
     verb->add_option("--format", options->format, "text or markdown")
         ->type_name("FORMAT")
         ->check(CLI::IsMember({"text", "markdown"}));
-    verb->footer("Columns: name, default, unit, allowed range, what it does, [source].");
+    verb->footer("Columns: name, default, unit, allowed range, what it does, [source].\n");
     verb->callback([options] {
         const auto rows = options->room.empty() ? all_parameters() : parameters_of(options->room);
         options->format == "text" ? print_text(rows) : print_markdown(rows);

@@ -55,7 +55,7 @@ void add_verb(CLI::App& app, ExitCode& code, const std::string& name, const std:
         ->type_name("DIR");
     verb->footer(
         "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
-        "what is missing is said on standard error and the exit code is 2.");
+        "what is missing is said on standard error and the exit code is 2.\n");
     verb->callback([options, work = std::move(work), &code] { draw(*options, work, code); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string_view>
 
@@ -169,10 +170,11 @@ std::vector<Moment> flight_moments(const Recording& recording) {
     for (std::size_t i = 0; i < kMost; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(kMost - 1);
         const double time_s = whole.from_s + share * whole.span_s();
-        const auto now = std::find_if(states.begin(), states.end(), [time_s](const Phase& phase) {
-            return phase.window.holds(time_s);
+        const auto next = std::find_if(states.begin(), states.end(), [time_s](const Phase& phase) {
+            return phase.window.from_s > time_s;
         });
-        moments.push_back({time_s, now == states.end() ? "flight" : words(now->state)});
+        moments.push_back(
+            {time_s, next == states.begin() ? "flight" : words(std::prev(next)->state)});
     }
     return moments;
 }
@@ -204,7 +206,8 @@ Pose pose_at(const Recording& recording, double time_s) {
 std::string caption_at(const Recording& recording, double time_s) {
     std::string text = fmt::format("{:.2f} s", time_s);
     if (const auto pitch_rad = pitch_at(recording, time_s)) {
-        text += fmt::format("   pitch {:.1f}°", degrees(*pitch_rad) + 0.0);
+        const double tenths = std::round(10.0 * degrees(*pitch_rad));
+        text += fmt::format("   pitch {:.1f}°", 0.1 * tenths + 0.0);  // never "-0.0"
     }
     if (const auto pressure_Pa =
             value_at(recording, "/sensors/cup_pressure", "fluid_pressure", time_s)) {

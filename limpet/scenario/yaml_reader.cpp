@@ -105,7 +105,8 @@ double read_number(const YamlNode& node, const BoundParameter& row) {
     }
     const auto value = is_plain(node) ? number_of(node.text) : std::nullopt;
     if (!value) {
-        fail_type(node, "a number");
+        fail(node, fmt::format("must be a number, is {}, allowed {}", what_it_is(node),
+                               allowed_text(row)));
     }
     if (!(*value >= row.minimum && *value <= row.maximum)) {
         fail(node,

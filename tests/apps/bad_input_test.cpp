@@ -29,7 +29,7 @@ void expect_refused(const Bench& bench, const std::vector<std::string>& argument
 }
 
 TEST(BadInput, MissingFile) {
-    expect_refused(Bench{}, {"fly", "nowhere.yaml"}, {"nowhere.yaml", "no such file"});
+    expect_refused(Bench{}, {"fly", "nowhere.yaml"}, {"nowhere.yaml", "No such file"});
 }
 
 TEST(BadInput, UnknownScenarioNamesWhatThereIs) {

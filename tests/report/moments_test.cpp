@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "flights.hpp"
 #include "limpet/core/errors.hpp"
 
@@ -68,6 +70,15 @@ TEST(Moments, of_a_hover_are_spread_over_the_flight) {
     EXPECT_NEAR(moments.back().time_s, Attempt::kEnd_s, 0.005);
 }
 
+TEST(Moments, of_a_flight_without_a_story_are_named_by_guidance) {
+    Recording flight = test::fly();
+    flight.events.clear();
+    const auto moments = flight_moments(flight);
+    EXPECT_EQ(moments.front().name, "pre positioning");
+    EXPECT_EQ(moments[4].name, "resting");
+    EXPECT_EQ(moments.back().name, "finished");
+}
+
 TEST(Pose, turns_east_north_up_into_north_west_up) {
     const Recording flight = test::fly();
     const Pose pose = pose_at(flight, 0.0);
@@ -108,7 +119,14 @@ TEST(Pose, is_missed_when_it_was_not_recorded) {
 
 TEST(Caption, has_time_pitch_and_pressure) {
     EXPECT_EQ(caption_at(test::fly(), 14.0), "14.00 s   pitch 66.5°   650 hPa");
-    EXPECT_EQ(caption_at(test::fly({.cup = false}), 1.0), "1.00 s   pitch 0.0°");
+    Recording hover = test::fly({.cup = false});
+    EXPECT_EQ(caption_at(hover, 1.0), "1.00 s   pitch 0.0°");
+    const auto truth = std::find_if(hover.tables.begin(), hover.tables.end(),
+                                    [](const Table& t) { return t.topic == "/truth/vehicle"; });
+    for (Column& column : truth->columns) {
+        column.values.assign(column.values.size(), radians(-0.04));
+    }
+    EXPECT_EQ(caption_at(hover, 1.0), "1.00 s   pitch 0.0°") << "not -0.0";
 }
 
 }  // namespace

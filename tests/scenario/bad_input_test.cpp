@@ -40,15 +40,16 @@ TEST_F(BadInput, NotFinite) {
 
 TEST_F(BadInput, WrongType) {
     const std::string at = "x.yaml:3: simulation.hover_s: must be a number, is ";
-    EXPECT_EQ(hover_error("simulation: {hover_s: long}\n"), at + "\"long\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: 5 s}\n"), at + "\"5 s\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: '5'}\n"), at + "\"5\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: 1.2.3}\n"), at + "\"1.2.3\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: 0x10}\n"), at + "\"0x10\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: true}\n"), at + "\"true\"");
-    EXPECT_EQ(hover_error("simulation: {hover_s: [5]}\n"), at + "a list");
-    EXPECT_EQ(hover_error("simulation: {hover_s: {a: 5}}\n"), at + "a section");
-    EXPECT_EQ(hover_error("simulation: {hover_s: }\n"), at + "empty");
+    const std::string allowed = ", allowed 0.1..3600 s";
+    EXPECT_EQ(hover_error("simulation: {hover_s: long}\n"), at + "\"long\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: 5 s}\n"), at + "\"5 s\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: '5'}\n"), at + "\"5\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: 1.2.3}\n"), at + "\"1.2.3\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: 0x10}\n"), at + "\"0x10\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: true}\n"), at + "\"true\"" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: [5]}\n"), at + "a list" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: {a: 5}}\n"), at + "a section" + allowed);
+    EXPECT_EQ(hover_error("simulation: {hover_s: }\n"), at + "empty" + allowed);
     EXPECT_EQ(hover_error("simulation: fast\n"),
               "x.yaml:3: simulation: must be a section (key: value), is \"fast\"");
     EXPECT_EQ(hover_error("description: [a, b]\n"),
@@ -156,7 +157,7 @@ TEST_F(BadInput, InTheSurfacesFile) {
     const std::string path =
         data_.write("surfaces.yaml", "stone: {friction: 0.7}\nmoss: {friction: soft}\n");
     EXPECT_EQ(hover_error("wall: {surface: moss}\n"),
-              path + ":2: moss.friction: must be a number, is \"soft\"");
+              path + ":2: moss.friction: must be a number, is \"soft\", allowed 0..3");
 }
 
 TEST_F(BadInput, StepsThatDoNotDivide) {

@@ -82,9 +82,10 @@ TEST_F(Overrides, AreNamedInErrors) {
     EXPECT_EQ(error("wall.surface=wood"),
               "--set wall.surface=wood: \"wood\": no such surface; there are stone, glass");
     EXPECT_EQ(error("simulation.hover_s="),
-              "--set simulation.hover_s=: must be a number, is empty");
+              "--set simulation.hover_s=: must be a number, is empty, allowed 0.1..3600 s");
     EXPECT_EQ(error("simulation.hover_s.x=1"),
-              "--set simulation.hover_s.x=1: simulation.hover_s: must be a number, is a section");
+              "--set simulation.hover_s.x=1: simulation.hover_s: must be a number, is a section, "
+              "allowed 0.1..3600 s");
 }
 
 TEST_F(Overrides, MustBeWrittenAsKeyAndValue) {
