@@ -31,7 +31,6 @@ EGLDisplay surfaceless_display() {
 
 OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
     if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
-        display_ = nullptr;
         give_up("no surfaceless EGL display");
     }
     // MuJoCo draws into buffers of its own, with OpenGL's compatibility profile.
@@ -40,14 +39,12 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
     EGLConfig config = nullptr;
     EGLint found = 0;
     if (eglChooseConfig(display_, kWanted, &config, 1, &found) != EGL_TRUE || found == 0) {
-        eglTerminate(display_);
         give_up("no EGL configuration for OpenGL");
     }
     eglBindAPI(EGL_OPENGL_API);
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT ||
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
-        eglTerminate(display_);
         give_up("no OpenGL context");
     }
 }
@@ -55,7 +52,7 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
 OffscreenContext::~OffscreenContext() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+    // The display is the process's: ending it here would take it from every other context.
 }
 
 }  // namespace limpet

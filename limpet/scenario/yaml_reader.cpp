@@ -20,7 +20,7 @@ namespace {
 std::string what_it_is(const YamlNode& node) {
     switch (node.kind) {
         case YamlNode::Kind::null: return "empty";
-        case YamlNode::Kind::scalar: return "\"" + shown(node.text) + "\"";
+        case YamlNode::Kind::scalar: return fmt::format("\"{}\"", shown(node.text));
         case YamlNode::Kind::list: return "a list";
         case YamlNode::Kind::map: return "a section";
     }

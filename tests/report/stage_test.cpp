@@ -94,6 +94,13 @@ TEST(Stage, knows_its_wall) {
         << "x of T is east, out is west";
 }
 
+TEST(Stage, stands_beside_another_one) {
+    Stage first(write_mjcf(Airframe{}, scene()), kWidth_px, kHeight_px);
+    const Image before = first.photograph(pose(), view());
+    { const Stage second(write_mjcf(Airframe{}, scene()), 32, 32); }
+    EXPECT_EQ(test::difference(before, first.photograph(pose(), view()), 1), 0.0);
+}
+
 TEST(Stage, does_without_wall_and_cup) {
     Scene open;
     open.wall.present = false;
