@@ -13,15 +13,19 @@ function(limpet_room name)
   limpet_compile_options(limpet_${name})
 endfunction()
 
-# limpet_test(ROOM SOURCES files... LINKS targets...): one test program a room.
+# limpet_test(ROOM SOURCES files... LINKS targets... [LABEL label]): one test program a room.
+# The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
 function(limpet_test room)
-  cmake_parse_arguments(TEST "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LINKS" ${ARGN})
+  if(NOT TEST_LABEL)
+    set(TEST_LABEL unit)
+  endif()
   add_executable(${room}_test ${TEST_SOURCES})
   target_link_libraries(${room}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   limpet_compile_options(${room}_test)
   gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300)
+    PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL})
 endfunction()
 
 # Warnings are errors on our code. No contraction to fused multiply-adds and no fast-math: the same

@@ -43,9 +43,15 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
     }
     eglBindAPI(EGL_OPENGL_API);
     context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
-    if (context_ == EGL_NO_CONTEXT ||
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+    if (context_ == EGL_NO_CONTEXT) {
         give_up("no OpenGL context");
+    }
+    use();
+}
+
+void OffscreenContext::use() {
+    if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+        give_up("no OpenGL context without a surface");
     }
 }
 

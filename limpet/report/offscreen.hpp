@@ -3,7 +3,7 @@
 
 namespace limpet {
 
-/// OpenGL without a screen: an EGL context, current on the thread that made it. Mesa's software
+/// OpenGL without a screen: an EGL context, in use on the thread that made it. Mesa's software
 /// renderer will do; no display server and no graphics card are needed.
 class OffscreenContext {
 public:
@@ -12,6 +12,9 @@ public:
     ~OffscreenContext();
     OffscreenContext(const OffscreenContext&) = delete;
     OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+    /// Makes it the one that the calling thread draws with.
+    void use();
 
 private:
     void* display_ = nullptr;  // EGLDisplay and EGLContext, without their header

@@ -134,6 +134,7 @@ struct Stage::Parts {
         make_renderer();
     }
     ~Parts() {
+        screen.use();
         mjr_freeContext(&renderer);
         mjv_freeScene(&scene);
     }
@@ -219,6 +220,7 @@ std::optional<WallFace> Stage::wall() const {
 
 Image Stage::photograph(const Pose& pose, const View& view) {
     Parts& p = *parts_;
+    p.screen.use();
     p.set(pose);
     mjvCamera camera;
     mjv_defaultCamera(&camera);
