@@ -29,8 +29,8 @@ function(limpet_test room)
 endfunction()
 
 # Warnings are errors on our code. No contraction to fused multiply-adds and no fast-math: the same
-# scenario and seed must give the same bytes (docs/design.md, decision 6). errno of sqrt and the like
-# is never read; not setting it changes no result and lets them be instructions.
+# scenario and seed must give the same bytes (docs/decisions/0006-determinism.md). errno of sqrt and
+# the like is never read; not setting it changes no result and lets them be instructions.
 function(limpet_compile_options target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror

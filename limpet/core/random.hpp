@@ -27,6 +27,13 @@ enum class Stream : std::uint32_t {
     test = 99,
 };
 
+/// Where the standard normal distribution has a probability below it.
+/// @param probability  0 < p < 1
+/// @return z with Phi(z) = p, relative error below 1e-15
+/// Source: Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied
+/// Statistics 37 (1988), PPND16.
+[[nodiscard]] double normal_quantile(double probability);
+
 /// Counter-based random numbers (Philox 4x32-10): a draw is a pure function of (seed, run, stream,
 /// counter), so results do not depend on thread count or order, and a copied stream continues
 /// alike. Source: Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC11.
@@ -37,7 +44,7 @@ public:
 
     /// @return uniform on [0, 1), 53 bits
     [[nodiscard]] double uniform();
-    /// @return standard normal (Box-Muller, one of a pair)
+    /// @return standard normal, of one uniform number (normal_quantile)
     [[nodiscard]] double normal();
     /// @return three independent standard normals
     [[nodiscard]] Vector3 normal3();
@@ -54,8 +61,6 @@ private:
     std::uint64_t counter_ = 0;
     double uniforms_[2] = {0.0, 0.0};
     std::uint32_t uniforms_left_ = 0;
-    std::uint32_t has_normal_ = 0;
-    double normal_ = 0.0;
 };
 
 }  // namespace limpet

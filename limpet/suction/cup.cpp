@@ -89,11 +89,6 @@ Event leave(CupState& state, const LipLoad& load, double time_s) {
                        {"peel_margin_N", load.peel_margin_N}});
 }
 
-/// In the cup's own frame, as a force sensor on it would say.
-Wrench turned(const Matrix3& R, const Wrench& wrench) {
-    return {.force_N = R * wrench.force_N, .moment_N_m = R * wrench.moment_N_m};
-}
-
 }  // namespace
 
 const ParameterTable<CupParameters>& cup_table() {
@@ -141,9 +136,11 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
             output.event = leave(state, load, input.time_s);
             load = {};
         }
-        const Matrix3 R_CT = cup.q_WF.toRotationMatrix().transpose() * model.wall.R_WT;
-        output.wrench_W = turned(model.wall.R_WT, load.wrench_T);
-        status.wrench_C = turned(R_CT, load.wrench_T);
+        output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
+                           .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};
+        const Quaternion q_CW = cup.q_WF.conjugate();
+        status.wrench_C = {.force_N = q_CW * output.wrench_W.force_N,
+                           .moment_N_m = q_CW * output.wrench_W.moment_N_m};
     } else {
         status.wrench_C = {};
     }

@@ -25,9 +25,20 @@ TEST(Random, SeedRunAndStreamEachChangeTheNumbers) {
     EXPECT_NE(reference, RandomStream(7 + (1ULL << 32U), 3, Stream::test).uniform());
 }
 
+TEST(NormalQuantile, InvertsTheDistributionInCentreFlankAndTail) {
+    for (const double p : {1e-300, 1e-20, 1e-12, 1e-6, 0.01, 0.07, 0.08, 0.3, 0.5}) {
+        const double z = normal_quantile(p);
+        EXPECT_NEAR(0.5 * std::erfc(-z / std::sqrt(2.0)) / p, 1.0, 1e-12) << p;
+    }
+    for (const double p : {0.6, 0.92, 0.93, 0.999}) {
+        EXPECT_NEAR(normal_quantile(p), -normal_quantile(1.0 - p), 1e-13);
+    }
+    EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);  // any table
+}
+
 TEST(Random, CopyContinuesAlike) {
     RandomStream a(1, 0, Stream::test);
-    (void)a.normal();  // leaves one of a pair behind
+    (void)a.normal();  // leaves half of a block behind
     RandomStream b = a;
     for (int i = 0; i < 10; ++i) {
         EXPECT_EQ(a.normal(), b.normal());

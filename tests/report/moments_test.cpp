@@ -104,6 +104,21 @@ TEST(Pose, of_the_perched_vehicle_has_its_cup_flat_on_the_wall) {
     EXPECT_FALSE(pose.rotors_turn);
 }
 
+TEST(Pose, has_the_angles_of_the_cup_on_its_joint) {
+    const test::Folder folder;
+    const auto path = folder.path() / "flight.mcap";
+    Recorder recorder(path, test::recording_info({.model = false}));
+    Truth truth;
+    truth.base.q_WF = quaternion_from_euler({.roll_rad = 0.3, .pitch_rad = -0.5, .yaw_rad = 2.0});
+    truth.cup.q_WF = truth.base.q_WF * Eigen::AngleAxisd(0.4, Vector3::UnitY()) *
+                     Eigen::AngleAxisd(-0.7, Vector3::UnitZ());
+    recorder.truth(truth);
+    recorder.finish("{}");
+    const Pose pose = pose_at(read_recording(path), 0.0);
+    EXPECT_NEAR(pose.cup_pitch_rad, 0.4, 1e-12);
+    EXPECT_NEAR(pose.cup_yaw_rad, -0.7, 1e-12);
+}
+
 TEST(Pose, is_that_of_the_nearest_sample) {
     const Recording flight = test::fly();
     const Attempt attempt;
