@@ -21,10 +21,11 @@ std::int64_t nanoseconds(double time_s) {
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
     : writer_(path), range_sensor_(info.range_sensor) {
-    writer_.add_metadata({"limpet",
-                          {{"scenario", info.scenario},
-                           {"seed", std::to_string(info.seed)},
-                           {"version", info.version}}});
+    mcap::StringMap about = info.numbers;
+    about["scenario"] = info.scenario;
+    about["seed"] = std::to_string(info.seed);
+    about["version"] = info.version;
+    writer_.add_metadata({"limpet", about});
     for (const mcap::Attachment& attachment : info.attachments) {
         writer_.add_attachment(attachment);
     }

@@ -18,7 +18,9 @@ namespace limpet {
 struct RecordingInfo {
     std::string scenario;
     std::uint64_t seed = 0;
-    std::string version;                        ///< of limpet
+    std::string version;  ///< of limpet
+    /// Numbers that a reader of the recording needs: {"land_pressure_Pa", "88000"}.
+    mcap::StringMap numbers = {};
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
     messages::RangeSensor range_sensor;
 };

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/record/ros_frames.hpp"
@@ -51,11 +53,7 @@ constexpr std::array<Source, 8> kSources = {{
 /// Empty panels, in the order of the page.
 std::array<Panel, 5> templates() {
     return {{
-        // Levels: the paper, section IV; facts.md section 3.
-        {.title = "cup pressure",
-         .unit = "hPa",
-         .levels = {{"P_{land} 880", 880.0}, {"detach 980", 980.0}},
-         .least_span = 100.0},
+        {.title = "cup pressure", .unit = "hPa", .least_span = 100.0},
         {.title = "pitch", .unit = "deg", .least_span = 6.0},
         {.title = "force through the slider", .unit = "N", .least_span = 20.0},
         {.title = "total thrust", .unit = "N", .least_span = 10.0, .from_zero = true},
@@ -106,6 +104,24 @@ Curve estimated_pitch(const Recording& recording, const Window& window) {
     return curve;
 }
 
+/// The pressures at which guidance decided, as the recording tells.
+std::vector<Level> pressure_levels(const Recording& recording) {
+    std::vector<Level> levels;
+    const auto limpet = recording.metadata.find("limpet");
+    if (limpet == recording.metadata.end()) {
+        return levels;
+    }
+    for (const auto& [key, label] :
+         {std::pair{"land_pressure_Pa", "P_{land}"}, std::pair{"detach_pressure_Pa", "detach"}}) {
+        const auto found = limpet->second.find(key);
+        if (found != limpet->second.end()) {
+            const double level_hPa = std::atof(found->second.c_str()) * kPerHundred;
+            levels.push_back({fmt::format("{} {:g}", label, level_hPa), level_hPa});
+        }
+    }
+    return levels;
+}
+
 bool has_points(const Curve& curve) {
     return std::any_of(curve.values.begin(), curve.values.end(),
                        [](double v) { return std::isfinite(v); });
@@ -124,6 +140,7 @@ bool of_cup(std::size_t panel) {
 
 std::vector<Panel> panels(const Recording& recording, const Window& window) {
     std::array<Panel, 5> all = templates();
+    all[kPressure].levels = pressure_levels(recording);
     for (const Source& source : kSources) {
         if (of_cup(source.panel) && !has_cup(recording)) {
             continue;

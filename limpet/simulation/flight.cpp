@@ -25,7 +25,7 @@ FlightResult result_of(const Flight& flight, double wall_s) {
     result.seed = scenario.seed;
     result.outcome = state.ending->outcome;
     result.reason = state.ending->reason;
-    result.attempts = scenario.mission == Mission::hover ? 0 : state.guidance.attempt;
+    result.attempts = state.metrics.attempts;
     result.metrics = state.metrics;
     result.performance = {
         .simulated_s = seconds(state.tick), .wall_s = wall_s, .physics_steps = state.physics_steps};

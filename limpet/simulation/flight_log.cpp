@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/flight_log.hpp"
 
+#include <fmt/core.h>
+
 #include "limpet/core/version.hpp"
 
 namespace limpet {
@@ -12,6 +14,11 @@ RecordingInfo describe(const SimulationModel& model) {
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;
+    if (scenario.airframe.has_cup) {
+        info.numbers["land_pressure_Pa"] = fmt::format("{}", scenario.guidance.land_pressure_Pa);
+        info.numbers["detach_pressure_Pa"] =
+            fmt::format("{}", scenario.guidance.detach_pressure_Pa);
+    }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
     info.attachments.push_back(

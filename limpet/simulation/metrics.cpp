@@ -130,6 +130,7 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
         const Vector3 x_T_W = wall.R_WT.col(0);
         metrics.alignment_at_approach_deg = degrees(
             std::abs(wrap_pi(std::atan2(x_B_W.y(), x_B_W.x()) - std::atan2(x_T_W.y(), x_T_W.x()))));
+        ++metrics.attempts;
         metrics.awaits_touch = true;
         metrics.touch_s = Metrics::kNone;
         metrics.time_to_land_pressure_s = Metrics::kNone;

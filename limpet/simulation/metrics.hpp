@@ -40,6 +40,7 @@ struct CupLoads {
 struct Metrics {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+    int attempts = 0;                          ///< docking runs
     double impact_speed_m_s = kNone;           ///< of the lip along the wall's normal
     double impact_force_N = kNone;             ///< largest press through the slider, > 0
     double cup_press_max_N = kNone;            ///< largest press at the lip, > 0

@@ -62,7 +62,7 @@ void write_wall_material(pugi::xml_node asset, const Scene& scene) {
             break;
         case Finish::steel:
             add(asset, "material", "name", "wall", "rgba", "0.55 0.58 0.62 1", "specular", "0.9",
-                "shininess", "0.6", "reflectance", "0.18");
+                "shininess", "0.6", "reflectance", "0.05");
             break;
     }
 }

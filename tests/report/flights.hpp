@@ -169,8 +169,12 @@ inline RecordingInfo recording_info(const RecordedFlight& what) {
     RecordingInfo info{.scenario = what.cup ? "perch_concrete" : "hover",
                        .seed = 7,
                        .version = "test",
+                       .numbers = {},
                        .attachments = {},
                        .range_sensor = {}};
+    if (what.cup) {
+        info.numbers = {{"land_pressure_Pa", "87000"}, {"detach_pressure_Pa", "97000"}};
+    }
     if (what.model) {
         Scene scene;
         scene.wall.p_WT_m = {Attempt::kWall_m, 0.0, -Attempt::kHeight_m};

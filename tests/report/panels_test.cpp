@@ -50,6 +50,13 @@ void expect_column(const Recording& flight, const Curve& drawn, const char* topi
     }
 }
 
+TEST(Panels, draw_the_pressures_at_which_this_flight_decided) {
+    const auto all = panels(test::fly(), kAll);
+    ASSERT_EQ(all[0].levels.size(), 2U);
+    EXPECT_DOUBLE_EQ(all[0].levels[0].value, 870.0);
+    EXPECT_EQ(all[0].levels[1].label, "detach 970");
+}
+
 TEST(Panels, are_the_columns_of_the_recording) {
     const Recording flight = test::fly();
     const auto all = panels(flight, kAll);

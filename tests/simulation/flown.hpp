@@ -75,7 +75,7 @@ inline Trace trace(const std::shared_ptr<const SimulationModel>& model) {
     }
     trace.result.outcome = flight.state().ending->outcome;
     trace.result.reason = flight.state().ending->reason;
-    trace.result.attempts = flight.state().guidance.attempt;
+    trace.result.attempts = flight.state().metrics.attempts;
     trace.result.metrics = flight.state().metrics;
     trace.result.state_hash = flight.state().hash;
     return trace;
