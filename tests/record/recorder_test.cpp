@@ -6,11 +6,11 @@
 
 #include <cmath>
 
-#include "allocations.hpp"
 #include "files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/record/recording.hpp"
+#include "tests/support/allocations.hpp"
 
 namespace limpet {
 namespace {

@@ -1,31 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "flown.hpp"
 #include "limpet/simulation/flight_log.hpp"
-
-namespace {
-std::atomic<long long> allocations{0};
-}  // namespace
-
-// Counts every allocation of this program: the loop's steady state must make none.
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size)) {
-        return memory;
-    }
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
+#include "tests/support/allocations.hpp"
 
 namespace limpet {
 namespace {
@@ -33,11 +11,11 @@ namespace {
 TEST(SteadyState, TheLoopAllocatesNothing) {
     Flight flight(model_of("perch_concrete"));
     flight.tick();
-    const long long before = allocations;
+    const long before = allocations();
     while (!flight.ended()) {
         flight.tick();
     }
-    EXPECT_EQ(allocations - before, 0);
+    EXPECT_EQ(allocations() - before, 0);
 }
 
 TEST(SteadyState, NorDoesTheRecorder) {
@@ -51,12 +29,12 @@ TEST(SteadyState, NorDoesTheRecorder) {
         log.tick(*model, flight.state(), events);
     };
     tick();
-    const long long before = allocations;
+    const long before = allocations();
     while (!flight.ended()) {
         tick();
     }
     // The index of chunks grows by the doubling of a few vectors, not by the message.
-    EXPECT_LT(allocations - before, 64);
+    EXPECT_LT(allocations() - before, 64);
     log.finish("{}");
     std::filesystem::remove(path);
 }
