@@ -59,8 +59,11 @@ std::string seal_text(const Metrics& m) {
 
 std::string perched_text(const Metrics& m) {
     return known(m.perched_pitch_deg)
-               ? fmt::format("pitch {:.2f} deg, steady within {:.3f} deg over the last 5 s",
-                             m.perched_pitch_deg, m.perched_pitch_spread_deg)
+               ? fmt::format("pitch {:.2f} deg", m.perched_pitch_deg) +
+                     (known(m.perched_pitch_spread_deg)
+                          ? fmt::format(", steady within {:.3f} deg to the end of the rest",
+                                        m.perched_pitch_spread_deg)
+                          : "")
                : "";
 }
 

@@ -25,9 +25,10 @@ namespace {
 struct FlyOptions {
     std::string scenario;
     std::vector<std::string> overrides;
-    std::optional<std::uint64_t> seed;
+    std::string seed;
     std::string out;
     std::string expect;
+    bool seed_given = false;
     bool json = false;
     bool quiet = false;
     bool csv = false;
@@ -60,6 +61,15 @@ FlightWatch watch(Terminal& terminal) {
                 }};
 }
 
+/// --seed N is --set seed=N, last: checked alike.
+std::vector<std::string> overrides_of(const FlyOptions& options) {
+    std::vector<std::string> overrides = options.overrides;
+    if (options.seed_given) {
+        overrides.push_back("seed=" + options.seed);
+    }
+    return overrides;
+}
+
 /// Figures and tables beside the recording; returns what was written.
 std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightResult& result,
                                         Terminal& terminal) {
@@ -90,8 +100,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
         (void)expected(options.expect);  // before any work
     }
-    const Scenario scenario =
-        load_scenario(options.scenario, {.overrides = options.overrides, .seed = options.seed});
+    const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
     const auto model = build_model(scenario);
 
     std::filesystem::path recording;
@@ -163,7 +172,10 @@ void add_fly(CLI::App& app, ExitCode& code) {
         "  limpet fly perch_concrete --seed 7\n"
         "  limpet fly perch_metal --set suction.valve_fitted=true --expect released --json\n"
         "A flight that runs to any outcome exits with 0; judge it with --expect.\n");
-    verb->callback([options, &code] { fly_one(*options, code); });
+    verb->callback([options, verb, &code] {
+        options->seed_given = verb->count("--seed") > 0;
+        fly_one(*options, code);
+    });
 }
 
 }  // namespace limpet::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <string>
 
@@ -62,6 +64,7 @@ int fail(ExitCode code, const std::string& message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
     CLI::App app{kAbout, "limpet"};
     app.footer(kFooter);
     app.set_version_flag("--version", "limpet " + std::string(limpet::kVersion));
@@ -70,6 +73,9 @@ int main(int argc, char** argv) {
         add_verbs(app, code);
         require_verb(app, argc, argv);
         app.parse(argc, argv);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            throw limpet::InputError("standard output cannot be written");
+        }
         return static_cast<int>(code);
     } catch (const CLI::Success& help) {
         return app.exit(help);

@@ -56,6 +56,82 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
     }
 }
 
+/// States that fly: positions and velocities.
+Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& memory,
+                    const Estimate& estimate, double elapsed_s) {
+    Setpoint setpoint{.armed = true};
+    if (memory.state == PerchingState::finished) {
+        setpoint = memory.setpoint;  // as it is: on the wall at rest, in the air standing
+        if (setpoint.armed && estimate.valid) {
+            setpoint.motion =
+                PositionSetpoint{.p_W_m = memory.entry_p_W_m, .yaw_rad = memory.entry_yaw_rad};
+        } else if (setpoint.armed) {
+            setpoint.motion = attitude(memory, 0.0, thrust_command(parameters, 1.0));
+        }
+    } else if (memory.state == PerchingState::hovering) {
+        setpoint.motion =
+            PositionSetpoint{.p_W_m = memory.line_W_m, .yaw_rad = memory.entry_yaw_rad};
+    } else if (memory.state == PerchingState::approaching) {
+        setpoint.pump_on = true;
+        const RunReference reference =
+            run_reference(elapsed_s, parameters.dock_speed_m_s, parameters.dock_acceleration_m_s2,
+                          parameters.dock_ramp_s);
+        setpoint.motion = run(parameters, memory, estimate, reference, 1.0);
+    } else if (memory.state == PerchingState::retreating) {
+        retreat(parameters, memory, estimate, elapsed_s, setpoint);
+    } else if (memory.state == PerchingState::backing_off) {
+        setpoint.valve_open = parameters.valve_fitted > 0.5;
+        retreat(parameters, memory, estimate, elapsed_s, setpoint);
+    } else {
+        setpoint.motion = stand(parameters, memory);
+    }
+    return setpoint;
+}
+
+/// States in which the cup holds: attitude and thrust, since a position loop would pry at it.
+Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory& memory,
+                     double elapsed_s) {
+    const double perched_rad =
+        radians(parameters.perched_pitch_deg + parameters.pitch_over_travel_deg);
+    const auto pitch_between = [&](double to_rad, double duration_s) {
+        return memory.entry_pitch_rad +
+               (to_rad - memory.entry_pitch_rad) * smoothstep(elapsed_s / duration_s);
+    };
+    const auto carried = [&](double pitch_rad) {  // the share of the weight that rotors carry
+        return thrust_command(parameters, std::cos(pitch_rad));
+    };
+    Setpoint setpoint{.armed = true, .pump_on = true};
+    if (memory.state == PerchingState::holding || memory.state == PerchingState::deciding) {
+        setpoint.hold_integrators = true;
+        setpoint.motion = PositionSetpoint{
+            .p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * memory.wall.into_wall_W(),
+            .yaw_rad = memory.wall.heading_rad};
+    } else if (memory.state == PerchingState::pitching_up) {
+        const double pitch_rad = pitch_between(perched_rad, parameters.land_pitch_s);
+        setpoint.motion = attitude(memory, pitch_rad, carried(pitch_rad));
+    } else if (memory.state == PerchingState::unloading) {
+        setpoint.hold_integrators = true;
+        const double left = std::max(0.0, 1.0 - elapsed_s / parameters.land_thrust_s);
+        setpoint.motion = attitude(memory, perched_rad, left * carried(perched_rad));
+    } else if (memory.state == PerchingState::standing || memory.state == PerchingState::resting) {
+        setpoint.armed = false;
+    } else if (memory.state == PerchingState::spinning_up) {
+        setpoint.hold_integrators = true;
+        const double share = std::clamp(elapsed_s / parameters.spin_up_s, 0.0, 1.0);
+        setpoint.motion =
+            attitude(memory, memory.entry_pitch_rad, share * carried(memory.entry_pitch_rad));
+    } else if (memory.state == PerchingState::pitching_down) {
+        const double pitch_rad = pitch_between(0.0, parameters.level_pitch_s);
+        setpoint.motion = attitude(memory, pitch_rad, carried(pitch_rad));
+    } else {  // levelled, releasing, resealing
+        const bool releases = memory.state == PerchingState::releasing;
+        setpoint.pump_on = !releases;
+        setpoint.valve_open = releases && parameters.valve_fitted > 0.5;
+        setpoint.motion = attitude(memory, 0.0, carried(0.0));
+    }
+    return setpoint;
+}
+
 }  // namespace
 
 RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,
@@ -104,99 +180,27 @@ Vector3 pre_position_W(const PerchingParameters& parameters, const PerchingMemor
 Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memory,
                 const Estimate& estimate, double time_s) {
     const double elapsed_s = time_s - memory.since_s;
-    const double perched_rad =
-        radians(parameters.perched_pitch_deg + parameters.pitch_over_travel_deg);
-    const auto pitch_between = [&](double to_rad, double duration_s) {
-        return memory.entry_pitch_rad +
-               (to_rad - memory.entry_pitch_rad) * smoothstep(elapsed_s / duration_s);
-    };
-    Setpoint setpoint{.armed = true};
     switch (memory.state) {
         case PerchingState::hovering:
-            setpoint.motion =
-                PositionSetpoint{.p_W_m = memory.line_W_m, .yaw_rad = memory.entry_yaw_rad};
-            break;
         case PerchingState::pre_positioning:
-        case PerchingState::aligning: setpoint.motion = stand(parameters, memory); break;
+        case PerchingState::aligning:
         case PerchingState::approaching:
-            setpoint.pump_on = true;
-            setpoint.motion =
-                run(parameters, memory, estimate,
-                    run_reference(elapsed_s, parameters.dock_speed_m_s,
-                                  parameters.dock_acceleration_m_s2, parameters.dock_ramp_s),
-                    1.0);
-            break;
+        case PerchingState::retreating:
+        case PerchingState::backing_off:
+        case PerchingState::finished: return in_the_air(parameters, memory, estimate, elapsed_s);
         case PerchingState::holding:
         case PerchingState::deciding:
-            setpoint.pump_on = true;
-            setpoint.hold_integrators = true;
-            setpoint.motion = PositionSetpoint{
-                .p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * memory.wall.into_wall_W(),
-                .yaw_rad = memory.wall.heading_rad};
-            break;
-        case PerchingState::retreating:
-            retreat(parameters, memory, estimate, elapsed_s, setpoint);
-            break;
-        case PerchingState::pitching_up: {
-            setpoint.pump_on = true;
-            const double pitch_rad = pitch_between(perched_rad, parameters.land_pitch_s);
-            setpoint.motion =
-                attitude(memory, pitch_rad, thrust_command(parameters, std::cos(pitch_rad)));
-            break;
-        }
-        case PerchingState::unloading: {
-            setpoint.pump_on = true;
-            setpoint.hold_integrators = true;
-            const double left = 1.0 - elapsed_s / parameters.land_thrust_s;
-            setpoint.motion =
-                attitude(memory, perched_rad,
-                         std::max(0.0, left) * thrust_command(parameters, std::cos(perched_rad)));
-            break;
-        }
+        case PerchingState::pitching_up:
+        case PerchingState::unloading:
         case PerchingState::standing:
         case PerchingState::resting:
-            setpoint.pump_on = true;
-            setpoint.armed = false;
-            break;
-        case PerchingState::spinning_up: {
-            setpoint.pump_on = true;
-            setpoint.hold_integrators = true;
-            const double share = std::clamp(elapsed_s / parameters.spin_up_s, 0.0, 1.0);
-            setpoint.motion =
-                attitude(memory, memory.entry_pitch_rad,
-                         share * thrust_command(parameters, std::cos(memory.entry_pitch_rad)));
-            break;
-        }
-        case PerchingState::pitching_down: {
-            setpoint.pump_on = true;
-            const double pitch_rad = pitch_between(0.0, parameters.level_pitch_s);
-            setpoint.motion =
-                attitude(memory, pitch_rad, thrust_command(parameters, std::cos(pitch_rad)));
-            break;
-        }
+        case PerchingState::spinning_up:
+        case PerchingState::pitching_down:
         case PerchingState::levelled:
-        case PerchingState::resealing:
-            setpoint.pump_on = true;
-            setpoint.motion = attitude(memory, 0.0, thrust_command(parameters, 1.0));
-            break;
         case PerchingState::releasing:
-            setpoint.valve_open = parameters.valve_fitted > 0.5;
-            setpoint.motion = attitude(memory, 0.0, thrust_command(parameters, 1.0));
-            break;
-        case PerchingState::backing_off:
-            setpoint.valve_open = parameters.valve_fitted > 0.5;
-            retreat(parameters, memory, estimate, elapsed_s, setpoint);
-            break;
-        case PerchingState::finished: {
-            setpoint = memory.setpoint;  // as it is: on the wall at rest, in the air standing
-            if (setpoint.armed) {
-                setpoint.motion =
-                    PositionSetpoint{.p_W_m = memory.entry_p_W_m, .yaw_rad = memory.entry_yaw_rad};
-            }
-            break;
-        }
+        case PerchingState::resealing: return on_the_wall(parameters, memory, elapsed_s);
     }
-    return setpoint;
+    throw InternalError("perching state out of range");
 }
 
 }  // namespace limpet

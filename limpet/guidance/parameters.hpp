@@ -12,6 +12,8 @@ struct PerchingParameters {
     // the vehicle, as guidance knows it
     double lidar_separation_m = 0.41;  ///< l of eq. (7)
     double lidar_x_m = 0.205;          ///< LiDARs ahead of the centre of mass
+    double joint_x_m = 0.46;           ///< cup joint ahead of the centre of mass
+    double joint_z_m = 0.0;            ///< and below it
     double hover_thrust = 0.657;       ///< motor command that carries the weight
     double zero_thrust = -1.0 / 7.0;   ///< motor command at which the rotors would stand still
     double valve_fitted = 0.0;         ///< 1: the cup has a solenoid valve
@@ -61,6 +63,9 @@ struct PerchingParameters {
     double attempts = 3.0;
     double sensor_limit_s = 0.25;   ///< a reading older than this is lost
     double wait_limit_s = 20.0;     ///< for pre-position and alignment
+    double slip_limit_m = 0.12;     ///< the joint this far from where it gripped: came off
+    double debounce_s = 0.1;        ///< a weak vacuum counts when it lasts
+    double stuck_s = 1.0;           ///< a pressure that does not move for so long after pump off
     double battery_reserve = 0.15;  ///< no new attempt below this charge
 };
 

@@ -15,36 +15,38 @@
 
 namespace limpet {
 
-// Fig. 7 of the paper as one table (perching.cpp): from, guard, to, reason, event.
+// Fig. 7 of the paper as one table (perching.cpp): from, guard, to, reason, event, outcome. Faults
+// have rows as success has; those that end a mission at once are left out of the drawing.
 //
-//   hovering ─────────────────────────────────────────────────────────────► finished
-//   pre_positioning ◄──────────────────────────────────┐
-//        │ pre_positioned                               │ attempt + 1
-//   aligning                                            │
-//        │ approach_started          aborted            │
-//   approaching ────────────────────────────────► retreating ── attempts used up ──► finished
-//        │ impact                                  ▲    ▲
-//   holding                                        │    │
-//        │ hold_over              retreat_started  │    │ aborted (vacuum lost)
-//   deciding ──────────────────────────────────────┘    │
-//        │ landing_started                              │
-//   pitching_up ────────────────────────────────────────┤
-//        │                                              │
-//   unloading ──────────────────────────────────────────┘
+//   pre_positioning ◄─────────────────────────────────┐
+//        │ pre_positioned                             │ next attempt
+//   aligning                                          │
+//        │ approach_started        aborted            │
+//   approaching ──────────────────────────────► retreating ── attempts used up ──► finished
+//        │ impact                                  ▲  ▲
+//   holding                                        │  │
+//        │ hold_over             retreat_started   │  │ aborted (vacuum lost, came off)
+//   deciding ──────────────────────────────────────┘  │
+//        │ landing_started                            │
+//   pitching_up ──────────────────────────────────────┤
+//        │                                            │
+//   unloading ────────────────────────────────────────┘
 //        │ perched
 //   standing
 //        │ motors_off
 //   resting ── mission over ──► finished
-//        │ motors_on
-//   spinning_up
-//        │
-//   pitching_down ── aborted (not level) ──┐
-//        │ level                           ▼
-//   levelled                           resealing ── landing_started ──► pitching_up
-//        │ pump_off, valve_open            ▲  └── no vacuum ──► backing_off
-//   releasing ── aborted (time, swing) ────┤
-//        │ pressure_released               │
-//   backing_off ── aborted (held) ─────────┘
+//        │ motors_on (rest over, vacuum weak, battery low)
+//   spinning_up ─────────────────── came off ──────────────┐
+//        │                                                 │
+//   pitching_down ── aborted (not level) ──┐               │
+//        │ level                           ▼               │
+//   levelled                           resealing ──────────┤ no vacuum
+//        │ pump_off, valve_open            ▲ │ landing_started ──► pitching_up
+//   releasing ── aborted (time, swing, ────┤               │
+//        │                sensor stuck)    │               │
+//        │ pressure_released               │               │
+//   backing_off ◄──────────────────────────┼───────────────┘
+//        │      ── aborted (held) ─────────┘
 //        │ backed_off
 //   finished
 
@@ -90,10 +92,14 @@ struct PerchingMemory {
         -1.0;  ///< since when its condition holds without a break; < 0: it does not
     int attempt = 1;
     bool release_given_up = false;
+    bool has_perched = false;
+    double weak_since_s = -1.0;  ///< since when the vacuum is too weak to land; < 0: it is not
     WallSeen wall;
     Vector3 line_W_m = Vector3::Zero();     ///< a point of the docking line
     Vector3 entry_p_W_m = Vector3::Zero();  ///< where the state began
+    Vector3 grip_W_m = Vector3::Zero();     ///< the cup's joint when the cup had gripped
     double entry_pitch_rad = 0.0;
+    double entry_pressure_Pa = 0.0;
     double entry_yaw_rad = 0.0;
     Setpoint setpoint;
     std::optional<Ending> ending;

@@ -51,6 +51,14 @@ void check_mission(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// What the estimator can only run with.
+void check_aiding(const Scenario& scenario, const YamlNode& root) {
+    if (scenario.autopilot.EKF2_EV_CTRL == 0.0 && scenario.autopilot.EKF2_GPS_CTRL == 0.0) {
+        fail_at(root, "autopilot.EKF2_EV_CTRL",
+                "0 leaves no position, allowed only with EKF2_GPS_CTRL above 0");
+    }
+}
+
 void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
     if (!is_whole(kTick_s / simulation.step_s)) {
         fail_at(root, "simulation.step_s",
@@ -104,6 +112,7 @@ void check_order(const YamlNode& root, const std::string& section, std::string_v
 }  // namespace
 
 void check(const Scenario& scenario, const YamlNode& root) {
+    check_aiding(scenario, root);
     Scenario bound = scenario;  // sections bind to what may be written
     const std::vector<Section> sections = scenario_sections(bound);
     check_derived(sections, root);

@@ -11,9 +11,11 @@
 namespace limpet {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kDerived = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kDerived = {{
     {"guidance", "lidar_separation_m"},
     {"guidance", "lidar_x_m"},
+    {"guidance", "joint_x_m"},
+    {"guidance", "joint_z_m"},
     {"guidance", "hover_thrust"},
     {"guidance", "zero_thrust"},
     {"guidance", "drag_1_s"},
@@ -32,6 +34,8 @@ void derive_from_vehicle(const Airframe& airframe, Scenario& scenario) {
         rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_thrust;
     scenario.guidance.lidar_separation_m = airframe.lidar_separation_m;
     scenario.guidance.lidar_x_m = airframe.lidar_x_m;
+    scenario.guidance.joint_x_m = airframe.cup.joint_x_m;
+    scenario.guidance.joint_z_m = airframe.cup.joint_z_m;
     scenario.guidance.hover_thrust = hover_thrust;
     scenario.guidance.zero_thrust = -rotor.speed_offset_rad_s / rotor.speed_scale_rad_s;
     scenario.guidance.drag_1_s =

@@ -12,6 +12,7 @@ namespace limpet {
 /// win. Keys: see is_derived().
 ///
 ///   guidance.lidar_separation_m, lidar_x_m    the vehicle's lidar
+///   guidance.joint_x_m, joint_z_m             the vehicle's cup
 ///   guidance.hover_thrust, MPC_THR_HOVER      u = (sqrt(m g / 4 k_mot) - offset) / scale
 ///   guidance.zero_thrust                      u at which the rotors would stand: -offset / scale
 ///   guidance.drag_1_s                         4 lambda_1 w_hover / m

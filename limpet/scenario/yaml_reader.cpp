@@ -108,6 +108,10 @@ double read_number(const YamlNode& node, const BoundParameter& row) {
         fail(node, fmt::format("must be a number, is {}, allowed {}", what_it_is(node),
                                allowed_text(row)));
     }
+    if ((row.unit == "count" || row.unit == "switch") && *value != std::floor(*value)) {
+        fail(node, fmt::format("{} is not a whole number, allowed {}", shown(node.text),
+                               allowed_text(row)));
+    }
     if (!(*value >= row.minimum && *value <= row.maximum)) {
         fail(node,
              fmt::format("{} is out of range, allowed {}", shown(node.text), allowed_text(row)));
@@ -163,8 +167,9 @@ std::string number_text(double value) {
 }
 
 std::string allowed_text(const BoundParameter& row) {
+    const bool bare = row.unit == "-" || row.unit == "count" || row.unit == "switch";
     return fmt::format("{}..{}{}{}", number_text(row.minimum), number_text(row.maximum),
-                       row.unit == "-" ? "" : " ", row.unit == "-" ? "" : row.unit);
+                       bare ? "" : " ", bare ? "" : row.unit);
 }
 
 }  // namespace limpet

@@ -16,7 +16,7 @@ double& at(P& parameters) {
 // clang-format off
 const ParameterTable<SensorParameters>& sensor_table() {
     static const ParameterTable<P> table = {
-        {"imu_rate_Hz", "Hz", 0.0, 1000.0, at<&P::imu_rate_Hz>, "samples a second, whole; 0: not fitted", "PX4 HIL worlds/hitl_iris.world: 4 ms"},
+        {"imu_rate_Hz", "Hz", 50.0, 1000.0, at<&P::imu_rate_Hz>, "samples a second, whole; estimator and control run with it", "PX4 HIL worlds/hitl_iris.world: 4 ms"},
         {"gyro_noise_density_rad_s_rtHz", "rad/s/rtHz", 0.0, 0.1, at<&P::gyro_noise_density_rad_s_rtHz>, "white noise of the rates", "ADIS16448 as in PX4 Gazebo Classic ec8641d4"},
         {"gyro_bias_walk_rad_s2_rtHz", "rad/s^2/rtHz", 0.0, 0.1, at<&P::gyro_bias_walk_rad_s2_rtHz>, "random walk that drives the rates' bias", "ADIS16448 as in PX4 Gazebo Classic ec8641d4"},
         {"gyro_bias_tau_s", "s", 1.0, 1e9, at<&P::gyro_bias_tau_s>, "correlation time of that bias", "ADIS16448 as in PX4 Gazebo Classic ec8641d4"},

@@ -35,7 +35,8 @@ std::optional<Ending> collision(const SimulationModel& model, const Truth& truth
         return Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
     if (!model.scenario.wall.present ||
-        before_wall_m(model.cup.wall, p_WB_m) > 2.0 * airframe.rotor_p_B_m[0].norm()) {
+        std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
+            airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
         return std::nullopt;
     }
     const Vector3 n_W = model.cup.wall.R_WT.col(0);

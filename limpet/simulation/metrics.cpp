@@ -41,7 +41,7 @@ double pitch_deg(const Truth& truth) {
     return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
 }
 
-bool bears_load(CupPhase phase) {
+bool is_attached(CupPhase phase) {
     return phase == CupPhase::attached || phase == CupPhase::unsealing;
 }
 
@@ -76,7 +76,7 @@ void observe_contact(Metrics& metrics, PerchingState state, const SliderStatus& 
         raise(metrics.impact_force_N, -slider.force_N);
         raise(metrics.cup_press_max_N, -cup.pull_N);
     }
-    if (!phase || !bears_load(cup.phase)) {
+    if (!phase || cup.phase == CupPhase::touching) {
         return;
     }
     const double margin_N = std::min({cup.pull_margin_N, cup.shear_margin_N, cup.peel_margin_N});
@@ -84,9 +84,11 @@ void observe_contact(Metrics& metrics, PerchingState state, const SliderStatus& 
     loads.pull_N = std::max(loads.pull_N, cup.pull_N);
     loads.shear_N = std::max(loads.shear_N, cup.shear_N);
     loads.peel_N_m = std::max(loads.peel_N_m, cup.peel_N_m);
-    loads.margin_N = std::min(loads.margin_N, margin_N);
     raise(metrics.cup_pull_max_N, cup.pull_N);
-    lower(metrics.cup_margin_min_N, margin_N);
+    if (is_attached(cup.phase)) {  // a seal that begins has nothing to spare yet
+        loads.margin_N = std::min(loads.margin_N, margin_N);
+        lower(metrics.cup_margin_min_N, margin_N);
+    }
 }
 
 void observe_touch(Metrics& metrics, double time_s, double speed_m_s) {
@@ -138,6 +140,11 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
         metrics.cup_press_max_N = Metrics::kNone;
     } else if (event.name == EventName::hold_over) {
         metrics.pressure_at_hold_end_Pa = truth.cup_status.pressure_Pa;
+    } else if (event.name == EventName::motors_off) {
+        metrics.perched_pitch_deg = pitch_deg(truth);
+        metrics.perched_pitch_spread_deg = Metrics::kNone;
+        metrics.rest_pitch_min_deg = Metrics::kNone;
+        metrics.rest_pitch_max_deg = Metrics::kNone;
     } else if (event.name == EventName::pump_off) {
         metrics.pump_off_s = event.time_s;
     } else if (event.name == EventName::detached && !std::isnan(metrics.pump_off_s)) {

@@ -26,7 +26,8 @@ inline constexpr std::array kLoadPhases = {LoadPhase::hold, LoadPhase::land, Loa
                                            LoadPhase::take_off, LoadPhase::level};
 [[nodiscard]] std::string_view to_string(LoadPhase phase);
 
-/// Largest loads on the cup in one phase, and what it had to spare, while it was sealed.
+/// Largest loads on the cup in one phase while it was sealed, and what it had to spare from the
+/// attachment on.
 struct CupLoads {
     double pull_N = 0.0;
     double shear_N = 0.0;

@@ -38,19 +38,37 @@ void touch(CupState& state, const Surface& surface, const LipMotion& motion) {
     state.anchor = {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
     state.status.phase = CupPhase::touching;
     state.status.seal_threshold_N = state.demand.threshold_N;
+    state.let_go_said = false;
     ++state.touches;
+}
+
+/// Neither sliding nor rocking: a seal needs the whole lip on the wall.
+bool lies_still(const LipLoad& load) {
+    return load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0;
+}
+
+/// The lip's load in the phase it is in now.
+LipLoad load_on(const CupParameters& parameters, CupState& state, const Surface& surface,
+                const LipMotion& motion) {
+    const bool sealed = is_sealed(state.status.phase);
+    const double vacuum_N =
+        sealed ? vacuum_force_N(state.mean_pressure_Pa, parameters.lip.radius_m) : 0.0;
+    return lip_load(parameters.lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
 }
 
 /// The rows of the table that keep the contact.
 std::optional<Event> advance_phase(const CupParameters& parameters, CupState& state,
-                                   const LipMotion& motion, const CupInput& input) {
+                                   const LipMotion& motion, const LipLoad& load,
+                                   const CupInput& input) {
     CupStatus& status = state.status;
     const bool sucks = input.pump_on && !input.valve_open;
     switch (status.phase) {
         case CupPhase::free: break;
         case CupPhase::touching:
-            if (sucks && seals(state.demand, input.press_N, motion.tilt_rad())) {
+            if (sucks && lies_still(load) &&
+                seals(state.demand, input.press_N, motion.tilt_rad())) {
                 status.phase = CupPhase::sealing;
+                state.let_go_said = false;
             }
             break;
         case CupPhase::sealing:
@@ -78,10 +96,18 @@ std::optional<Event> advance_phase(const CupParameters& parameters, CupState& st
     return std::nullopt;
 }
 
-Event leave(CupState& state, const LipLoad& load, double time_s) {
-    const bool released = state.status.phase == CupPhase::unsealing;
-    state.status.phase = CupPhase::free;
-    return make_event(time_s, "cup", released ? EventName::detached : EventName::contact_lost,
+/// The rows of the table that open the seal or end the contact.
+std::optional<Event> let_go(CupState& state, const LipMotion& motion, const LipLoad& load,
+                            double time_s) {
+    const CupPhase before = state.status.phase;
+    const bool lifted = motion.gap_m > 0.0;
+    state.status.phase = lifted ? CupPhase::free : CupPhase::touching;
+    if ((before == CupPhase::sealing && !lifted) || state.let_go_said) {
+        return std::nullopt;
+    }
+    state.let_go_said = true;
+    return make_event(time_s, "cup",
+                      before == CupPhase::unsealing ? EventName::detached : EventName::contact_lost,
                       to_string(load.let_go),
                       {{"pressure_Pa", state.mean_pressure_Pa},
                        {"pull_margin_N", load.pull_margin_N},
@@ -97,7 +123,7 @@ const ParameterTable<CupParameters>& cup_table() {
         {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0,
          [](C& c) -> double& { return c.attachment_pressure_Pa; },
          "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
-        {"valve_fitted", "-", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
+        {"valve_fitted", "switch", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
          "1: a solenoid valve breaks the vacuum", "paper, section V.B (proposed)"},
         {"valve_time_constant_s", "s", 1e-4, 1e3,
          [](C& c) -> double& { return c.vent.valve_time_constant_s; },
@@ -127,14 +153,13 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     }
     LipLoad load;
     if (status.phase != CupPhase::free) {
-        output.event = advance_phase(parameters, state, motion, input);
-        const bool sealed = is_sealed(status.phase);
-        const double vacuum_N =
-            sealed ? vacuum_force_N(state.mean_pressure_Pa, parameters.lip.radius_m) : 0.0;
-        load = lip_load(parameters.lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
-        if (load.let_go != LetGo::no) {
-            output.event = leave(state, load, input.time_s);
-            load = {};
+        load = load_on(parameters, state, surface, motion);
+        if (load.let_go == LetGo::no) {
+            output.event = advance_phase(parameters, state, motion, load, input);
+        } else {
+            output.event = let_go(state, motion, load, input.time_s);
+            load = status.phase == CupPhase::free ? LipLoad{}
+                                                  : load_on(parameters, state, surface, motion);
         }
         output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
                            .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};

@@ -18,13 +18,19 @@ namespace limpet {
 //   free       touching    the lip meets the wall, mouth first (the seal's demand is drawn)
 //   touching   free        the lip lifts off                                  -> contact_lost
 //   touching   sealing     pump on, valve shut, press force above the threshold, tilt below its
-//   limit sealing    free        load beyond a limit: pulled, sheared, peeled       -> contact_lost
+//                          limit, and the lip lies still: it neither slides nor rocks
+//   sealing    touching    load beyond a limit while still pressed: it slid or rocked open
+//   sealing    free        load beyond a limit: pulled, sheared, peeled       -> contact_lost
 //   sealing    unsealing   pump off or valve open
 //   sealing    attached    pressure below the attachment threshold            -> attached
 //   attached   free        load beyond a limit                                -> contact_lost
 //   attached   unsealing   pump off or valve open
 //   unsealing  free        the load opens it                                  -> detached
 //   unsealing  sealing     pump on again, valve shut
+//
+// A touch lasts until the lip has lifted: its demand is drawn once, however often the lip seals and
+// opens in between. A cup that lets go while its lip still meets the wall is `touching` until it
+// lifts; what happened was said when it let go.
 
 struct CupParameters {
     LipParameters lip;
@@ -51,6 +57,7 @@ struct CupState {
     SealDemand demand;
     bool pump_resting = false;  ///< a cycling pump between two refills
     int touches = 0;
+    bool let_go_said = false;  ///< of this touch: lifting off is no more news
     RandomStream random;
 };
 

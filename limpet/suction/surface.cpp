@@ -36,7 +36,7 @@ const ParameterTable<Surface>& surface_table() {
         {"seal_tilt_sigma_deg", "deg", 0.0, 45.0,
          [](S& s) -> double& { return s.seal_tilt_sigma_deg; },
          "spread of that tilt from touch to touch", "assumed"},
-        {"pump_cycles", "-", 0.0, 1.0, [](S& s) -> double& { return s.pump_cycles; },
+        {"pump_cycles", "switch", 0.0, 1.0, [](S& s) -> double& { return s.pump_cycles; },
          "1: tight enough for the pump to switch off between refills", "paper, section V.B"},
         {"pump_ripple_Pa", "Pa", 0.0, 1e4, [](S& s) -> double& { return s.pump_ripple_Pa; },
          "amplitude of the pressure ripple while the pump runs", "assumed"},

@@ -115,7 +115,7 @@ const ParameterTable<LegParameters>& leg_table() {
 const ParameterTable<BatteryParameters>& battery_table() {
     using P = BatteryParameters;
     static const ParameterTable<P> table = {
-        {"cells", "-", 1.0, 14.0, [](P& p) -> double& { return p.cells; }, "in series",
+        {"cells", "count", 1.0, 14.0, [](P& p) -> double& { return p.cells; }, "in series",
          "paper: 6S"},
         {"capacity_Ah", "Ah", 0.1, 100.0, [](P& p) -> double& { return p.capacity_Ah; },
          "when full", "paper: 4000 mAh"},

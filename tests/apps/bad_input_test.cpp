@@ -80,7 +80,12 @@ TEST(BadInput, SettingsNameThemselves) {
     expect_refused(bench, {"fly", "hover", "--set", "guidance.dock_sped_m_s=1"},
                    {"dock_speed_m_s"});
     expect_refused(bench, {"fly", "hover", "--set", "nonsense"}, {"nonsense"});
-    expect_refused(bench, {"fly", "hover", "--seed", "minus one"}, {"seed"});
+    for (const char* seed : {"minus one", "-1", "18446744073709551616", "1.5", ""}) {
+        expect_refused(bench, {"fly", "hover", "--seed", seed}, {"seed"});
+    }
+    expect_refused(bench, {"fly", "hover", "--set", "guidance.attempts=1.5"},
+                   {"attempts", "whole"});
+    expect_refused(bench, {"fly", "hover", "--set", "suction.valve_fitted=0.5"}, {"valve_fitted"});
 }
 
 TEST(BadInput, UnwritableOut) {

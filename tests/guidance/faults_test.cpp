@@ -127,8 +127,72 @@ TEST(Faults, ACupThatStaysStuckIsReportedAndReseals) {
     Puppet puppet;
     puppet.parameters.retreat_limit_s = 0.5;  // cannot be back by then
     ASSERT_TRUE(puppet.run_to(PerchingState::backing_off));
+    puppet.pressure_works = false;  // nothing says that the vacuum is gone
     ASSERT_TRUE(puppet.run_to(PerchingState::resealing, 1.0));
     EXPECT_EQ(reason_of_abort(puppet), "the cup does not come off");
+}
+
+TEST(Faults, ACupThatComesOffWhileLandingOrTakingOffIsNoticed) {
+    for (const PerchingState state : {PerchingState::pitching_up, PerchingState::pitching_down}) {
+        Puppet puppet;
+        ASSERT_TRUE(puppet.run_to(state));
+        puppet.run(2.0);
+        puppet.holds = false;  // the pitch turns about the centre of mass now
+        puppet.run(3.0);
+        EXPECT_EQ(reason_of_abort(puppet), "came off the wall");
+    }
+}
+
+TEST(Faults, ADriftAwayFromTheWallEndsTheWaiting) {
+    Puppet puppet;
+    puppet.leak_tau_s = 16.0;
+    ASSERT_TRUE(puppet.run_to(PerchingState::releasing));
+    puppet.estimate.p_WB_m.x() -= 0.2;
+    puppet.tick();
+    EXPECT_EQ(puppet.memory.state, PerchingState::backing_off);
+}
+
+TEST(Faults, WithoutAPositionItDocksNotAndLeavesNotTheWall) {
+    for (const PerchingState state : {PerchingState::pre_positioning, PerchingState::aligning,
+                                      PerchingState::approaching, PerchingState::retreating}) {
+        Puppet puppet;
+        puppet.seals = state != PerchingState::retreating;
+        ASSERT_TRUE(puppet.run_to(state));
+        puppet.knows_position = false;
+        puppet.run(0.1);
+        ASSERT_TRUE(puppet.memory.ending);
+        EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    }
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::resting));
+    puppet.knows_position = false;
+    puppet.run(60.0);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+    EXPECT_FALSE(puppet.memory.setpoint.armed);
+}
+
+TEST(Faults, APressureThatDoesNotMoveAfterPumpOffKeepsItOnTheWall) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::levelled));
+    puppet.pressure_works = false;
+    for (int k = 0; k < 5000 && !puppet.memory.ending; ++k) {
+        puppet.readings.cup_pressure.time_s = puppet.time_s;  // fresh, and always the same
+        puppet.tick();
+    }
+    EXPECT_EQ(reason_of_abort(puppet), "pressure sensor stuck");
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+}
+
+TEST(Faults, OneNoisySampleIsNoWeakVacuum) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::resting));
+    puppet.run(1.0);
+    puppet.pressure_works = false;
+    puppet.readings.cup_pressure = {puppet.time_s, {90000.0}};
+    puppet.tick();
+    puppet.pressure_works = true;
+    puppet.run(1.0);
+    EXPECT_EQ(puppet.memory.state, PerchingState::resting);
 }
 
 }  // namespace

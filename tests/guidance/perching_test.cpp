@@ -110,7 +110,11 @@ TEST(Perching, NoPositionControlWhileAttached) {
     // A position loop winds up against the wall and pries at the cup.
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::pitching_up));
-    for (; puppet.memory.state != PerchingState::backing_off; puppet.tick()) {
+    for (int k = 0; k < 5000 && puppet.memory.state != PerchingState::backing_off; ++k) {
+        puppet.tick();
+        if (puppet.memory.state == PerchingState::backing_off) {
+            break;
+        }
         EXPECT_FALSE(std::holds_alternative<PositionSetpoint>(puppet.memory.setpoint.motion));
         EXPECT_FALSE(std::holds_alternative<VelocitySetpoint>(puppet.memory.setpoint.motion));
     }

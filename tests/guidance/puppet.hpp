@@ -34,6 +34,8 @@ public:
     bool lidar_works = true;
     bool force_works = true;
     bool pressure_works = true;
+    bool holds = true;  ///< the cup, while the vehicle flies by attitude
+    bool knows_position = true;
     double swing_deg = 0.0;  ///< pitch while waiting for the release
     double vacuum_Pa = 65000.0;
 
@@ -88,6 +90,9 @@ public:
 private:
     void move() {
         const Setpoint& setpoint = memory.setpoint;
+        const Vector3 joint_B_m(parameters.joint_x_m, 0.0, 0.0);
+        const Vector3 joint_W_m = estimate.p_WB_m + estimate.q_WB * joint_B_m;
+        bool hangs = false;
         Vector3 v_W = Vector3::Zero();
         pitch_rad = 0.0;
         if (const auto* position = std::get_if<PositionSetpoint>(&setpoint.motion)) {
@@ -99,23 +104,30 @@ private:
             yaw_rad = velocity->yaw_rad;
         } else if (const auto* attitude = std::get_if<AttitudeSetpoint>(&setpoint.motion)) {
             pitch_rad = euler_from_quaternion(attitude->q_WB).pitch_rad;
+            hangs = holds;
         } else {
-            pitch_rad = radians(parameters.perched_pitch_deg);  // hangs on its legs
+            pitch_rad = radians(parameters.perched_pitch_deg);  // on its legs
+            hangs = true;
         }
         if (memory.state == PerchingState::releasing) {
             pitch_rad += radians(swing_deg);
         }
-        estimate.p_WB_m += v_W * kDt_s;
-        estimate.p_WB_m.x() = std::min(estimate.p_WB_m.x(), kWall_m - kLip_m + 0.03);
-        estimate.v_WB_m_s = v_W;
         estimate.q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = yaw_rad});
+        if (hangs) {  // turns about the cup's joint
+            estimate.p_WB_m = joint_W_m - estimate.q_WB * joint_B_m;
+        } else {
+            estimate.p_WB_m += v_W * kDt_s;
+            estimate.p_WB_m.x() = std::min(estimate.p_WB_m.x(), kWall_m - kLip_m + 0.03);
+        }
+        estimate.v_WB_m_s = v_W;
         estimate.time_s = time_s;
-        estimate.valid = true;
+        estimate.valid = knows_position;
     }
 
     void measure() {
-        const double gap_m = kWall_m - kLip_m - estimate.p_WB_m.x();
-        const bool touches = gap_m <= 0.0;
+        const double reach_m =
+            parameters.joint_x_m * std::cos(pitch_rad) + kLip_m - parameters.joint_x_m;
+        const bool touches = estimate.p_WB_m.x() + reach_m >= kWall_m - 1e-9;
         if (lidar_works) {
             const double half_m = 0.5 * parameters.lidar_separation_m;
             const double ahead_m = kWall_m - estimate.p_WB_m.x() - parameters.lidar_x_m;

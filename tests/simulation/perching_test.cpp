@@ -235,16 +235,15 @@ TEST(Missions, TimeOver) {
 }
 
 TEST(Crashes, RotorsTooWeakForTheWeightReachTheGround) {
-    const Trace trace = limpet::trace(
-        model_of("perch_concrete", {"vehicle.rotor.speed_max_rad_s=540"}));
+    const Trace trace =
+        limpet::trace(model_of("perch_concrete", {"vehicle.rotor.speed_max_rad_s=540"}));
     EXPECT_EQ(trace.result.outcome, Outcome::crashed);
     EXPECT_EQ(trace.result.reason, "hit the ground");
 }
 
 TEST(Crashes, AnArmShorterThanThePropellersPutsThemIntoTheWall) {
     // Propeller tips reach 0.357 m ahead of the centre of mass; this lip 0.32 m.
-    const Trace trace =
-        limpet::trace(model_of("perch_concrete", {"vehicle.cup.joint_x_m=0.28"}));
+    const Trace trace = limpet::trace(model_of("perch_concrete", {"vehicle.cup.joint_x_m=0.28"}));
     EXPECT_EQ(trace.result.outcome, Outcome::crashed);
     EXPECT_EQ(trace.result.reason, "a propeller hit the wall");
 }

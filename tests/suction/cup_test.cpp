@@ -147,6 +147,32 @@ TEST_F(CupOnTheWall, EveryTouchDrawsItsOwnThreshold) {
     EXPECT_EQ(state_.touches, 2);
 }
 
+TEST_F(CupOnTheWall, ALipThatRocksOpensAndSealsAgainInTheSameTouch) {
+    cup_.q_WF = quaternion_from_euler({.pitch_rad = radians(8.0)});  // 2.8 N m on the lip
+    hold(0.001, 40.0, 0.05);                                         // 20 N of push bear 0.4 N m
+    EXPECT_EQ(phase(), CupPhase::touching);
+    cup_.q_WF = Quaternion::Identity();
+    hold(0.001, 40.0, 0.02);
+    EXPECT_EQ(phase(), CupPhase::sealing);
+    cup_.q_WF = quaternion_from_euler({.pitch_rad = radians(8.0)});
+    hold(0.001, 40.0, 0.02);
+    EXPECT_EQ(phase(), CupPhase::touching);
+    EXPECT_EQ(state_.touches, 1);
+    EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(CupOnTheWall, TornOpenWhilePressedItIsSaidOnce) {
+    hold(0.001, 40.0, 1.0);
+    cup_.p_WF_m.z() = 0.05;  // dragged along the wall
+    hold(0.001, 0.0, 0.05);
+    EXPECT_EQ(phase(), CupPhase::touching);
+    hold(-0.01, 0.0, 0.01);
+    EXPECT_EQ(phase(), CupPhase::free);
+    ASSERT_EQ(events_.size(), 2U);
+    EXPECT_EQ(events_[1].name, EventName::contact_lost);
+    EXPECT_EQ(events_[1].reason, "sheared off");
+}
+
 TEST_F(CupOnTheWall, WallPushesBackInTheWorld) {
     surface_.seal_threshold_median_N = 1e6;
     cup_.p_WF_m.x() = 0.001;

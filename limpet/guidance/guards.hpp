@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/guidance/perching.hpp"
+
+/// The guards of the perching table: small questions about one instant, no memory of their own.
+namespace limpet::guards {
+
+/// All that a guard may look at.
+struct Scene {
+    const PerchingParameters& parameters;
+    const PerchingTask& task;
+    const PerchingMemory& memory;
+    const Readings& readings;
+    const Estimate& estimate;
+    double time_s;
+
+    [[nodiscard]] double elapsed_s() const { return time_s - memory.since_s; }
+    [[nodiscard]] double distance_m() const {
+        return memory.wall.distance_m(parameters, estimate.p_WB_m);
+    }
+    [[nodiscard]] bool settled() const {
+        return memory.settled_since_s >= 0.0 &&
+               time_s - memory.settled_since_s >= parameters.settle_s;
+    }
+    [[nodiscard]] double pitch_rad() const {
+        return euler_from_quaternion(estimate.q_WB).pitch_rad;
+    }
+    [[nodiscard]] double roll_rad() const { return euler_from_quaternion(estimate.q_WB).roll_rad; }
+    /// Heading off the wall's normal as it is known now, filtered.
+    [[nodiscard]] double misalignment_rad() const {
+        return wrap_pi(memory.wall.heading_rad - euler_from_quaternion(estimate.q_WB).yaw_rad);
+    }
+    [[nodiscard]] bool pressure_known() const {
+        return readings.cup_pressure.fresh(time_s, parameters.sensor_limit_s);
+    }
+    [[nodiscard]] double pressure_Pa() const { return readings.cup_pressure.value.pressure_Pa; }
+};
+
+/// Where the cup's joint is by the estimate: it stays while the cup holds, whatever the pitch.
+[[nodiscard]] Vector3 joint_W(const PerchingParameters& parameters, const Estimate& estimate);
+
+/// The condition of the memory's state that must hold for settle_s; false where a state has none.
+[[nodiscard]] bool settling(const Scene& s);
+
+[[nodiscard]] bool always(const Scene& s);
+[[nodiscard]] bool settled(const Scene& s);
+[[nodiscard]] bool hover_over(const Scene& s);
+[[nodiscard]] bool waited_too_long(const Scene& s);
+[[nodiscard]] bool battery_low(const Scene& s);
+[[nodiscard]] bool wall_lost(const Scene& s);
+[[nodiscard]] bool force_lost(const Scene& s);
+/// A free cup is at atmospheric pressure: a sensor that says otherwise, or nothing, is broken.
+[[nodiscard]] bool pressure_implausible(const Scene& s);
+[[nodiscard]] bool wall_hit(const Scene& s);
+[[nodiscard]] bool approach_too_long(const Scene& s);
+[[nodiscard]] bool hold_is_over(const Scene& s);
+[[nodiscard]] bool sealed(const Scene& s);
+/// Too weak to land on, at this instant.
+[[nodiscard]] bool weak(const Scene& s);
+/// And for debounce_s.
+[[nodiscard]] bool vacuum_lost(const Scene& s);
+[[nodiscard]] bool pitched_up(const Scene& s);
+[[nodiscard]] bool landing_too_long(const Scene& s);
+[[nodiscard]] bool retreat_too_long(const Scene& s);
+[[nodiscard]] bool estimate_lost(const Scene& s);
+/// The joint is not where the cup gripped any more.
+[[nodiscard]] bool came_off(const Scene& s);
+/// Still at the wall when the retreat should be over.
+[[nodiscard]] bool held_back(const Scene& s);
+[[nodiscard]] bool held_by_vacuum(const Scene& s);
+[[nodiscard]] bool attempts_used_up(const Scene& s);
+[[nodiscard]] bool rest_over(const Scene& s);
+[[nodiscard]] bool rest_over_given_up(const Scene& s);
+[[nodiscard]] bool rest_over_stay(const Scene& s);
+[[nodiscard]] bool spun_up(const Scene& s);
+[[nodiscard]] bool not_level_in_time(const Scene& s);
+[[nodiscard]] bool rest_over_blind(const Scene& s);
+[[nodiscard]] bool battery_low_flies(const Scene& s);
+[[nodiscard]] bool battery_low_stays(const Scene& s);
+[[nodiscard]] bool back_unperched(const Scene& s);
+[[nodiscard]] bool valve_fitted(const Scene& s);
+/// The air comes in, the reading does not move.
+[[nodiscard]] bool pressure_stuck(const Scene& s);
+[[nodiscard]] bool stuck_behind_valve(const Scene& s);
+[[nodiscard]] bool pressure_safe(const Scene& s);
+[[nodiscard]] bool swings(const Scene& s);
+[[nodiscard]] bool release_too_long(const Scene& s);
+[[nodiscard]] bool reseal_too_long(const Scene& s);
+
+}  // namespace limpet::guards

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/advance.hpp"
+
+#include "limpet/simulation/collision.hpp"
+
+namespace limpet {
+namespace {
+
+/// Around a touch the plant sub-steps: impact forces converge below 0.25 ms (reference:
+/// physics.md).
+bool needs_fine_steps(const SimulationModel& model, const SimulationState& state) {
+    const CupStatus& cup = state.cup.status;
+    return state.tick < state.fine_until ||
+           (cup.phase == CupPhase::free && cup.gap_m < model.scenario.simulation.touch_range_m &&
+            cup.gap_m > -model.scenario.simulation.touch_range_m);
+}
+
+/// Forces inside the slider: the plant integrates spring and damper itself, the stops are ours.
+SliderStatus apply_slider_stops(const SimulationModel& model, Plant& plant) {
+    const SliderMotion motion = plant.slider();
+    const SliderForce force =
+        slider_force(model.scenario.airframe.slider, motion.position_m, motion.velocity_m_s);
+    plant.apply_slider(force.stop_N);
+    return {.position_m = motion.position_m,
+            .velocity_m_s = motion.velocity_m_s,
+            .force_N = -force.total_N()};
+}
+
+/// The cup between wall and mechanism: its wrench goes to the plant, its events to the list.
+void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plant, double time_s,
+               double dt_s, EventList& events) {
+    const Kinematics& cup = state.truth.cup;
+    const CupPhase before = state.cup.status.phase;
+    const CupOutput output =
+        step(model.cup, state.cup, surface_under_cup(model, state.cup), cup,
+             {.time_s = time_s,
+              .press_N = -state.truth.slider.force_N,
+              .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
+              .valve_open = state.guidance.setpoint.valve_open},
+             dt_s);
+    if (state.cup.status.phase != CupPhase::free) {
+        plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
+    }
+    if (before == CupPhase::free && state.cup.status.phase != CupPhase::free) {
+        observe_touch(state.metrics, time_s, model.cup.wall.R_WT.col(0).dot(cup.v_WF_W_m_s));
+    }
+    if (output.event) {
+        events.add(*output.event);
+    }
+    if (state.cup.status.phase != before) {
+        state.fine_until =
+            state.tick + static_cast<Tick>(model.scenario.simulation.touch_transient_s / kTick_s);
+    }
+}
+
+}  // namespace
+
+void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant) {
+    truth.base = plant.kinematics(Body::base);
+    if (model.scenario.airframe.has_cup) {
+        truth.cup = plant.kinematics(Body::cup);
+    }
+}
+
+void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
+             EventList& events) {
+    const bool has_cup = model.scenario.airframe.has_cup;
+    const bool fine = has_cup && needs_fine_steps(model, state);
+    const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
+    const StepMode mode{.step_s = kTick_s / steps,
+                        .contacts = legs_near_wall(model, state.truth.base)};
+    const Matrix3 R_WB = state.truth.base.q_WF.toRotationMatrix();
+    const Wrench rotors_B =
+        rotor_wrench_B(model.scenario.airframe, state.rotors, state.truth.base, Vector3::Zero());
+    const Wrench rotors_W{.force_N = R_WB * rotors_B.force_N,
+                          .moment_N_m = R_WB * rotors_B.moment_N_m};
+    for (int k = 0; k < steps; ++k) {
+        const double time_s = seconds(state.tick) + k * mode.step_s;
+        if (k > 0) {
+            see_motion(model, state.truth, plant);
+        }
+        plant.apply(Body::base, rotors_W, state.truth.base.p_WF_m);
+        if (has_cup) {
+            state.truth.slider = apply_slider_stops(model, plant);
+            apply_cup(model, state, plant, time_s, mode.step_s, events);
+            observe_contact(state.metrics, state.guidance.state, state.truth.slider,
+                            state.cup.status);
+        }
+        plant.step(mode);
+    }
+    state.physics_steps += steps;
+    state.truth.thrust_N = -rotors_B.force_N.z();
+}
+
+}  // namespace limpet
