@@ -295,9 +295,7 @@ void Writer::emit(ByteView bytes) {
     require(file_ != nullptr, "nothing is written to a closed recording");
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
         const int reason = errno;
-        file_.reset();
-        std::error_code ignored;
-        std::filesystem::remove(part_path_, ignored);  // bad output is no output
+        file_.reset();  // nothing may follow half a record
         errno = reason;
         fail("cannot write");
     }

@@ -138,6 +138,7 @@ TEST(Faults, ACupThatComesOffWhileLandingOrTakingOffIsNoticed) {
         ASSERT_TRUE(puppet.run_to(state));
         puppet.run(2.0);
         puppet.holds = false;  // the pitch turns about the centre of mass now
+        puppet.pressure_works = false;
         puppet.run(3.0);
         EXPECT_EQ(reason_of_abort(puppet), "came off the wall");
     }
@@ -173,7 +174,7 @@ TEST(Faults, WithoutAPositionItDocksNotAndLeavesNotTheWall) {
 
 TEST(Faults, APressureThatDoesNotMoveAfterPumpOffKeepsItOnTheWall) {
     Puppet puppet;
-    ASSERT_TRUE(puppet.run_to(PerchingState::levelled));
+    ASSERT_TRUE(puppet.run_to(PerchingState::pitching_down));
     puppet.pressure_works = false;
     for (int k = 0; k < 5000 && !puppet.memory.ending; ++k) {
         puppet.readings.cup_pressure.time_s = puppet.time_s;  // fresh, and always the same

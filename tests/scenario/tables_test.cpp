@@ -72,7 +72,7 @@ TEST(Tables, HoldEveryDerivedKey) {
     for (const ParameterInfo& row : all_parameters()) {
         derived += is_derived(row.section, row.name) ? 1 : 0;
     }
-    EXPECT_EQ(derived, 11);
+    EXPECT_EQ(derived, 13);
 }
 
 }  // namespace

@@ -75,22 +75,19 @@ TEST(PerchConcrete, ThrustFallsWhilePitchAndCupPullRise) {
     const double start_s = trace.first(landing_started);
     const double end_s = trace.first(perched);
     std::vector<const Truth*> thirds;
-    for (const double share : {0.1, 0.4, 0.7, 1.0}) {
+    for (const double share : {0.1, 0.4, 0.65, 1.0}) {
         const double t_s = start_s + share * (end_s - start_s);
         thirds.push_back(&*std::find_if(trace.truth.begin(), trace.truth.end(),
                                         [t_s](const Truth& t) { return t.time_s >= t_s; }));
     }
-    const auto borne_N = [](const Truth& t) {
-        return std::hypot(t.cup_status.pull_N, t.cup_status.shear_N);
-    };
     for (std::size_t i = 1; i < thirds.size(); ++i) {
         EXPECT_LT(thirds[i]->thrust_N, thirds[i - 1]->thrust_N);
-        EXPECT_GT(pitch_deg(*thirds[i]), pitch_deg(*thirds[i - 1]) - 2.0);
-        EXPECT_GT(borne_N(*thirds[i]), borne_N(*thirds[i - 1]) - 2.0);
+        EXPECT_GT(pitch_deg(*thirds[i]), pitch_deg(*thirds[i - 1]));
+        EXPECT_GT(thirds[i]->slider.force_N, thirds[i - 1]->slider.force_N);
     }
     EXPECT_GT(pitch_deg(*thirds.back()), 60.0);
-    EXPECT_GT(borne_N(*thirds.back()), 20.0);
-    EXPECT_GT(thirds.back()->cup_status.pull_N, 5.0);
+    EXPECT_GT(thirds.back()->cup_status.pull_N, thirds.front()->cup_status.pull_N + 5.0);
+    EXPECT_GT(thirds.back()->slider.force_N, 20.0);
 }
 
 TEST(PerchConcrete, RestsSteadyWithItsMotorsOff) {
@@ -221,11 +218,12 @@ TEST(Missions, AWallThatNeverSealsUsesUpTheAttempts) {
 }
 
 TEST(Missions, TurnedAndLeaningWallsAreFlownToo) {
-    for (const char* heading : {"wall.heading_deg=90", "wall.heading_deg=-135"}) {
+    for (const char* heading :
+         {"wall.heading_deg=90", "wall.heading_deg=-135", "wall.lean_deg=3", "wall.lean_deg=-3"}) {
         const Trace trace = limpet::trace(model_of("perch_concrete", {heading}));
         EXPECT_EQ(trace.result.outcome, Outcome::released) << heading;
         EXPECT_NEAR(trace.result.metrics.impact_speed_m_s,
-                    flown("perch_concrete").result.metrics.impact_speed_m_s, 0.02);
+                    flown("perch_concrete").result.metrics.impact_speed_m_s, 0.03);
     }
 }
 
@@ -248,11 +246,60 @@ TEST(Crashes, AnArmShorterThanThePropellersPutsThemIntoTheWall) {
     EXPECT_EQ(trace.result.reason, "a propeller hit the wall");
 }
 
+/// A sensor that fails at some moment of the manoeuvre; the vehicle must not come down with it.
+struct FaultAt {
+    const char* key;
+    double time_s;
+};
+void PrintTo(const FaultAt& fault, std::ostream* out) {
+    *out << fault.key << " " << fault.time_s;
+}
+class SurvivesFault : public testing::TestWithParam<FaultAt> {};
+
+TEST_P(SurvivesFault, OnConcreteAndOnMetalWithAValve) {
+    for (const char* scenario : {"perch_concrete", "perch_metal_valve"}) {
+        const std::string fault =
+            std::string("sensors.") + GetParam().key + "=" + std::to_string(GetParam().time_s);
+        const Trace trace = limpet::trace(model_of(scenario, {fault}));
+        EXPECT_NE(trace.result.outcome, Outcome::crashed)
+            << scenario << ": " << trace.result.reason;
+        EXPECT_NE(trace.result.outcome, Outcome::timed_out) << scenario;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Faults, SurvivesFault,
+    testing::Values(FaultAt{"pressure_stuck_at_s", 0.0}, FaultAt{"pressure_stuck_at_s", 5.0},
+                    FaultAt{"pressure_stuck_at_s", 8.0}, FaultAt{"pressure_stuck_at_s", 15.0},
+                    FaultAt{"pressure_stuck_at_s", 22.0}, FaultAt{"pressure_stuck_at_s", 26.5},
+                    FaultAt{"pressure_stuck_at_s", 27.2}, FaultAt{"mocap_fails_at_s", 0.5},
+                    FaultAt{"mocap_fails_at_s", 4.0}, FaultAt{"mocap_fails_at_s", 5.4},
+                    FaultAt{"mocap_fails_at_s", 8.0}, FaultAt{"mocap_fails_at_s", 15.0},
+                    FaultAt{"mocap_fails_at_s", 24.0}, FaultAt{"mocap_fails_at_s", 29.0},
+                    FaultAt{"force_fails_at_s", 2.0}, FaultAt{"force_fails_at_s", 4.5},
+                    FaultAt{"lidar_left_fails_at_s", 1.0}, FaultAt{"lidar_right_fails_at_s", 4.5}));
+
+TEST(Touches, OneDockIsOneTouch) {
+    for (const char* scenario :
+         {"perch_concrete", "perch_cinder_block", "perch_turbine_blade", "perch_metal"}) {
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+            Flight flight(model_of(scenario, {"mission=perch", "guidance.rest_s=0"}, seed));
+            while (!flight.ended()) {
+                flight.tick();
+            }
+            EXPECT_EQ(flight.state().cup.touches, flight.state().metrics.attempts)
+                << scenario << " " << seed;
+        }
+    }
+}
+
 TEST(Missions, LidarLostInFlightIsSurvived) {
     const Trace trace =
         limpet::trace(model_of("perch_concrete", {"sensors.lidar_left_fails_at_s=4.2"}));
     EXPECT_EQ(trace.result.outcome, Outcome::failed_to_seal);
     EXPECT_FALSE(trace.times(aborted).empty());
+    const Vector3 moved_m = trace.truth.back().base.p_WF_m - trace.truth.front().base.p_WF_m;
+    EXPECT_LT(moved_m.norm(), 1.0);  // still there, in the air
 }
 
 }  // namespace
