@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -17,21 +18,19 @@ bool in_folder(const std::filesystem::path& file, std::string_view folder) {
     return std::filesystem::absolute(file).parent_path().filename() == folder;
 }
 
-void check_recording(const std::string& file, ExitCode& code) {
+void check_recording(const std::string& file) {
     const Recording recording = read_recording(file);
     if (!recording.damage.empty()) {
-        fmt::print(stderr, "limpet: {}: {}\n", file, recording.damage);
-        code = ExitCode::bad_input;
-        return;
+        throw InputError(file + ": " + recording.damage);
     }
     fmt::print("{}: a whole recording, {} topics, {} events\n", file, recording.tables.size(),
                recording.events.size());
 }
 
-void check_file(const std::string& file, ExitCode& code) {
+void check_file(const std::string& file) {
     const std::filesystem::path path(file);
     if (path.extension() == ".mcap") {
-        check_recording(file, code);
+        check_recording(file);
     } else if (path.filename() == "surfaces.yaml") {
         const auto root = std::filesystem::absolute(path).parent_path();
         fmt::print("{}: {} surfaces, all good\n", file, load_surfaces(root).size());
@@ -47,7 +46,7 @@ void check_file(const std::string& file, ExitCode& code) {
 
 }  // namespace
 
-void add_check(CLI::App& app, ExitCode& code) {
+void add_check(CLI::App& app) {
     auto file = std::make_shared<std::string>();
     CLI::App* verb = app.add_subcommand(
         "check", "Check a scenario, a vehicle, surfaces.yaml or a recording without flying");
@@ -56,7 +55,7 @@ void add_check(CLI::App& app, ExitCode& code) {
         ->required()
         ->type_name("FILE");
     verb->footer("Exits with 0 when all is good, 2 when not.\n");
-    verb->callback([file, &code] { check_file(*file, code); });
+    verb->callback([file] { check_file(*file); });
 }
 
 }  // namespace limpet::app

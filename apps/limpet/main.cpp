@@ -31,12 +31,12 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     using namespace limpet::app;
     app.require_subcommand(1);
     add_fly(app, code);
-    add_check(app, code);
+    add_check(app);
     add_list(app);
     add_params(app);
-    add_plot(app, code);
-    add_film(app, code);
-    add_csv(app, code);
+    add_plot(app);
+    add_film(app);
+    add_csv(app);
     add_export(app);
 }
 

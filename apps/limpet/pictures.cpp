@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
@@ -25,27 +26,35 @@ struct PictureOptions {
 using Draw = std::function<Pictures(const Recording&, const std::filesystem::path& folder)>;
 
 /// Reads, says what is missing, draws what is there, prints what was written.
-void draw(const PictureOptions& options, const Draw& work, ExitCode& code) {
+void draw(const PictureOptions& options, const Draw& work) {
     const Recording recording = read_recording(options.recording);
-    if (!recording.damage.empty()) {
-        fmt::print(stderr, "limpet: {}: {}\n", options.recording, recording.damage);
-        code = ExitCode::bad_input;
-    }
     const std::filesystem::path beside = std::filesystem::path(options.recording).parent_path();
     const std::filesystem::path folder =
         options.out.empty() ? (beside.empty() ? std::filesystem::path(".") : beside)
                             : make_folder(options.out);
-    const Pictures pictures = work(recording, folder);
+    const std::string damage =
+        recording.damage.empty() ? "" : options.recording + ": " + recording.damage;
+    Pictures pictures;
+    try {
+        pictures = work(recording, folder);
+    } catch (const InputError&) {
+        if (damage.empty()) {
+            throw;
+        }
+        throw InputError(damage);  // too little is whole to be used
+    }
     for (const auto& file : pictures.files) {
         fmt::print("{}\n", file.string());
     }
     for (const std::string& missing : pictures.missing) {
         fmt::print(stderr, "limpet: {}\n", missing);
     }
+    if (!damage.empty()) {
+        throw InputError(damage);
+    }
 }
 
-void add_verb(CLI::App& app, ExitCode& code, const std::string& name, const std::string& about,
-              Draw work) {
+void add_verb(CLI::App& app, const std::string& name, const std::string& about, Draw work) {
     auto options = std::make_shared<PictureOptions>();
     CLI::App* verb = app.add_subcommand(name, about);
     verb->add_option("recording", options->recording, "an .mcap file, also one that was cut short")
@@ -56,28 +65,27 @@ void add_verb(CLI::App& app, ExitCode& code, const std::string& name, const std:
     verb->footer(
         "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
         "what is missing is said on standard error and the exit code is 2.\n");
-    verb->callback([options, work = std::move(work), &code] { draw(*options, work, code); });
+    verb->callback([options, work = std::move(work)] { draw(*options, work); });
 }
 
 }  // namespace
 
-void add_plot(CLI::App& app, ExitCode& code) {
-    add_verb(app, code, "plot", "Draw pressure, pitch, force, thrust and distance against time",
+void add_plot(CLI::App& app) {
+    add_verb(app, "plot", "Draw pressure, pitch, force, thrust and distance against time",
              [](const Recording& recording, const std::filesystem::path& folder) {
                  return plot(recording, folder);
              });
 }
 
-void add_film(CLI::App& app, ExitCode& code) {
-    add_verb(app, code, "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
+void add_film(CLI::App& app) {
+    add_verb(app, "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
              [](const Recording& recording, const std::filesystem::path& folder) {
                  return film(recording, folder);
              });
 }
 
-void add_csv(CLI::App& app, ExitCode& code) {
-    add_verb(app, code, "csv",
-             "Write a recording as CSV, a file a topic, and the files attached to it",
+void add_csv(CLI::App& app) {
+    add_verb(app, "csv", "Write a recording as CSV, a file a topic, and the files attached to it",
              [](const Recording& recording, const std::filesystem::path& folder) {
                  Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
                  for (const mcap::Attachment& attachment : recording.attachments) {

@@ -13,14 +13,14 @@ enum class ExitCode {
     our_fault = 70,
 };
 
-/// Each adds one verb with its options; its callback does the work and sets the exit code.
+/// Each adds one verb with its options; its callback does the work.
 void add_fly(CLI::App& app, ExitCode& code);
-void add_check(CLI::App& app, ExitCode& code);
+void add_check(CLI::App& app);
 void add_list(CLI::App& app);
 void add_params(CLI::App& app);
-void add_plot(CLI::App& app, ExitCode& code);
-void add_film(CLI::App& app, ExitCode& code);
-void add_csv(CLI::App& app, ExitCode& code);
+void add_plot(CLI::App& app);
+void add_film(CLI::App& app);
+void add_csv(CLI::App& app);
 void add_export(CLI::App& app);
 
 }  // namespace limpet::app

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "limpet/scenario/checks.hpp"
@@ -83,6 +84,11 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     const std::vector<Section> sections = scenario_sections(scenario);
     for (const char* name : {"sensors", "simulation"}) {
         read_rows(root.find(name), find_section(sections, name).rows);
+    }
+    const YamlNode* simulation = root.find("simulation");
+    if (simulation == nullptr || simulation->find("touch_step_s") == nullptr) {
+        scenario.simulation.touch_step_s =
+            std::min(scenario.simulation.touch_step_s, scenario.simulation.step_s);
     }
     derive(scenario);
     read_rows(root.find("suction"), find_section(sections, "suction").rows);

@@ -125,7 +125,10 @@ TEST(BadInput, ARecordingCutInHalfIsPlottedAsFarAsItGoes) {
     EXPECT_EQ(plot.exit_code, 2);
     EXPECT_THAT(plot.err, HasSubstr("flight.mcap"));
     EXPECT_TRUE(fs::exists(bench.folder() / "figures/overview.png"));
+    EXPECT_TRUE(plot.one_line_of_error()) << plot.err;
     EXPECT_EQ(bench.run({"check", "flight.mcap"}).exit_code, 2);
+    fs::resize_file(recording, 100);  // not a message is whole
+    expect_refused(bench, {"plot", "flight.mcap"}, {"flight.mcap"});
 }
 
 }  // namespace
