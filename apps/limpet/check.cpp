@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "limpet/campaign/campaign.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
@@ -34,6 +35,10 @@ void check_file(const std::string& file) {
     } else if (path.filename() == "surfaces.yaml") {
         const auto root = std::filesystem::absolute(path).parent_path();
         fmt::print("{}: {} surfaces, all good\n", file, load_surfaces(root).size());
+    } else if (in_folder(path, "campaigns")) {
+        const Campaign campaign = load_campaign(file);
+        fmt::print("{}: a good campaign: {} runs of {}\n", file, campaign.runs,
+                   campaign.scenario_name);
     } else if (in_folder(path, "vehicles")) {
         const Airframe airframe = load_vehicle(file, data_root());
         fmt::print("{}: a good vehicle of {:.2f} kg\n", file, airframe.mass_kg);
@@ -49,9 +54,11 @@ void check_file(const std::string& file) {
 void add_check(CLI::App& app) {
     auto file = std::make_shared<std::string>();
     CLI::App* verb = app.add_subcommand(
-        "check", "Check a scenario, a vehicle, surfaces.yaml or a recording without flying");
-    verb->add_option("file", *file,
-                     "scenario (name or file), vehicles/*.yaml, surfaces.yaml, *.mcap")
+        "check",
+        "Check a scenario, a vehicle, a campaign, surfaces.yaml or a recording without flying");
+    verb->add_option(
+            "file", *file,
+            "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml, surfaces.yaml, *.mcap")
         ->required()
         ->type_name("FILE");
     verb->footer("Exits with 0 when all is good, 2 when not.\n");

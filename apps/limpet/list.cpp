@@ -17,6 +17,9 @@ std::vector<CatalogueEntry> entries(const std::string& kind) {
     if (kind == "scenarios") {
         return list_scenarios(root);
     }
+    if (kind == "campaigns") {
+        return list_campaigns(root);
+    }
     return kind == "vehicles" ? list_vehicles(root) : list_surfaces(root);
 }
 
@@ -35,11 +38,11 @@ void print(const std::string& kind) {
 
 void add_list(CLI::App& app) {
     auto kind = std::make_shared<std::string>();
-    CLI::App* verb = app.add_subcommand("list", "List scenarios, surfaces or vehicles");
-    verb->add_option("kind", *kind, "scenarios, surfaces or vehicles")
+    CLI::App* verb = app.add_subcommand("list", "List scenarios, campaigns, surfaces or vehicles");
+    verb->add_option("kind", *kind, "scenarios, campaigns, surfaces or vehicles")
         ->required()
         ->type_name("KIND")
-        ->check(CLI::IsMember({"scenarios", "surfaces", "vehicles"}));
+        ->check(CLI::IsMember({"scenarios", "campaigns", "surfaces", "vehicles"}));
     verb->callback([kind] { print(*kind); });
 }
 

@@ -23,6 +23,8 @@ public:
     void line(const std::string& text);
     /// A line that the next one replaces; nothing where no person watches.
     void progress(const std::string& text);
+    /// Whether a person watches, so that progress() shows.
+    [[nodiscard]] bool live() const { return live_; }
     [[nodiscard]] std::string bold(const std::string& text) const;
     [[nodiscard]] std::string dim(const std::string& text) const;
 

@@ -11,6 +11,7 @@ enum class ExitCode {
     other_outcome = 1,  ///< --expect named another one
     bad_input = 2,      ///< also a damaged recording
     our_fault = 70,
+    interrupted = 130,  ///< by Ctrl-C, as a shell has it
 };
 
 /// Each adds one verb with its options; its callback does the work.
@@ -22,5 +23,8 @@ void add_plot(CLI::App& app);
 void add_film(CLI::App& app);
 void add_csv(CLI::App& app);
 void add_export(CLI::App& app);
+void add_campaign(CLI::App& app, ExitCode& code);
+void add_replay(CLI::App& app);
+void add_summary(CLI::App& app);
 
 }  // namespace limpet::app

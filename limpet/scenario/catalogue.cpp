@@ -37,6 +37,10 @@ std::vector<CatalogueEntry> list_scenarios(const fs::path& root) {
     return list_files(root / "scenarios");
 }
 
+std::vector<CatalogueEntry> list_campaigns(const fs::path& root) {
+    return list_files(root / "campaigns");
+}
+
 std::vector<CatalogueEntry> list_vehicles(const fs::path& root) {
     return list_files(root / "vehicles");
 }

@@ -20,6 +20,7 @@ struct CatalogueEntry {
 
 /// @param root  data_root()
 [[nodiscard]] std::vector<CatalogueEntry> list_scenarios(const std::filesystem::path& root);
+[[nodiscard]] std::vector<CatalogueEntry> list_campaigns(const std::filesystem::path& root);
 [[nodiscard]] std::vector<CatalogueEntry> list_vehicles(const std::filesystem::path& root);
 /// @throws InputError when surfaces.yaml is not right
 [[nodiscard]] std::vector<CatalogueEntry> list_surfaces(const std::filesystem::path& root);

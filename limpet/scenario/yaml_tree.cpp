@@ -148,28 +148,6 @@ bool is_text(const std::string& text) {
     });
 }
 
-std::string read_file(const std::filesystem::path& path, const std::string& name) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        throw InputError(name + ": is a directory, not a file");
-    }
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-    }
-    std::string text(kLargestFile_B + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad()) {
-        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-    }
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    if (text.size() > kLargestFile_B) {
-        throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
-    }
-    return text;
-}
-
 }  // namespace
 
 const YamlNode* YamlNode::find(std::string_view name) const {
@@ -204,9 +182,31 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
     return root;
 }
 
-YamlNode parse_yaml_file(const std::filesystem::path& path) {
+std::string read_yaml_text(const std::filesystem::path& path) {
     const std::string name = shown_path(path);
-    return parse_yaml(read_file(path, name), name);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+        throw InputError(name + ": is a directory, not a file");
+    }
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    }
+    std::string text(kLargestFile_B + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (file.bad()) {
+        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+    }
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kLargestFile_B) {
+        throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
+    }
+    return text;
+}
+
+YamlNode parse_yaml_file(const std::filesystem::path& path) {
+    return parse_yaml(read_yaml_text(path), shown_path(path));
 }
 
 std::string shown_path(const std::filesystem::path& path) {

@@ -44,6 +44,10 @@ inline constexpr std::string_view kSet = "--set ";
 /// @throws InputError also when it is missing, a directory, unreadable or far too large
 [[nodiscard]] YamlNode parse_yaml_file(const std::filesystem::path& path);
 
+/// The text of such a file, for those who keep it.
+/// @throws InputError as parse_yaml_file() when it cannot be read
+[[nodiscard]] std::string read_yaml_text(const std::filesystem::path& path);
+
 /// How a path is called in messages: relative to the working directory when it lies in it.
 [[nodiscard]] std::string shown_path(const std::filesystem::path& path);
 

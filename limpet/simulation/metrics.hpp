@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "limpet/core/signals/event.hpp"
@@ -67,6 +68,13 @@ struct Metrics {
     double rest_pitch_min_deg = kNone;
     double rest_pitch_max_deg = kNone;
 };
+
+/// A figure under the name by which results and columns call it; the unit is in the name.
+struct MetricInfo {
+    std::string_view name;
+    double Metrics::*field;
+};
+[[nodiscard]] std::span<const MetricInfo> metric_table();
 
 /// Once a plant step, sub-steps included: the peaks.
 void observe_contact(Metrics& metrics, PerchingState state, const SliderStatus& slider,

@@ -47,12 +47,19 @@ int whole(double value) {
 }  // namespace
 
 std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
+    return build_model(scenario, [](const std::string& mjcf) {
+        return std::make_shared<const MujocoModel>(mjcf);
+    });
+}
+
+std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
+                                                   const CompilePlant& compile) {
     auto model = std::make_shared<SimulationModel>();
     model->scenario = scenario;
     Scene scene = scene_of(scenario);
     model->mjcf = write_mjcf(scenario.airframe, scene);
     scene.visuals = false;
-    model->plant = std::make_shared<const MujocoModel>(write_mjcf(scenario.airframe, scene));
+    model->plant = compile(write_mjcf(scenario.airframe, scene));
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_of(scenario);
     model->task = {.perch = scenario.mission != Mission::hover,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,12 @@ struct SimulationModel {
     int record_rate_Hz = 100;
 };
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario);
+
+/// Makes the plant of a model's text.
+using CompilePlant = std::function<std::shared_ptr<const MujocoModel>(const std::string& mjcf)>;
+/// The same with plants from elsewhere: models that differ in other things can share one.
+[[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
+                                                                 const CompilePlant& compile);
 
 /// All that changes during a flight except the plant's own state, which lives in the plant. Plain
 /// and copyable: with PlantState it is the whole run, to be saved, branched and resumed

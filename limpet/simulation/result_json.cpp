@@ -28,22 +28,11 @@ Json json_of(const Event& event) {
 }
 
 Json json_of(const Metrics& m) {
-    return {{"impact_speed_m_s", number(m.impact_speed_m_s)},
-            {"impact_force_N", number(m.impact_force_N)},
-            {"cup_press_max_N", number(m.cup_press_max_N)},
-            {"alignment_at_approach_deg", number(m.alignment_at_approach_deg)},
-            {"time_to_land_pressure_s", number(m.time_to_land_pressure_s)},
-            {"pressure_at_hold_end_Pa", number(m.pressure_at_hold_end_Pa)},
-            {"pressure_min_Pa", number(m.pressure_min_Pa)},
-            {"perched_pitch_deg", number(m.perched_pitch_deg)},
-            {"perched_pitch_spread_deg", number(m.perched_pitch_spread_deg)},
-            {"cup_pull_max_N", number(m.cup_pull_max_N)},
-            {"release_s", number(m.release_s)},
-            {"pressure_at_release_end_Pa", number(m.pressure_at_release_end_Pa)},
-            {"pitch_oscillation_max_deg", number(m.pitch_oscillation_max_deg)},
-            {"cup_margin_min_N", number(m.cup_margin_min_N)},
-            {"energy_flying_Wh", number(m.energy_flying_Wh)},
-            {"energy_perched_Wh", number(m.energy_perched_Wh)}};
+    Json metrics = Json::object();
+    for (const MetricInfo& metric : metric_table()) {
+        metrics[std::string(metric.name)] = number(m.*metric.field);
+    }
+    return metrics;
 }
 
 Json loads_of(const Metrics& m) {

@@ -12,7 +12,8 @@ using testing::HasSubstr;
 TEST(Verbs, EachHasAHelpThatNamesItsOptions) {
     const Bench bench;
     EXPECT_THAT(bench.run({"--help"}).out, HasSubstr("limpet fly perch_concrete"));
-    for (const char* verb : {"fly", "check", "list", "params", "plot", "film", "csv", "export"}) {
+    for (const char* verb : {"fly", "check", "list", "params", "plot", "film", "csv", "export",
+                             "campaign", "replay", "summary"}) {
         const Finished help = bench.run({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("--help"));
@@ -37,6 +38,7 @@ TEST(Verbs, ListsWhatShips) {
         EXPECT_THAT(bench.run({"list", "surfaces"}).out, HasSubstr(name));
     }
     EXPECT_THAT(bench.run({"list", "vehicles"}).out, HasSubstr("iris"));
+    EXPECT_THAT(bench.run({"list", "campaigns"}).out, HasSubstr("impact_speed"));
 }
 
 TEST(Verbs, ParamsOfOneRoomAndTheGeneratedPage) {

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "limpet/campaign/folder_lock.hpp"
+#include "limpet/campaign/summary.hpp"
+#include "limpet/campaign/workers.hpp"
+#include "output.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr auto kLineEvery = std::chrono::seconds(5);  ///< where no person watches
+constexpr std::size_t kBar = 30;
+
+struct CampaignOptions {
+    std::string file;
+    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    std::string out;
+    bool resume = false;
+    bool quiet = false;
+};
+
+/// A signal handler can reach nothing else.
+std::atomic<bool> interrupted = false;
+
+/// The first Ctrl-C lets the flights in the air end; the second ends the program as ever.
+void stop_on_signals() {
+    struct sigaction action = {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+std::string time_text(double time_s) {
+    const auto whole = static_cast<long long>(std::ceil(time_s));
+    return whole < 100    ? fmt::format("{} s", whole)
+           : whole < 6000 ? fmt::format("{} min", (whole + 59) / 60)
+                          : fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string progress_text(const Progress& progress) {
+    std::string text =
+        fmt::format("{} of {} runs, {:.1f} a second, {} left", progress.finished, progress.runs,
+                    progress.rate_1_s(), time_text(progress.left_s()));
+    for (const auto& [outcome, count] : progress.outcomes) {
+        text += fmt::format(", {} {}", count, outcome);
+    }
+    return text;
+}
+
+std::string bar_text(const Progress& progress) {
+    const auto full = kBar * progress.finished / std::max(1U, progress.runs);
+    return fmt::format("[{}{}] ", std::string(full, '#'), std::string(kBar - full, '.'));
+}
+
+CampaignWatch watch(Terminal& terminal) {
+    return {.on_progress =
+                [&terminal, next = Clock::now() + kLineEvery](const Progress& progress) mutable {
+                    if (terminal.live()) {
+                        terminal.progress(bar_text(progress) + progress_text(progress));
+                    } else if (Clock::now() >= next) {
+                        terminal.line(progress_text(progress));
+                        next = Clock::now() + kLineEvery;
+                    }
+                },
+            .stop = &interrupted};
+}
+
+void conclude(const Progress& progress, Results& results, const CampaignOptions& options,
+              const fs::path& folder, Terminal& terminal, ExitCode& code) {
+    if (progress.finished < progress.runs) {
+        fmt::print(stderr,
+                   "limpet: stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
+                   "--out {} --resume\n",
+                   progress.finished, progress.runs, options.file, folder.string());
+        code = ExitCode::interrupted;
+        return;
+    }
+    terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
+                              progress.elapsed_s, progress.rate_1_s()));
+    terminal.line("");
+    terminal.line(summary_text(summarise(results)));
+    const std::string file = (folder / Results::kFileName).string();
+    terminal.line(terminal.bold("written    ") + file);
+    terminal.line("           limpet summary " + file + "      figures, JSON");
+    terminal.line("           limpet replay " + file + " 0     one run, recorded");
+    if (const auto faults = progress.outcomes.find(kFault); faults != progress.outcomes.end()) {
+        fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
+                   faults->second, file);
+        code = ExitCode::our_fault;
+    }
+}
+
+void fly_campaign(const CampaignOptions& options, ExitCode& code) {
+    const Campaign campaign = load_campaign(options.file);
+    const fs::path folder =
+        make_folder(options.out.empty() ? fs::path("out") / campaign.name : fs::path(options.out));
+    const FolderLock lock(folder);
+    Results results = begin_results(campaign, folder, options.resume);
+    Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
+    const std::uint32_t there = results.finished();
+    terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
+    terminal.line(fmt::format("{} runs of {}, seed {}, on {} thread{}{}", campaign.runs,
+                              campaign.scenario_name, campaign.seed, options.jobs,
+                              options.jobs == 1 ? "" : "s",
+                              there > 0 ? fmt::format("; {} are there already", there) : ""));
+    stop_on_signals();
+    const Progress progress = run_campaign(results, options.jobs, watch(terminal));
+    conclude(progress, results, options, folder, terminal, code);
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, ExitCode& code) {
+    auto options = std::make_shared<CampaignOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "campaign", "Fly a scenario many times over grids and distributions of its keys");
+    verb->add_option("campaign", options->file, "name in campaigns/, or a YAML file")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--jobs,-j", options->jobs, "threads (default: one a processor)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    verb->add_option("--out", options->out, "folder (default: out/NAME)")->type_name("DIR");
+    verb->add_flag("--resume", options->resume, "go on with the results in the folder, if any");
+    verb->add_flag("--quiet,-q", options->quiet, "print nothing but errors");
+    verb->footer(
+        "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
+        "Killed "
+        "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly (130).\n");
+    verb->callback([options, &code] { fly_campaign(*options, code); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "flight_report.hpp"
+#include "limpet/campaign/workers.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/report/figures.hpp"
+#include "output.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReplayOptions {
+    std::string database;
+    std::uint32_t run = 0;
+    std::string out;
+};
+
+FlightWatch watch(Terminal& terminal) {
+    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+            .on_progress = {}};
+}
+
+void introduce(const Campaign& campaign, const RunRow& row, Terminal& terminal) {
+    terminal.line(terminal.bold(campaign.name) + fmt::format(", run {}", row.run));
+    for (std::size_t i = 0; i < row.sample.size(); ++i) {
+        terminal.line(fmt::format("  {} = {}", campaign.keys[i].key, value_text(row.sample[i])));
+    }
+    terminal.line(terminal.dim(event_head()));
+}
+
+void replay(const ReplayOptions& options) {
+    const fs::path database = Results::file_of(options.database);
+    Results results(database, Database::Access::read);
+    const RunRow row = results.row(options.run);  // before a folder is made for it
+    const fs::path folder = make_folder(options.out.empty() ? database.parent_path() /
+                                                                  fmt::format("run_{}", options.run)
+                                                            : fs::path(options.out));
+    Terminal terminal(Terminal::Voice::normal);
+    introduce(results.campaign(), row, terminal);
+    const FlightResult result =
+        replay_run(results, options.run, folder / "flight.mcap", watch(terminal));
+    terminal.line("");
+    for (const std::string& line : flight_summary(result, terminal)) {
+        terminal.line(line);
+    }
+    terminal.line("           the same as in the row: the flight is the same to the last bit");
+    terminal.line(terminal.bold("written    ") + result.recording.string());
+    terminal.progress("drawing figures ...");
+    for (const fs::path& file : plot(read_recording(result.recording), folder).files) {
+        terminal.line("           " + file.string());
+    }
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app) {
+    auto options = std::make_shared<ReplayOptions>();
+    CLI::App* verb =
+        app.add_subcommand("replay", "Fly a run of a campaign again, with recording and figures");
+    verb->add_option("database", options->database, "results.sqlite, or the folder that holds it")
+        ->required()
+        ->type_name("DB");
+    verb->add_option("run", options->run, "number of the run, from 0")
+        ->required()
+        ->type_name("RUN");
+    verb->add_option("--out", options->out, "folder (default: run_RUN beside the database)")
+        ->type_name("DIR");
+    verb->footer(
+        "Needs the database alone. Exits with 70 when the flight does not end at the row's state "
+        "hash.\n");
+    verb->callback([options] { replay(*options); });
+}
+
+}  // namespace limpet::app

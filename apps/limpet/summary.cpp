@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/campaign/summary.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SummaryOptions {
+    std::string database;
+    std::string out;
+    bool json = false;
+};
+
+void summarise_campaign(const SummaryOptions& options) {
+    const fs::path database = Results::file_of(options.database);
+    Results results(database, Database::Access::read);
+    const CampaignSummary summary = summarise(results);
+    fmt::print("{}\n", options.json ? summary_json(summary) : summary_text(summary));
+    if (options.json && options.out.empty()) {
+        return;  // a program asked: it gets what it asked for
+    }
+    const fs::path beside = database.parent_path();
+    const fs::path folder =
+        options.out.empty() ? (beside.empty() ? fs::path(".") : beside) : make_folder(options.out);
+    for (const fs::path& file : draw_summary(summary, folder)) {
+        if (!options.json) {
+            fmt::print("{}\n", file.string());
+        }
+    }
+}
+
+}  // namespace
+
+void add_summary(CLI::App& app) {
+    auto options = std::make_shared<SummaryOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "summary", "Print and draw what a campaign found: probabilities, failures, fits");
+    verb->add_option("database", options->database, "results.sqlite, or the folder that holds it")
+        ->required()
+        ->type_name("DB");
+    verb->add_option("--out", options->out, "folder of the figures (default: that of the database)")
+        ->type_name("DIR");
+    verb->add_flag("--json", options->json, "one JSON object; figures only with --out");
+    verb->footer(
+        "Works while the campaign is still flying. Draws summary.png and summary.svg. Intervals "
+        "are\nWilson's, 95 %.\n");
+    verb->callback([options] { summarise_campaign(*options); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/loader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/campaign/campaign.hpp"
+#include "limpet/campaign/campaign_file.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostVariants = 1000;
+constexpr std::uint32_t kDrawsLookedAt = 1'000'000;  ///< of spreads without ends; takes a second
+
+using Sample = std::vector<SampledValue>;
+
+/// An error that names `--set key=value` was written in the campaign's file: say where.
+std::string told_of_campaign(const CampaignFile& file, const std::string& message) {
+    if (message.rfind(kSet, 0) != 0) {
+        return message;
+    }
+    for (const VariedKey& key : file.campaign.keys) {
+        const std::string assignment = fmt::format("{}{}=", kSet, key.key);
+        if (message.rfind(assignment, 0) == 0) {
+            const std::size_t colon =
+                std::min(message.find(": ", assignment.size()), message.size());
+            return fmt::format("{}: parameters.{}{}", key.place, key.key, message.substr(colon));
+        }
+    }
+    return fmt::format("{}: overrides: {}", file.overrides_place, message.substr(kSet.size()));
+}
+
+/// The file of the scenario that the campaign names; a relative path counts from the campaign's.
+std::string scenario_file(const CampaignFile& file, const fs::path& folder, const fs::path& data) {
+    const std::string& wanted = file.scenario;
+    if (is_path(wanted)) {
+        return (fs::path(wanted).is_relative() ? folder / wanted : fs::path(wanted)).string();
+    }
+    try {
+        return find_file(wanted, "scenario", data / "scenarios").string();
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: scenario: {}", file.scenario_place, error.what()));
+    }
+}
+
+/// Overrides that select combination `variant` of the named values; see variant_of().
+std::vector<std::string> named_overrides(const std::vector<VariedKey>& keys, std::size_t variant) {
+    std::vector<std::string> overrides;
+    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+        if (is_named(*key)) {
+            const auto& value = key->values[variant % key->values.size()];
+            overrides.insert(overrides.begin(), key->key + "=" + value_text(value));
+            variant /= key->values.size();
+        }
+    }
+    return overrides;
+}
+
+std::size_t variants(const CampaignFile& file) {
+    std::size_t count = 1;
+    for (const VariedKey& key : file.campaign.keys) {
+        count *= is_named(key) ? key.values.size() : 1;
+        if (count > kMostVariants) {
+            throw InputError(
+                fmt::format("{}: parameters.{}: makes more than {} combinations of "
+                            "names",
+                            key.place, key.key, kMostVariants));
+        }
+    }
+    return count;
+}
+
+/// Spells the scenario out, once for each combination of named values.
+void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
+    Campaign& campaign = file.campaign;
+    const std::string path = scenario_file(file, folder, data);
+    campaign.scenario_name = fs::path(path).stem().string();
+    const std::size_t count = variants(file);
+    for (std::size_t variant = 0; variant < count; ++variant) {
+        LoadOptions options{.overrides = file.overrides, .seed = campaign.seed, .data_root = data};
+        for (std::string& text : named_overrides(campaign.keys, variant)) {
+            options.overrides.push_back(std::move(text));
+        }
+        campaign.scenarios.push_back(load_scenario(path, options).yaml);
+    }
+}
+
+SampledValue middle(const VariedKey& key) {
+    switch (key.spread) {
+        case Spread::grid:
+        case Spread::choice: return key.values.front();
+        case Spread::uniform: return 0.5 * (key.first + key.second);
+        case Spread::normal:
+        case Spread::lognormal: return std::clamp(key.first, key.from, key.to);
+    }
+    throw InternalError("spread out of range");
+}
+
+/// Smallest and largest that each key is set to.
+std::vector<std::pair<SampledValue, SampledValue>> extremes(const Campaign& campaign) {
+    std::vector<std::pair<SampledValue, SampledValue>> ends;
+    bool draws = false;
+    for (const VariedKey& key : campaign.keys) {
+        if (!key.values.empty()) {
+            const auto [low, high] = std::minmax_element(key.values.begin(), key.values.end());
+            ends.emplace_back(*low, *high);
+        } else if (key.spread == Spread::uniform) {
+            ends.emplace_back(key.first, key.second);
+        } else {
+            ends.emplace_back(middle(key), middle(key));
+            draws = true;
+        }
+    }
+    for (std::uint32_t run = 0; draws && run < std::min(campaign.runs, kDrawsLookedAt); ++run) {
+        const Sample sample = draw(campaign.keys, campaign.seed, run);
+        for (std::size_t i = 0; i < sample.size(); ++i) {
+            ends[i] = {std::min(ends[i].first, sample[i]), std::max(ends[i].second, sample[i])};
+        }
+    }
+    return ends;
+}
+
+/// Loads the scenario in the middle of everything, then at the ends of each key.
+void check_extremes(const Campaign& campaign) {
+    Sample centre;
+    for (const VariedKey& key : campaign.keys) {
+        centre.push_back(middle(key));
+    }
+    (void)scenario_of(campaign, centre);
+    const auto ends = extremes(campaign);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (const SampledValue& end : {ends[i].first, ends[i].second}) {
+            Sample sample = centre;
+            sample[i] = end;
+            (void)scenario_of(campaign, sample);
+        }
+    }
+}
+
+}  // namespace
+
+Campaign load_campaign(const std::string& wanted, const fs::path& data) {
+    const fs::path root = data.empty() ? data_root() : data;
+    const fs::path path = find_file(wanted, "campaign", root / "campaigns");
+    CampaignFile file =
+        parse_campaign(read_yaml_text(path), shown_path(path), path.stem().string());
+    try {
+        resolve(file, path.parent_path(), root);
+        check_extremes(file.campaign);
+    } catch (const InputError& error) {
+        throw InputError(told_of_campaign(file, error.what()));
+    }
+    return std::move(file.campaign);
+}
+
+Campaign restore_campaign(const std::string& yaml, const std::string& name,
+                          std::vector<std::string> scenarios) {
+    CampaignFile file = parse_campaign(yaml, name, name);
+    file.campaign.scenario_name = fs::path(file.scenario).stem().string();
+    file.campaign.scenarios = std::move(scenarios);
+    return std::move(file.campaign);
+}
+
+}  // namespace limpet

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/campaign/campaign.hpp"
+#include "limpet/campaign/database.hpp"
+#include "limpet/simulation/metrics.hpp"
+
+namespace limpet {
+
+/// What is kept of a run. Nothing in it depends on the machine, the number of workers or the time.
+struct RunRow {
+    std::uint32_t run = 0;
+    std::uint64_t seed = 0;
+    std::vector<SampledValue> sample;
+    /// Name of an Outcome; kFault when the flight broke off by a fault of ours.
+    std::string outcome;
+    std::string reason;
+    int attempts = 0;
+    Metrics metrics;
+    double simulated_s = 0.0;
+    long long physics_steps = 0;
+    std::uint64_t state_hash = 0;
+};
+inline constexpr const char* kFault = "fault";
+
+/// The results of a campaign: one file of SQLite that stands for itself.
+///
+///   campaign   one row: name, the file's text, version of Limpet, hashes of file and scenarios
+///   scenarios  the scenario spelled out, for each combination of named values
+///   runs       a row a run: run, seed, a column for each varied key (named like it: `"guidance.
+///              dock_speed_m_s"`), outcome, reason, attempts, metrics, simulated_s, physics_steps,
+///              state_hash
+///
+/// Every committed transaction outlives the death of the process (write-ahead log); when a campaign
+/// ends the log is folded in and one plain file is left.
+class Results {
+public:
+    static constexpr const char* kFileName = "results.sqlite";
+
+    /// @param wanted  the file itself or the folder that holds it
+    [[nodiscard]] static std::filesystem::path file_of(const std::filesystem::path& wanted);
+    /// Starts a new file: whole, or not at all.
+    static void create(const std::filesystem::path& path, const Campaign& campaign);
+    /// @throws InputError when there is none, when it is not one of ours, of another schema or
+    ///         another version's columns, or damaged
+    Results(const std::filesystem::path& path, Database::Access access);
+
+    /// The campaign as it was begun.
+    [[nodiscard]] const Campaign& campaign() const { return campaign_; }
+    [[nodiscard]] const std::string& version() const { return version_; }
+    /// @throws InputError when `campaign` would not fly what was begun here
+    void require_same(const Campaign& campaign) const;
+
+    /// Rows in one transaction: all are kept or none.
+    void add(const std::vector<RunRow>& rows);
+    /// Folds the log into the file.
+    void finish();
+
+    [[nodiscard]] std::uint32_t finished();
+    [[nodiscard]] std::map<std::string, std::uint32_t> outcomes();
+    /// Where a campaign goes on: every run below is there.
+    [[nodiscard]] std::uint32_t first_missing();
+    /// Runs from there on that are there nevertheless, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> finished_from(std::uint32_t first);
+    /// @throws InputError when it is not there
+    [[nodiscard]] RunRow row(std::uint32_t run);
+
+    [[nodiscard]] Database& database() { return database_; }
+
+private:
+    void start_log();
+
+    Database database_;
+    Campaign campaign_;
+    std::string version_;
+    std::string campaign_hash_;
+    std::string scenario_hash_;
+    std::optional<Statement> insert_;
+};
+
+/// The results in a folder: new ones, or, when asked to resume, those that are there.
+/// @throws InputError when there are some and nobody asked to resume, or `campaign` is not theirs
+[[nodiscard]] Results begin_results(const Campaign& campaign, const std::filesystem::path& folder,
+                                    bool resume);
+
+/// @return 16 hexadecimal digits
+[[nodiscard]] std::string hash_text(std::uint64_t hash);
+
+}  // namespace limpet

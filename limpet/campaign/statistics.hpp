@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace limpet {
+
+/// Two-sided 95 % of a standard normal.
+inline constexpr double kNormal95 = 1.959963984540054;
+
+struct Interval {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// A share of runs with its 95 % interval.
+struct Proportion {
+    std::uint32_t successes = 0;
+    std::uint32_t runs = 0;
+
+    /// NaN without runs.
+    [[nodiscard]] double probability() const;
+    /// Wilson's score interval: honest at 0, at 1 and with few runs; 0..1 without any.
+    /// Source: Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
+    [[nodiscard]] Interval interval() const;
+};
+
+/// P(success) = 1 / (1 + exp(-(intercept + slope x))).
+struct LogisticFit {
+    double intercept = 0.0;
+    double slope = 0.0;
+    double slope_error = 0.0;  ///< standard error
+    double half = 0.0;         ///< x at which half of the runs succeed
+    double half_error = 0.0;   ///< standard error of that, by the delta method
+
+    [[nodiscard]] double probability(double x) const;
+};
+
+/// Runs at one value of x.
+struct Trials {
+    double x = 0.0;
+    Proportion proportion;
+};
+
+/// Maximum likelihood by Newton's method.
+/// @return nullopt where no finite fit exists or none makes sense: fewer than three values of x,
+///         only successes or only failures, or a threshold that parts them cleanly
+[[nodiscard]] std::optional<LogisticFit> fit_logistic(const std::vector<Trials>& trials);
+
+/// @param sorted  ascending, not empty
+/// @param share   0..1
+/// @return quantile by linear interpolation between the order statistics (R's type 7)
+[[nodiscard]] double quantile(const std::vector<double>& sorted, double share);
+
+}  // namespace limpet

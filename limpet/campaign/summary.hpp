@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/campaign/results.hpp"
+#include "limpet/campaign/statistics.hpp"
+
+namespace limpet {
+
+/// Runs that ended alike; `proportion` is of all runs.
+struct EndingCount {
+    std::string outcome;
+    std::string reason;  ///< empty where outcomes alone are counted
+    Proportion proportion;
+};
+
+/// Runs at one value of a key, or within low..high of it.
+struct Group {
+    std::string label;  ///< "1.1", "1.0..1.2", "metal"
+    double low = 0.0;   ///< of numbers; equal to `high` where there is one value
+    double high = 0.0;
+    Proportion proportion;
+    [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+};
+
+/// Success against one varied key, over whatever the other keys were.
+struct KeySummary {
+    std::string key;
+    bool named = false;
+    std::vector<Group> groups;
+    std::optional<LogisticFit> fit;  ///< of the runs themselves, not of the groups
+};
+
+struct MetricSummary {
+    std::string name;
+    std::uint32_t runs = 0;  ///< in which it came to pass
+    double p05 = 0.0;
+    double median = 0.0;
+    double p95 = 0.0;
+};
+
+/// What a campaign has found so far.
+struct CampaignSummary {
+    std::string name;
+    std::string description;
+    std::string scenario;
+    std::string version;  ///< of the Limpet that flew it
+    std::uint64_t seed = 0;
+    std::uint32_t runs = 0;      ///< planned
+    std::uint32_t finished = 0;  ///< flown
+    std::vector<std::string> success_means;
+    Proportion success;
+    std::vector<EndingCount> outcomes;  ///< most frequent first
+    std::vector<EndingCount> failures;  ///< outcome and reason of what is no success
+    std::vector<KeySummary> keys;
+    std::vector<MetricSummary> metrics;  ///< those that came to pass at all
+};
+
+[[nodiscard]] CampaignSummary summarise(Results& results);
+
+/// For people: lines of at most a screen's width.
+[[nodiscard]] std::string summary_text(const CampaignSummary& summary);
+/// One JSON object.
+[[nodiscard]] std::string summary_json(const CampaignSummary& summary);
+
+/// Draws outcomes and success against each varied key, with 95 % intervals and fits, as summary.png
+/// and summary.svg.
+/// @param folder  made when it is not there
+/// @return the files
+/// @throws InputError for an unwritable folder, or when gnuplot is not installed
+std::vector<std::filesystem::path> draw_summary(const CampaignSummary& summary,
+                                                const std::filesystem::path& folder);
+
+}  // namespace limpet

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "limpet/campaign/plant_cache.hpp"
+#include "limpet/campaign/results.hpp"
+#include "limpet/simulation/flight.hpp"
+
+namespace limpet {
+
+/// How far a campaign has come. Runs count once they are safe in the database.
+struct Progress {
+    std::uint32_t runs = 0;      ///< in the end
+    std::uint32_t finished = 0;  ///< of them, before and now
+    std::uint32_t flown = 0;     ///< now
+    double elapsed_s = 0.0;
+    std::map<std::string, std::uint32_t> outcomes;
+
+    [[nodiscard]] double rate_1_s() const { return elapsed_s > 0.0 ? flown / elapsed_s : 0.0; }
+    [[nodiscard]] double left_s() const { return flown > 0 ? (runs - finished) / rate_1_s() : 0.0; }
+};
+
+/// How a campaign is watched and stopped. Empty members do neither.
+struct CampaignWatch {
+    std::function<void(const Progress&)> on_progress;  ///< after each commit
+    const std::atomic<bool>* stop = nullptr;           ///< then flights in the air end, no new ones
+};
+
+/// Flies the runs that are missing from the results, on `jobs` threads, until all are there or the
+/// watch stops it. One thread writes, in batches of whatever has landed.
+/// @throws InputError when a run's values do not fit each other or the disk is full; what has
+///         landed until then is kept
+Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {});
+
+/// Flies one run. A fault of ours during the flight becomes a row with the outcome `fault`.
+[[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants);
+
+/// Flies a row again, recorded.
+/// @param recording  file to write
+/// @throws InternalError when it does not fly to the row's state hash
+FlightResult replay_run(Results& results, std::uint32_t run, const std::filesystem::path& recording,
+                        const FlightWatch& watch = {});
+
+}  // namespace limpet

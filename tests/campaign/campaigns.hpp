@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "limpet/campaign/results.hpp"
+#include "program.hpp"
+
+namespace limpet {
+
+/// Hovers of half a second with something different in each: a few milliseconds a run.
+inline std::string short_hovers(int runs, const std::string& more = {}) {
+    return "description: short hovers\n"
+           "scenario: hover\n"
+           "overrides: [simulation.hover_s=0.5]\n"
+           "seed: 3\n"
+           "runs: " +
+           std::to_string(runs) +
+           "\n"
+           "parameters:\n"
+           "  sensors.lidar_noise_m: {uniform: [0.002, 0.02]}\n"
+           "  vehicle: {grid: [perching_uav, iris]}\n"
+           "  simulation.start_offset_m: {choice: [0.1, 0.2]}\n" +
+           more;
+}
+
+inline Campaign campaign_of(const Bench& bench, const std::string& text) {
+    return load_campaign(bench.write("x.yaml", text).string(), LIMPET_SOURCE_DIR);
+}
+
+/// All rows, every cell as text.
+inline std::vector<std::vector<std::string>> table_of(const std::filesystem::path& file) {
+    Results results(file, Database::Access::read);
+    const auto columns =
+        results.database().integer("SELECT count(*) FROM pragma_table_info('runs')");
+    std::vector<std::vector<std::string>> rows;
+    Statement select = results.database().prepare("SELECT * FROM runs ORDER BY run");
+    while (select.step()) {
+        auto& row = rows.emplace_back();
+        for (int i = 0; i < static_cast<int>(columns); ++i) {
+            row.push_back(select.text(i));
+        }
+    }
+    return rows;
+}
+
+}  // namespace limpet

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Campaigns as a user meets them: killed, interrupted, resumed, replayed, and fed with nonsense.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "campaigns.hpp"
+#include "limpet/core/errors.hpp"
+#include "running.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kRuns = 250;
+
+std::uint32_t finished_in(const fs::path& file) {
+    try {
+        return fs::exists(file) ? Results(file, Database::Access::read).finished() : 0;
+    } catch (const InputError&) {
+        return 0;  // between two states of its log
+    }
+}
+
+/// Flies kRuns hovers, sends the signal when some are there, resumes; compares with a whole one.
+struct Cut {
+    int ended = 0;
+    std::uint32_t kept = 0;
+    std::string log;
+    Finished resumed;
+    bool same = false;
+};
+
+Cut cut_and_resume(const Bench& bench, int signal) {
+    (void)bench.write("x.yaml", short_hovers(kRuns));
+    const fs::path file = bench.folder() / "cut/results.sqlite";
+    Cut cut;
+    {
+        Running running(bench.folder(), {"campaign", "x.yaml", "--jobs", "2", "--out", "cut"});
+        EXPECT_TRUE(eventually([&] { return finished_in(file) >= 10; }));
+        running.signal(signal);
+        cut.ended = running.wait();
+    }
+    cut.log = text_of(bench.folder() / "log");
+    cut.kept = finished_in(file);
+    const auto before = table_of(file);
+    cut.resumed = bench.run({"campaign", "x.yaml", "--jobs", "2", "--out", "cut", "--resume"});
+    EXPECT_EQ(bench.run({"campaign", "x.yaml", "--jobs", "1", "--out", "whole", "-q"}).exit_code,
+              0);
+    const auto after = table_of(file);
+    const auto whole = table_of(bench.folder() / "whole/results.sqlite");
+    EXPECT_EQ(whole.size(), static_cast<std::size_t>(kRuns));
+    cut.same = after == whole;
+    for (const auto& row : before) {
+        EXPECT_THAT(after, testing::Contains(row));
+    }
+    return cut;
+}
+
+TEST(CampaignProgram, KilledAndResumedItLosesNothingAndRepeatsNothing) {
+    const Bench bench;
+    const Cut cut = cut_and_resume(bench, SIGKILL);
+    EXPECT_EQ(cut.ended, -SIGKILL);
+    EXPECT_GE(cut.kept, 10U);
+    EXPECT_LT(cut.kept, static_cast<std::uint32_t>(kRuns)) << "killed too late to prove anything";
+    EXPECT_EQ(cut.resumed.exit_code, 0) << cut.resumed.err;
+    EXPECT_THAT(cut.resumed.out, HasSubstr(std::to_string(kRuns - cut.kept) + " runs flown in"));
+    EXPECT_TRUE(cut.same);
+}
+
+TEST(CampaignProgram, InterruptedItStopsCleanlyAndSaysHowToGoOn) {
+    const Bench bench;
+    const Cut cut = cut_and_resume(bench, SIGINT);
+    EXPECT_EQ(cut.ended, 130);
+    EXPECT_THAT(cut.log, HasSubstr("stopped after " + std::to_string(cut.kept)));
+    EXPECT_THAT(cut.log, HasSubstr("limpet campaign x.yaml --out cut --resume"));
+    EXPECT_TRUE(cut.same);
+    EXPECT_THAT(bench.files(), testing::Not(testing::Contains(HasSubstr("-wal"))));
+}
+
+class Flown : public testing::Test {
+protected:
+    Flown() {
+        (void)bench_.write("x.yaml", short_hovers(6));
+        EXPECT_EQ(bench_.run({"campaign", "x.yaml", "--quiet", "--out", "."}).exit_code, 0);
+    }
+    [[nodiscard]] fs::path file() const { return bench_.folder() / "results.sqlite"; }
+    void tamper(const std::string& sql) const {
+        Database(file(), Database::Access::write).execute(sql);
+    }
+    /// One line, exit code 2, and not a byte of the folder has changed.
+    void expect_refused(const std::vector<std::string>& arguments, const std::string& text) const {
+        const auto files = bench_.files();
+        const std::string before = text_of(file());
+        const Finished finished = bench_.run(arguments);
+        EXPECT_EQ(finished.exit_code, 2) << finished.err;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(text));
+        EXPECT_EQ(finished.out, "");
+        EXPECT_EQ(bench_.files(), files);
+        EXPECT_TRUE(text_of(file()) == before) << "the file has changed";
+    }
+    void expect_no_reader(const std::string& text) const {
+        expect_refused({"summary", "results.sqlite"}, text);
+        expect_refused({"replay", "results.sqlite", "0"}, text);
+        expect_refused({"campaign", "x.yaml", "--out", ".", "--resume"}, text);
+    }
+
+    Bench bench_;
+};
+
+TEST_F(Flown, ReplaysARowToItsHash) {
+    const std::string hash = hash_text(Results(file(), Database::Access::read).row(3).state_hash);
+    fs::remove(bench_.folder() / "x.yaml");  // the database stands for itself
+    const Finished replay = bench_.run({"replay", ".", "3", "--out", "again"});
+    EXPECT_EQ(replay.exit_code, 0) << replay.err;
+    EXPECT_THAT(replay.out, HasSubstr(hash));
+    EXPECT_THAT(bench_.files(), testing::IsSupersetOf({"again/flight.mcap", "again/overview.png"}));
+    expect_refused({"replay", "results.sqlite", "6"}, "no run 6");
+    expect_refused({"replay", "results.sqlite", "-1"}, "-1");
+}
+
+TEST_F(Flown, AnotherHashIsAFaultOfOurs) {
+    tamper("UPDATE runs SET state_hash = '00000000000000ff' WHERE run = 2");
+    const Finished replay = bench_.run({"replay", "results.sqlite", "2"});
+    EXPECT_EQ(replay.exit_code, 70);
+    EXPECT_TRUE(replay.one_line_of_error()) << replay.err;
+    EXPECT_THAT(replay.err, HasSubstr("00000000000000ff"));
+}
+
+TEST_F(Flown, SummaryForPeopleAndForPrograms) {
+    const Finished text = bench_.run({"summary", ".", "--out", "figures"});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("6 of 6 runs of hover"));
+    EXPECT_THAT(bench_.files(),
+                testing::IsSupersetOf({"figures/summary.png", "figures/summary.svg"}));
+    const auto json = nlohmann::json::parse(bench_.run({"summary", ".", "--json"}).out);
+    EXPECT_EQ(json["success"]["successes"], 6);
+    EXPECT_EQ(json["keys"][1]["groups"][0]["value"], "iris");
+    EXPECT_EQ(json["outcomes"][0]["outcome"], "released");
+}
+
+TEST_F(Flown, ResultsAreNeverOverwritten) {
+    expect_refused({"campaign", "x.yaml", "--out", "."}, "--resume");
+    (void)bench_.write("x.yaml", short_hovers(7));
+    expect_refused({"campaign", "x.yaml", "--out", ".", "--resume"}, "file has changed");
+}
+
+TEST_F(Flown, AnotherSchemaIsRefused) {
+    tamper("PRAGMA user_version = 7");
+    expect_no_reader("schema 7");
+}
+
+TEST_F(Flown, ATruncatedDatabaseIsRefused) {
+    const auto size = fs::file_size(file());
+    for (const auto left : {size / 2, size - 1, std::uintmax_t{50}, std::uintmax_t{0}}) {
+        fs::resize_file(file(), left);
+        expect_no_reader("results.sqlite: is ");
+    }
+}
+
+TEST_F(Flown, WhatIsNoDatabaseOfOursIsRefused) {
+    (void)bench_.write("results.sqlite", std::string(5000, 'x'));
+    expect_no_reader("not a database of results");
+    fs::remove(file());
+    { Database(file(), Database::Access::create).execute("CREATE TABLE runs (run INTEGER)"); }
+    expect_no_reader("not a database of results");
+    expect_refused({"summary", "nowhere.sqlite"}, "no such file");
+}
+
+TEST(CampaignProgram, RefusesWhatItCannotFly) {
+    const Bench bench;
+    const std::string head = "scenario: hover\nruns: 2\nparameters:\n";
+    const std::pair<std::string, std::string> bad[] = {
+        {head + "  simulation.hovers_s: {uniform: [1, 2]}\n",
+         "x.yaml:4: parameters.simulation.hovers_s: unknown key"},
+        {head + "  simulation.hover_s: {uniform: [1, 4000]}\n",
+         "x.yaml:4: parameters.simulation.hover_s: 4000 is out of range"},
+        {head + "  simulation.hover_s: {normal: {mean: 1, sigma: 30}}\n", "is out of range"},
+        {head + "  simulation.hover_s: {normal: {mean: 1, sigma: -1}}\n", "sigma"},
+        {head + "  simulation.hover_s: {normal: {mean: 1, sigma: 1, from: 90}}\n", "hardly ever"},
+        {head + "  simulation.hover_s: {uniform: [2, 1]}\n", "x.yaml:4"},
+        {head + "  simulation.hover_s: {grid: []}\n", "list of values"},
+        {head + "  simulation.hover_s: {grid: [1, 1.0]}\n", "twice"},
+        {head + "  simulation.hover_s: {grid: [1], choice: [2]}\n", "exactly one of"},
+        {head + "  simulation.hover_s: {range: {from: 1, to: 2, count: 0}}\n", "1..1000000"},
+        {head + "  simulation.hover_s: {gauss: [1, 2]}\n", "unknown key"},
+        {head + "  vehicle: {grid: [perching_uav, perching_uva]}\n", "perching_uva"},
+        {head + "  seed: {grid: [1, 2]}\n", "cannot vary"},
+        {"scenario: hover\nruns: 0\n", "x.yaml:2: runs: 0 is out of range"},
+        {"scenario: hover\nrepeats: 0\nparameters:\n  simulation.hover_s: {grid: [1, 2]}\n",
+         "repeats: 0"},
+        {"scenario: hover\nruns: -3\n", "runs"},
+        {"scenario: hover\n", "runs: is missing"},
+        {"scenario: hover\nruns: 1\nrepeats: 1\n", "one of them"},
+        {"runs: 3\n", "scenario: is missing"},
+        {"scenario: hovre\nruns: 1\n", "x.yaml:1: scenario: \"hovre\""},
+        {"scenario: hover\nruns: 1\nname: ../x\n", "name"},
+        {"scenario: hover\nruns: 1\nsuccess: [landed]\n", "landed"},
+        {"scenario: hover\nruns: 1\noverrides: [simulation.hover_s=-1]\n",
+         "x.yaml:3: overrides: simulation.hover_s=-1"},
+        {"scenario: hover\nruns: 1\noverides: []\n", "did you mean overrides"},
+        {"", "empty"},
+    };
+    for (const auto& [text, message] : bad) {
+        (void)bench.write("x.yaml", text);
+        const Finished finished = bench.run({"campaign", "x.yaml"});
+        EXPECT_EQ(finished.exit_code, 2) << text;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(message));
+        EXPECT_EQ(bench.files(), std::vector<std::string>{"x.yaml"}) << "something was written";
+    }
+}
+
+TEST(CampaignProgram, RefusesJobsThatAreNone) {
+    const Bench bench;
+    for (const char* jobs : {"0", "-1", "two", "100000"}) {
+        const Finished finished = bench.run({"campaign", "smoke", "--jobs", jobs});
+        EXPECT_EQ(finished.exit_code, 2);
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("--jobs"));
+    }
+    EXPECT_TRUE(bench.files().empty());
+}
+
+TEST(CampaignProgram, ShippedCampaignsLoad) {
+    for (const auto& file : fs::directory_iterator(fs::path(LIMPET_SOURCE_DIR) / "campaigns")) {
+        if (file.path().extension() == ".yaml") {
+            EXPECT_NO_THROW((void)load_campaign(file.path().string(), LIMPET_SOURCE_DIR))
+                << file.path();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace limpet
