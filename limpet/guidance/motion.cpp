@@ -88,9 +88,24 @@ Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& 
     return setpoint;
 }
 
+/// Thrust while level on the cup: the weight; with altitude_hold it also keeps the joint's height.
+/// The vehicle pivots about the cup, so that damping the height of its centre of mass damps its
+/// pitch.
+double level_thrust(const PerchingParameters& parameters, const PerchingMemory& memory,
+                    const Estimate& estimate) {
+    if (parameters.altitude_hold < 0.5 || !estimate.valid) {
+        return thrust_command(parameters, 1.0);
+    }
+    const double height_error_m =
+        memory.grip_W_m.z() - parameters.joint_z_m - estimate.p_WB_m.z();  // > 0: too high
+    const double sink_m_s = parameters.altitude_gain_1_s * height_error_m;
+    const double sink_m_s2 = parameters.climb_rate_gain_1_s * (sink_m_s - estimate.v_WB_m_s.z());
+    return thrust_command(parameters, 1.0 - sink_m_s2 / kGravity_m_s2);
+}
+
 /// States in which the cup holds: attitude and thrust, since a position loop would pry at it.
 Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory& memory,
-                     double elapsed_s) {
+                     const Estimate& estimate, double elapsed_s) {
     const double perched_rad =
         radians(parameters.perched_pitch_deg + parameters.pitch_over_travel_deg);
     const auto pitch_between = [&](double to_rad, double duration_s) {
@@ -127,7 +142,7 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
         const bool releases = memory.state == PerchingState::releasing;
         setpoint.pump_on = !releases;
         setpoint.valve_open = releases && parameters.valve_fitted > 0.5;
-        setpoint.motion = attitude(memory, 0.0, carried(0.0));
+        setpoint.motion = attitude(memory, 0.0, level_thrust(parameters, memory, estimate));
     }
     return setpoint;
 }
@@ -198,7 +213,7 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
         case PerchingState::pitching_down:
         case PerchingState::levelled:
         case PerchingState::releasing:
-        case PerchingState::resealing: return on_the_wall(parameters, memory, elapsed_s);
+        case PerchingState::resealing: return on_the_wall(parameters, memory, estimate, elapsed_s);
     }
     throw InternalError("perching state out of range");
 }

@@ -54,6 +54,9 @@ struct PerchingParameters {
     double detach_pressure_Pa = 98000.0;
     double release_limit_s = 16.0;  ///< then the release is given up
     double oscillation_limit_deg = 10.0;
+    double altitude_hold = 0.0;        ///< 1: thrust keeps the height while level on the cup
+    double altitude_gain_1_s = 1.0;    ///< climb rate asked per error of height
+    double climb_rate_gain_1_s = 4.0;  ///< acceleration asked per error of that rate
     double reseal_limit_s = 3.0;
     // retreat
     double retreat_speed_m_s = 0.6;

@@ -202,6 +202,29 @@ void MujocoPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const 
     refresh();
 }
 
+std::size_t MujocoPlant::freedoms() const {
+    return static_cast<std::size_t>(options_->nv);
+}
+
+void MujocoPlant::displace(std::span<const double> step) {
+    require(step.size() == 2 * freedoms(), "a step for each degree of freedom and each speed");
+    mj_integratePos(options_.get(), integrated_.data(), step.data(), 1.0);
+    for (std::size_t i = 0; i < freedoms(); ++i) {
+        data_->qvel[i] += step[freedoms() + i];
+    }
+    refresh();
+}
+
+void MujocoPlant::displacement_from(const PlantState& origin, std::span<double> step) const {
+    require(step.size() == 2 * freedoms(), "room for each degree of freedom and each speed");
+    mj_differentiatePos(options_.get(), step.data(), 1.0, origin.values.data(), integrated_.data());
+    // As save() lays it out: positions, time, speeds.
+    const double* speeds = origin.values.data() + integrated_.size() + 1;
+    for (std::size_t i = 0; i < freedoms(); ++i) {
+        step[freedoms() + i] = data_->qvel[i] - speeds[i];
+    }
+}
+
 std::span<const double> MujocoPlant::positions() const {
     return {data_->qpos, static_cast<std::size_t>(options_->nq)};
 }

@@ -47,6 +47,16 @@ public:
     /// MuJoCo's axes, slider, cup_pitch, cup_yaw.
     [[nodiscard]] std::span<const double> positions() const;
 
+    /// Degrees of freedom: 3 of the base's place and 3 of its attitude, slider, cup_pitch, cup_yaw.
+    [[nodiscard]] std::size_t freedoms() const;
+    /// Moves the state by small steps, for linearisation: one a degree of freedom, then one a
+    /// speed, in MuJoCo's axes; attitude as a rotation vector in the base.
+    /// @param step  2 freedoms() numbers [m, rad, m/s, rad/s]
+    void displace(std::span<const double> step);
+    /// The step that leads from a saved state to this one: the inverse of displace().
+    /// @param step  is filled, 2 freedoms() numbers
+    void displacement_from(const PlantState& origin, std::span<double> step) const;
+
 private:
     struct Delete {
         void operator()(mjData_* data) const;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "limpet/simulation/model.hpp"
+
+namespace limpet {
+
+/// A mode of a linear system: x ~ exp(growth t) sin(2 pi frequency t).
+struct Mode {
+    double growth_1_s = 0.0;  ///< > 0 grows
+    double frequency_Hz = 0.0;
+    double pitch_share = 0.0;  ///< of the base's turning, how much is about its pitch axis, 0..1
+};
+
+/// The vehicle level on a sealed cup with attitude and thrust held, as it waits for the release:
+/// the loop of rigid bodies, cup, rotors and attitude control, from one control period to the next.
+///
+/// The stations are the simulation's own (advance(), control(), the rotors' step()); the estimator
+/// is left out: control sees the true attitude, and the true rate as a gyro gives it, the mean over
+/// the last period. Noise, gusts and the battery's sag are left out too, the cup's pressure stays.
+class LevelOnCup {
+public:
+    /// @param model  its vehicle has a cup and its scenario a wall
+    explicit LevelOnCup(std::shared_ptr<const SimulationModel> model);
+
+    /// Everything that the loop carries from one control period to the next, as small numbers
+    /// around the rest: bodies, rotors and their dead time, filters, integrators.
+    [[nodiscard]] std::size_t size() const;
+
+    /// Modes of the linearised loop, fastest growing first. Jacobian by central differences at the
+    /// rest, which is found by Newton's method.
+    /// @throws InternalError when there is no rest
+    [[nodiscard]] std::vector<Mode> modes();
+
+private:
+    void put_on_wall();
+    void period();
+    [[nodiscard]] Eigen::VectorXd numbers(const PlantState& origin);
+    void add(const Eigen::VectorXd& step);
+    [[nodiscard]] Eigen::VectorXd image(const Snapshot& from, const Eigen::VectorXd& step);
+    [[nodiscard]] Eigen::MatrixXd jacobian(const Snapshot& at);
+    template <class Visit>
+    void for_each_number(Visit visit);
+
+    std::shared_ptr<const SimulationModel> model_;
+    MujocoPlant plant_;
+    SimulationState state_;
+    int ticks_ = 1;                ///< of a control period
+    std::size_t delay_ticks_ = 0;  ///< of the rotors' dead time
+};
+
+/// The fastest-growing or slowest-decaying of the modes that are mostly pitch and below 3 Hz.
+/// @throws InternalError when there is none
+[[nodiscard]] Mode pitch_mode(const std::vector<Mode>& modes);
+
+}  // namespace limpet

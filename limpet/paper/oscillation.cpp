@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/oscillation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "limpet/campaign/plant_cache.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/paper/parallel.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/advance.hpp"
+#include "limpet/simulation/flight.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kWatch_s = 20.0;
+constexpr double kSample_s = 0.01;
+constexpr double kTooFar_deg = 15.0;  ///< beyond, nothing is linear any more
+
+Overrides joined(Overrides first, const Overrides& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+bool holds(std::string_view text, std::string_view part) {
+    return text.find(part) != std::string_view::npos;
+}
+
+/// Nothing random: a kick alone is to be seen.
+void silence(Scenario& scenario) {
+    for (const Parameter<SensorParameters>& row : sensor_table()) {
+        if (holds(row.name, "_noise") || holds(row.name, "_bias") || holds(row.name, "_walk") ||
+            holds(row.name, "_dropout")) {
+            if (row.minimum <= 0.0 && !holds(row.name, "_tau")) {
+                row.field(scenario.sensors) = 0.0;
+            }
+        }
+    }
+    // scenario.environment.recirculation_moment_rms_N_m = 0.0;
+    // scenario.environment.gust_sigma_m_s = 0.0;
+}
+
+/// Turns the vehicle about its cup's joint with a speed, the cup itself staying as it is.
+void turn_about_joint(MujocoPlant& plant, const Airframe& airframe, double pitch_rate_rad_s) {
+    // Freedoms in MuJoCo's axes (x ahead, y left, z up): place, attitude, slider, cup_pitch,
+    // cup_yaw.
+    constexpr std::size_t kUp = 2, kAboutLeft = 4, kCupPitch = 7;
+    const std::size_t speeds = plant.freedoms();
+    std::vector<double> step(2 * speeds, 0.0);
+    step[speeds + kUp] = -pitch_rate_rad_s * airframe.cup.joint_x_m;
+    step[speeds + kAboutLeft] = -pitch_rate_rad_s;
+    step[speeds + kCupPitch] = -pitch_rate_rad_s;
+    plant.displace(step);
+}
+
+double pitch_deg(const Flight& flight) {
+    return degrees(euler_from_quaternion(flight.state().truth.base.q_WF).pitch_rad);
+}
+
+/// Flies to the moment at which the vehicle begins to wait for the release.
+void fly_to_release(Flight& flight) {
+    while (flight.state().guidance.state != PerchingState::releasing) {
+        require(!flight.ended(), "a flight that comes to its release");
+        flight.tick();
+    }
+}
+
+struct Extreme {
+    double time_s;
+    double value;
+};
+
+/// Highest and lowest points in turn, each farther than `floor` from the one before.
+std::vector<Extreme> extremes(const std::vector<double>& time_s, const std::vector<double>& values,
+                              double floor) {
+    std::vector<Extreme> found;
+    Extreme high{time_s.front(), values.front()};
+    Extreme low = high;
+    int direction = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Extreme now{time_s[i], values[i]};
+        high = now.value > high.value ? now : high;
+        low = now.value < low.value ? now : low;
+        if (direction >= 0 && high.value - now.value > floor) {
+            found.push_back(high);
+            low = now;
+            direction = -1;
+        } else if (direction <= 0 && now.value - low.value > floor) {
+            found.push_back(low);
+            high = now;
+            direction = 1;
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+Overrides slow_motors() {
+    return {"vehicle.rotor.time_constant_up_s=0.065", "vehicle.rotor.time_constant_down_s=0.065",
+            "vehicle.rotor.command_delay_s=0.016"};
+}
+
+Overrides slow_motors_and_gusts() {
+    return joined(slow_motors(), {"environment.recirculation_moment_rms_N_m=0.03"});
+}
+
+Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
+    LevelOnCup loop(build_model(load_scenario(scenario, {.overrides = overrides})));
+    return pitch_mode(loop.modes());
+}
+
+KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
+                          double floor_deg) {
+    constexpr std::size_t kFewest = 4;
+    KickedSwing swing{.growth_1_s = std::numeric_limits<double>::quiet_NaN(),
+                      .frequency_Hz = std::numeric_limits<double>::quiet_NaN(),
+                      .time_s = std::move(time_s),
+                      .pitch_deg = std::move(pitch_deg)};
+    std::vector<Extreme> turns = extremes(swing.time_s, swing.pitch_deg, floor_deg);
+    if (!turns.empty()) {
+        turns.erase(turns.begin());  // where the trace began, not a turn
+    }
+    if (turns.size() < kFewest) {
+        return swing;
+    }
+    double n = 0.0, sum_t = 0.0, sum_y = 0.0, sum_tt = 0.0, sum_ty = 0.0;
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+        const double t = 0.5 * (turns[i].time_s + turns[i - 1].time_s);
+        const double y = std::log(std::abs(turns[i].value - turns[i - 1].value));
+        n += 1.0;
+        sum_t += t;
+        sum_y += y;
+        sum_tt += t * t;
+        sum_ty += t * y;
+    }
+    swing.growth_1_s = (n * sum_ty - sum_t * sum_y) / (n * sum_tt - sum_t * sum_t);
+    swing.frequency_Hz = 0.5 * n / (turns.back().time_s - turns.front().time_s);
+    return swing;
+}
+
+KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides, double kick_deg) {
+    const Overrides patient = {"guidance.rest_s=0.5", "guidance.release_limit_s=600",
+                               "guidance.oscillation_limit_deg=60", "guidance.stuck_s=60"};
+    Scenario quiet = load_scenario(scenario, {.overrides = joined(patient, overrides)});
+    silence(quiet);
+    const auto model = build_model(quiet);
+    const double frequency_Hz = [&] {
+        LevelOnCup loop(model);
+        return std::max(0.3, pitch_mode(loop.modes()).frequency_Hz);
+    }();
+    Flight flight(model);
+    fly_to_release(flight);
+
+    Snapshot snapshot = flight.save();
+    MujocoPlant plant(model->plant);
+    plant.restore(snapshot.plant);
+    turn_about_joint(plant, quiet.airframe, radians(kick_deg) * 2.0 * kPi * frequency_Hz);
+    snapshot.plant = plant.save();
+    see_motion(*model, snapshot.state.truth, plant);
+    flight.restore(snapshot);
+
+    std::vector<double> time_s, pitches_deg;
+    const double start_s = seconds(snapshot.state.tick);
+    while (!flight.ended() && flight.state().guidance.state == PerchingState::releasing) {
+        const double since_s = seconds(flight.state().tick) - start_s;
+        if (since_s > kWatch_s || std::abs(pitch_deg(flight)) > kTooFar_deg) {
+            break;
+        }
+        if (since_s >= kSample_s * static_cast<double>(time_s.size())) {
+            time_s.push_back(since_s);
+            pitches_deg.push_back(pitch_deg(flight));
+        }
+        flight.tick();
+    }
+    return measure_swing(std::move(time_s), std::move(pitches_deg));
+}
+
+void fill(StabilityMap& map, const Overrides& vehicle, int jobs) {
+    map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
+    PlantCache plants;
+    for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
+        const double lag_s = map.lag_s[i % map.lag_s.size()];
+        const double pivot_m = map.pivot_m[i / map.lag_s.size()];
+        const Overrides point = {fmt::format("vehicle.rotor.time_constant_up_s={}", lag_s),
+                                 fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
+                                 fmt::format("vehicle.cup.joint_x_m={}", pivot_m)};
+        const Scenario scenario =
+            load_scenario("perch_metal", {.overrides = joined(joined(vehicle, map.gains), point)});
+        LevelOnCup loop(
+            build_model(scenario, [&](const std::string& mjcf) { return plants.get(mjcf); }));
+        map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
+    });
+}
+
+double SwingMissions::quantile(double share) const {
+    return pitch_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
+                             : limpet::quantile(pitch_deg, share);
+}
+
+SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
+                             std::uint32_t runs, int jobs) {
+    const auto model = build_model(load_scenario(scenario, {.overrides = overrides}));
+    std::vector<FlightResult> results(runs);
+    for_each_index(runs, jobs, [&](std::size_t run) {
+        results[run] = fly(model, {}, {}, static_cast<std::uint32_t>(run));
+    });
+    SwingMissions missions;
+    missions.runs = runs;
+    for (const FlightResult& result : results) {
+        missions.attached += std::isfinite(result.metrics.perched_pitch_deg) ? 1U : 0U;
+        missions.crashed += result.outcome == Outcome::crashed ? 1U : 0U;
+        if (std::isfinite(result.metrics.pitch_oscillation_max_deg)) {
+            missions.pitch_deg.push_back(result.metrics.pitch_oscillation_max_deg);
+        }
+    }
+    std::sort(missions.pitch_deg.begin(), missions.pitch_deg.end());
+    return missions;
+}
+
+}  // namespace limpet
