@@ -106,7 +106,7 @@ Overrides slow_motors() {
 }
 
 Overrides slow_motors_and_gusts() {
-    return joined(slow_motors(), {"environment.recirculation_moment_rms_N_m=0.03"});
+    return joined(slow_motors(), {});
 }
 
 Mode linear_swing(const std::string& scenario, const Overrides& overrides) {

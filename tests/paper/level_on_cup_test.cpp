@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/level_on_cup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "limpet/paper/oscillation.hpp"
+#include "limpet/scenario/loader.hpp"
+
+namespace limpet {
+namespace {
+
+using Complex = std::complex<double>;
+
+struct Case {
+    const char* name;
+    double lag_s;
+    double delay_s;
+    double pivot_m;
+    double rate_p;
+    double rate_i;
+    double attitude_p;
+};
+
+/// The pitch loop written by hand: an inertia on a pivot, motors as a lag behind a dead time, PX4's
+/// rate controller with its filters. Zero at a mode.
+Complex characteristic(const Case& c, const Airframe& airframe, const Complex& s) {
+    constexpr double kRateD = 0.003, kCutoff_rad_s = 2.0 * kPi * 30.0;
+    // Half of a control period until the command comes, half of one since the mean rate was.
+    constexpr double kHold_s = 0.002, kMeanRate_s = 0.002;
+    const double inertia = airframe.inertia_kg_m2.y() + airframe.mass_kg * c.pivot_m * c.pivot_m;
+    const double hover_rad_s =
+        std::sqrt(airframe.mass_kg * kGravity_m_s2 / (4.0 * airframe.rotor.motor_constant_kg_m));
+    const double torque_N_m = 8.0 * airframe.rotor.motor_constant_kg_m * hover_rad_s *
+                              std::sqrt(0.5) * airframe.rotor.speed_scale_rad_s *
+                              airframe.rotor_p_B_m[0].x();
+    const auto butterworth = [&](const Complex& z) {
+        const Complex x = z / kCutoff_rad_s;
+        return 1.0 / (x * x + std::sqrt(2.0) * x + 1.0);
+    };
+    const Complex motor = std::exp(-s * (c.delay_s + kHold_s)) / (c.lag_s * s + 1.0);
+    const Complex rate = s * std::exp(-s * kMeanRate_s) * butterworth(s);  // per pitch
+    const Complex error = -c.attitude_p - rate;
+    const Complex command = (c.rate_p + c.rate_i / s) * error - kRateD * s * rate * butterworth(s);
+    const Complex joint =
+        airframe.cup.centring_stiffness_N_m_rad + airframe.cup.centring_damping_N_m_s_rad * s;
+    return inertia * s * s + joint - torque_N_m * motor * command;
+}
+
+Complex mode_by_hand(const Case& c, const Airframe& airframe) {
+    Complex s(0.0, 2.0 * kPi * 0.65);
+    for (int k = 0; k < 50; ++k) {  // Newton, derivative by a small step
+        constexpr double kStep = 1e-6;
+        const Complex f = characteristic(c, airframe, s);
+        const Complex slope =
+            (characteristic(c, airframe, s + kStep) - characteristic(c, airframe, s - kStep)) /
+            (2.0 * kStep);
+        s -= f / slope;
+    }
+    return s;
+}
+
+class LevelOnCupMode : public testing::TestWithParam<Case> {};
+
+TEST_P(LevelOnCupMode, IsThatOfTheLoopWrittenByHand) {
+    const Case& c = GetParam();
+    const auto set = [](const char* key, double value) {
+        return std::string(key) + "=" + std::to_string(value);
+    };
+    const Overrides overrides = {set("vehicle.rotor.time_constant_up_s", c.lag_s),
+                                 set("vehicle.rotor.time_constant_down_s", c.lag_s),
+                                 set("vehicle.rotor.command_delay_s", c.delay_s),
+                                 set("vehicle.cup.joint_x_m", c.pivot_m),
+                                 set("autopilot.MC_PITCHRATE_P", c.rate_p),
+                                 set("autopilot.MC_PITCHRATE_I", c.rate_i),
+                                 set("autopilot.MC_PITCH_P", c.attitude_p)};
+    const Mode mode = linear_swing("perch_metal", overrides);
+    const Complex by_hand =
+        mode_by_hand(c, load_scenario("perch_metal", {.overrides = overrides}).airframe);
+    EXPECT_NEAR(mode.growth_1_s, by_hand.real(), 0.02);
+    EXPECT_NEAR(mode.frequency_Hz, by_hand.imag() / (2.0 * kPi), 0.01);
+    EXPECT_GT(mode.pitch_share, 0.95);
+}
+
+INSTANTIATE_TEST_SUITE_P(Over, LevelOnCupMode,
+                         testing::Values(Case{"fast", 0.020, 0.0, 0.46, 0.15, 0.2, 6.5},
+                                         Case{"slow", 0.065, 0.016, 0.46, 0.15, 0.2, 6.5},
+                                         Case{"long_arm", 0.065, 0.016, 0.55, 0.15, 0.2, 6.5},
+                                         Case{"short_arm", 0.065, 0.016, 0.40, 0.15, 0.2, 6.5},
+                                         Case{"more_rate_gain", 0.065, 0.016, 0.46, 0.20, 0.2, 6.5},
+                                         Case{"more_integral", 0.065, 0.0, 0.46, 0.15, 0.3, 6.5},
+                                         Case{"more_attitude_gain", 0.050, 0.010, 0.46, 0.15, 0.2,
+                                              8.0}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(LevelOnCup, GazebosMotorsDecayAndSlowOnesGrow) {
+    EXPECT_LT(linear_swing("perch_metal", {}).growth_1_s, -0.2);
+    const Mode slow = linear_swing("perch_metal", slow_motors());
+    // From 0.5 to 5 deg within 16 s takes ln(10) / 16.
+    EXPECT_NEAR(slow.growth_1_s, std::log(10.0) / 16.0, 0.05);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "limpet/core/frames.hpp"
+#include "limpet/paper/oscillation.hpp"
+
+namespace limpet {
+namespace {
+
+struct Trace {
+    std::vector<double> time_s, pitch_deg;
+};
+
+Trace swing(double growth_1_s, double frequency_Hz, double offset_deg) {
+    Trace trace;
+    for (int k = 0; k < 2000; ++k) {
+        const double t = 0.01 * k;
+        trace.time_s.push_back(t);
+        trace.pitch_deg.push_back(offset_deg + 0.5 * std::exp(growth_1_s * t) *
+                                                   std::sin(2.0 * kPi * frequency_Hz * t));
+    }
+    return trace;
+}
+
+TEST(MeasuredSwing, GivesGrowthAndFrequencyBackWhateverTheOffset) {
+    for (const double growth_1_s : {-0.5, -0.1, 0.0, 0.14}) {
+        for (const double offset_deg : {0.0, 1.5}) {
+            const Trace t = swing(growth_1_s, 0.65, offset_deg);
+            const KickedSwing measured = measure_swing(t.time_s, t.pitch_deg);
+            EXPECT_NEAR(measured.growth_1_s, growth_1_s, 0.01);
+            EXPECT_NEAR(measured.frequency_Hz, 0.65, 0.005);
+        }
+    }
+}
+
+TEST(MeasuredSwing, AFlatTraceHasNone) {
+    const Trace t = swing(-5.0, 0.65, 0.0);
+    EXPECT_TRUE(std::isnan(measure_swing(t.time_s, t.pitch_deg).growth_1_s));
+}
+
+/// What the map says is what whole flights do: estimator, motion capture and all.
+TEST(KickedSwing, GrowsAsTheLinearisedLoopSays) {
+    const auto with = [](Overrides overrides, const char* one_more) {
+        overrides.emplace_back(one_more);
+        return overrides;
+    };
+    for (const Overrides& overrides :
+         {Overrides{}, slow_motors(), with(slow_motors(), "autopilot.MC_PITCHRATE_I=0"),
+          with(slow_motors(), "autopilot.MC_PITCHRATE_P=0.2")}) {
+        const Mode linear = linear_swing("perch_metal", overrides);
+        const KickedSwing kicked = kicked_swing("perch_metal", overrides);
+        EXPECT_NEAR(kicked.growth_1_s, linear.growth_1_s, 0.03);
+        EXPECT_NEAR(kicked.frequency_Hz, linear.frequency_Hz, 0.02);
+    }
+}
+
+TEST(KickedSwing, AltitudeHoldKillsIt) {
+    Overrides overrides = slow_motors();
+    overrides.emplace_back("guidance.altitude_hold=1");
+    const KickedSwing swing = kicked_swing("perch_metal", overrides);
+    for (std::size_t i = 0; i < swing.time_s.size(); ++i) {
+        if (swing.time_s[i] > 3.0) {
+            EXPECT_LT(std::abs(swing.pitch_deg[i]), 0.1) << "at " << swing.time_s[i] << " s";
+        }
+    }
+}
+
+TEST(StabilityMap, GrowthRisesWithTheLag) {
+    StabilityMap map;
+    map.lag_s = {0.02, 0.05, 0.08};
+    map.pivot_m = {0.42, 0.50};
+    fill(map, {"vehicle.rotor.command_delay_s=0.016"}, 2);
+    for (std::size_t pivot = 0; pivot < 2; ++pivot) {
+        EXPECT_LT(map.at(pivot, 0), map.at(pivot, 1));
+        EXPECT_LT(map.at(pivot, 1), map.at(pivot, 2));
+    }
+    EXPECT_LT(map.at(0, 2), map.at(1, 2)) << "the longer arm has the larger inertia";
+}
+
+/// Medians over seeds: the paper's simulation stays flat, slow motors swing past 5 deg within 16 s
+/// on metal and hardly in a second on concrete.
+TEST(SwingMissions, BothOutcomesOfThePaper) {
+    constexpr std::uint32_t kRuns = 15;
+    const SwingMissions gazebo = swing_missions("perch_metal", {}, kRuns, 2);
+    EXPECT_LT(gazebo.quantile(0.95), 1.0);
+    const SwingMissions metal = swing_missions("perch_metal", slow_motors_and_gusts(), kRuns, 2);
+    EXPECT_GT(metal.quantile(0.5), 5.0);
+    const SwingMissions concrete =
+        swing_missions("perch_concrete", slow_motors_and_gusts(), kRuns, 2);
+    EXPECT_LT(concrete.quantile(0.95), 2.0);
+    for (const SwingMissions* missions : {&gazebo, &metal, &concrete}) {
+        EXPECT_EQ(missions->crashed, 0U);
+        EXPECT_GE(missions->attached, kRuns - 2);
+    }
+}
+
+}  // namespace
+}  // namespace limpet
