@@ -23,6 +23,7 @@ enum class Stream : std::uint32_t {
     force = 17,
     pressure = 18,
     wind = 30,
+    wall_air = 31,
     scenario = 40,
     test = 99,
 };

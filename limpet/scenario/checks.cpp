@@ -59,6 +59,13 @@ void check_aiding(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+void check_environment(const Environment& environment, const YamlNode& root) {
+    if (environment.wind.gust_sigma_m_s > 0.0 && environment.wind.gust_wind_m_s > 0.0) {
+        fail_at(root, "environment.gust_sigma_m_s",
+                "gusts are given by gust_wind_m_s already, one of the two must be 0");
+    }
+}
+
 void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
     if (!is_whole(kTick_s / simulation.step_s)) {
         fail_at(root, "simulation.step_s",
@@ -117,12 +124,16 @@ void check(const Scenario& scenario, const YamlNode& root) {
     const std::vector<Section> sections = scenario_sections(bound);
     check_derived(sections, root);
     check_mission(scenario, root);
+    check_environment(scenario.environment, root);
     check_steps(scenario.simulation, root);
     check_rates(sections, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,
                 "detach_pressure_Pa", scenario.guidance.detach_pressure_Pa);
     check_order(root, "sensors", "lidar_range_min_m", scenario.sensors.lidar_range_min_m,
                 "lidar_range_max_m", scenario.sensors.lidar_range_max_m);
+    const WallAirParameters& wall_air = scenario.environment.wall_air;
+    check_order(root, "environment", "recirculation_full_radii", wall_air.recirculation_full_radii,
+                "recirculation_none_radii", wall_air.recirculation_none_radii);
     check_order(root, "autopilot", "MPC_THR_MIN", scenario.autopilot.MPC_THR_MIN, "MPC_THR_HOVER",
                 scenario.autopilot.MPC_THR_HOVER);
     check_order(root, "autopilot", "MPC_THR_HOVER", scenario.autopilot.MPC_THR_HOVER, "MPC_THR_MAX",

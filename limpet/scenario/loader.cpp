@@ -64,8 +64,8 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     if (!is_section(&root)) {
         fail(root, "is empty");
     }
-    check_keys(root, {"description", "mission", "vehicle", "seed", "wall", "suction", "guidance",
-                      "autopilot", "sensors", "simulation"});
+    check_keys(root, {"description", "mission", "vehicle", "seed", "wall", "environment", "suction",
+                      "guidance", "autopilot", "sensors", "simulation"});
     if (const YamlNode* node = root.find("description")) {
         scenario.description = read_text(*node);
     }
@@ -82,7 +82,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
     read_wall(root.find("wall"), data, scenario.wall);
     const std::vector<Section> sections = scenario_sections(scenario);
-    for (const char* name : {"sensors", "simulation"}) {
+    for (const char* name : {"environment", "sensors", "simulation"}) {
         read_rows(root.find(name), find_section(sections, name).rows);
     }
     const YamlNode* simulation = root.find("simulation");

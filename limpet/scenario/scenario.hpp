@@ -16,6 +16,8 @@
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/model_writer.hpp"
+#include "limpet/vehicle/wall_aerodynamics.hpp"
+#include "limpet/vehicle/wind.hpp"
 
 namespace limpet {
 
@@ -61,6 +63,12 @@ struct WallSetup {
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();
 
+/// The air around the vehicle; still and without a wall's effect by default.
+struct Environment {
+    WindParameters wind;
+    WallAirParameters wall_air;
+};
+
 /// Where the vehicle is when the flight begins.
 struct Start {
     Vector3 p_WB_m = Vector3::Zero();
@@ -79,6 +87,7 @@ struct Scenario {
     Airframe airframe;
     WallSetup wall;
     Start start;
+    Environment environment;
     CupParameters cup;
     SensorParameters sensors;
     AutopilotParameters autopilot;

@@ -65,6 +65,9 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     sections.push_back({"wall", bind(wall_table(), scenario.wall)});
     sections.push_back({"wall.surface", bind(surface_table(), scenario.wall.surface)});
     sections.push_back(
+        {"environment", joined(bind(wind_table(), scenario.environment.wind),
+                               bind(wall_air_table(), scenario.environment.wall_air))});
+    sections.push_back(
         {"suction", joined(bind(cup_table(), scenario.cup), bind(lip_table(), scenario.cup.lip))});
     sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
     sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});

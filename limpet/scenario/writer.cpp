@@ -116,7 +116,7 @@ std::string to_yaml(const Scenario& scenario) {
     const std::vector<Section> sections = scenario_sections(copy);
     const std::vector<Section> derived = scenario_sections(alike);
     for (const std::string_view name :
-         {"suction", "guidance", "autopilot", "sensors", "simulation"}) {
+         {"environment", "suction", "guidance", "autopilot", "sensors", "simulation"}) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
     }
     return writer.take();

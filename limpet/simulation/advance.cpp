@@ -53,6 +53,31 @@ void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plan
     }
 }
 
+/// The air on the base: rotors in the wind, and what the wall does to their wake.
+struct AirLoad {
+    Wrench wrench_W;
+    double thrust_N = 0.0;
+};
+
+AirLoad load_of_air(const SimulationModel& model, const SimulationState& state) {
+    const Airframe& airframe = model.scenario.airframe;
+    const Kinematics& base = state.truth.base;
+    const Matrix3 R_WB = base.q_WF.toRotationMatrix();
+    const Wrench rotors_B =
+        rotor_wrench_B(airframe, state.rotors, base, wind_W_m_s(model.wind, state.wind));
+    AirLoad air{
+        .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
+        .thrust_N = -rotors_B.force_N.z()};
+    if (acts(model.wall_air) && model.scenario.wall.present) {
+        const Wrench wall_W =
+            wall_air_wrench_W(model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N,
+                              base.q_WF, closest_hub_m(model, base), model.cup.wall.R_WT.col(0));
+        air.wrench_W.force_N += wall_W.force_N;
+        air.wrench_W.moment_N_m += wall_W.moment_N_m;
+    }
+    return air;
+}
+
 }  // namespace
 
 void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant) {
@@ -69,17 +94,13 @@ void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
     const StepMode mode{.step_s = kTick_s / steps,
                         .contacts = legs_near_wall(model, state.truth.base)};
-    const Matrix3 R_WB = state.truth.base.q_WF.toRotationMatrix();
-    const Wrench rotors_B =
-        rotor_wrench_B(model.scenario.airframe, state.rotors, state.truth.base, Vector3::Zero());
-    const Wrench rotors_W{.force_N = R_WB * rotors_B.force_N,
-                          .moment_N_m = R_WB * rotors_B.moment_N_m};
+    const AirLoad air = load_of_air(model, state);
     for (int k = 0; k < steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {
             see_motion(model, state.truth, plant);
         }
-        plant.apply(Body::base, rotors_W, state.truth.base.p_WF_m);
+        plant.apply(Body::base, air.wrench_W, state.truth.base.p_WF_m);
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
             apply_cup(model, state, plant, time_s, mode.step_s, events);
@@ -89,7 +110,7 @@ void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
         plant.step(mode);
     }
     state.physics_steps += steps;
-    state.truth.thrust_N = -rotors_B.force_N.z();
+    state.truth.thrust_N = air.thrust_N;
 }
 
 }  // namespace limpet

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/collision.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace limpet {
 namespace {
@@ -26,6 +28,17 @@ bool legs_near_wall(const SimulationModel& model, const Kinematics& base) {
     const Vector3 tips_B_m(airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m);
     return before_wall_m(model.cup.wall, base.p_WF_m + base.q_WF * tips_B_m) <
            model.scenario.simulation.contact_range_m;
+}
+
+double closest_hub_m(const SimulationModel& model, const Kinematics& base) {
+    double closest_m = std::numeric_limits<double>::infinity();
+    for (const Vector3& p_BR_m : model.scenario.airframe.rotor_p_B_m) {
+        const Vector3 p_WR_m = base.p_WF_m + base.q_WF * p_BR_m;
+        if (within_wall(model.cup.wall, p_WR_m)) {
+            closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
+        }
+    }
+    return closest_m;
 }
 
 std::optional<Ending> collision(const SimulationModel& model, const Truth& truth) {

@@ -66,6 +66,8 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
                    .take_off = scenario.mission == Mission::perch_and_take_off,
                    .hover_s = scenario.simulation.hover_s};
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.plane};
+    model->wind = make_wind(scenario.environment.wind, kTick_s);
+    model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->control_rate_Hz = whole(scenario.sensors.imu_rate_Hz);
     model->guidance_rate_Hz = whole(scenario.simulation.guidance_rate_Hz);
     model->record_rate_Hz = whole(scenario.simulation.record_rate_Hz);
@@ -99,6 +101,8 @@ SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uin
     state.autopilot = start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);
     state.sensors = start(model.sensors, state.truth, scenario.seed, run);
+    state.wind = start(model.wind, RandomStream(scenario.seed, run, Stream::wind));
+    state.wall_air = start(model.wall_air, RandomStream(scenario.seed, run, Stream::wall_air));
     state.cup.random = RandomStream(scenario.seed, run, Stream::seal);
     return state;
 }

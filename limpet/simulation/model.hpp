@@ -18,6 +18,8 @@
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/battery.hpp"
 #include "limpet/vehicle/rotor.hpp"
+#include "limpet/vehicle/wall_aerodynamics.hpp"
+#include "limpet/vehicle/wind.hpp"
 
 namespace limpet {
 
@@ -30,6 +32,8 @@ struct SimulationModel {
     AutopilotModel autopilot;
     PerchingTask task;
     CupModel cup;
+    WindModel wind;
+    WallAirModel wall_air;
     int control_rate_Hz = 250;  ///< that of the IMU
     int guidance_rate_Hz = 50;
     int steps_a_tick = 1;        ///< of the plant in free flight and while hanging
@@ -56,6 +60,8 @@ struct SimulationState {
     RotorCommand command;
     RotorsState rotors;
     BatteryState battery;
+    WindState wind;
+    WallAirState wall_air;
     CupState cup;
     Tick fine_until = 0;  ///< sub-steps go on until then
     Metrics metrics;

@@ -47,6 +47,8 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
          voltage_share(airframe.battery, state.battery.voltage_V));
     step(airframe.battery, state.battery, mechanical_power_W(airframe.rotor, state.rotors),
          state.cup.status.pump_running, state.command.armed, kTick_s);
+    step(model.wind, state.wind);
+    step(model.wall_air, state.wall_air);
     advance(model, state, plant, events);
 
     ++state.tick;

@@ -65,7 +65,7 @@ TEST_F(BadInput, UnknownKey) {
               "x.yaml:3: simulatoin: unknown key, did you mean simulation?");
     EXPECT_EQ(hover_error("wind: 5\n"),
               "x.yaml:3: wind: unknown key; there are description, mission, vehicle, seed, wall, "
-              "suction, guidance, autopilot, sensors, simulation");
+              "environment, suction, guidance, autopilot, sensors, simulation");
     EXPECT_EQ(
         hover_error("autopilot: {gain: 5}\n"),
         "x.yaml:3: autopilot.gain: unknown key; `limpet params autopilot` lists what there is");
@@ -187,6 +187,19 @@ TEST_F(BadInput, ValuesThatDoNotFitEachOther) {
               }),
               "x.yaml:3: simulation.start_distance_m: 0.7 is too close, the lip is 0.71 m ahead of "
               "the centre of mass");
+}
+
+TEST_F(BadInput, EnvironmentsThatCannotBe) {
+    EXPECT_EQ(hover_error("environment: {wind_speed_m_s: -1}\n"),
+              "x.yaml:3: environment.wind_speed_m_s: -1 is out of range, allowed 0..30 m/s");
+    EXPECT_EQ(hover_error("environment: {wind_from: 90}\n"),
+              "x.yaml:3: environment.wind_from: unknown key, did you mean wind_from_deg?");
+    EXPECT_EQ(hover_error("environment:\n  gust_wind_m_s: 3\n  gust_sigma_m_s: 1\n"),
+              "x.yaml:5: environment.gust_sigma_m_s: gusts are given by gust_wind_m_s already, one "
+              "of the two must be 0");
+    EXPECT_EQ(hover_error("environment: {recirculation_full_radii: 5}\n"),
+              "x.yaml:3: environment.recirculation_full_radii: 5 must be below "
+              "recirculation_none_radii, 4");
 }
 
 TEST_F(BadInput, AVehicleTooHeavyToHover) {

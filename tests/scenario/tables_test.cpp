@@ -64,6 +64,8 @@ TEST(Tables, ForgetNoField) {
     expect_complete(cup_mount_table(), "cup");
     expect_complete(leg_table(), "legs");
     expect_complete(battery_table(), "battery");
+    expect_complete(wind_table(), "wind");
+    expect_complete(wall_air_table(), "wall_air");
     EXPECT_EQ(cup_table().size() + lip_table().size(), sizeof(CupParameters) / sizeof(double));
 }
 

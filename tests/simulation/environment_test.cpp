@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "flown.hpp"
+
+namespace limpet {
+namespace {
+
+/// 4 lambda_1 w v = m g tan(pitch): nobody tells the autopilot, it finds the angle itself.
+TEST(WindInTheLoop, AHoverLeansIntoTheWindByWhatTheRotorsDragAsks) {
+    const auto model =
+        model_of("hover", {"environment.wind_speed_m_s=2", "environment.wind_from_deg=0",
+                           "simulation.start_yaw_deg=0", "simulation.hover_s=20"});
+    Flight flight(model);
+    double pitch = 0.0;
+    int count = 0;
+    while (!flight.ended()) {
+        flight.tick();
+        if (seconds(flight.state().tick) > 15.0) {
+            pitch += pitch_deg(flight.state().truth);
+            ++count;
+        }
+    }
+    const Airframe& airframe = model->scenario.airframe;
+    const double weight_N = airframe.mass_kg * kGravity_m_s2;
+    const double speed_rad_s = std::sqrt(weight_N / 4.0 / airframe.rotor.motor_constant_kg_m);
+    const double drag_N = 4.0 * airframe.rotor.drag_constant_kg * speed_rad_s * 2.0;
+    EXPECT_NEAR(pitch / count, -degrees(std::atan(drag_N / weight_N)), 0.3);  // nose down, north
+}
+
+TEST(WindInTheLoop, GustsAreTheSameForTheSameSeed) {
+    const std::vector<std::string> gusty = {"environment.gust_sigma_m_s=0.5",
+                                            "simulation.hover_s=3"};
+    const auto hash = [&](std::uint64_t seed) {
+        return fly(model_of("hover", gusty, seed)).state_hash;
+    };
+    EXPECT_EQ(hash(1), hash(1));
+    EXPECT_NE(hash(1), hash(2));
+    EXPECT_NE(hash(1), fly(model_of("hover", {"simulation.hover_s=3"})).state_hash);
+}
+
+TEST(WindInTheLoop, AResumedRunGoesOnInTheSameGusts) {
+    const auto model =
+        model_of("perch_concrete",
+                 {"environment.gust_wind_m_s=2", "environment.recirculation_moment_rms_N_m=0.03"});
+    Flight flight(model);
+    while (seconds(flight.state().tick) < 5.2) {
+        flight.tick();
+    }
+    const Snapshot snapshot = flight.save();
+    while (!flight.ended()) {
+        flight.tick();
+    }
+    Flight other(model, 99);
+    other.restore(snapshot);
+    while (!other.ended()) {
+        other.tick();
+    }
+    EXPECT_EQ(other.state().hash, flight.state().hash);
+}
+
+TEST(WallInTheLoop, PerchesWithTheAirOfTheWall) {
+    const Trace flight = trace(model_of("perch_concrete", {"environment.wall_aerodynamics=true"}));
+    EXPECT_EQ(flight.result.outcome, Outcome::released) << flight.result.reason;
+    EXPECT_NE(flight.result.state_hash, flown("perch_concrete").result.state_hash);
+}
+
+/// Away from the wall the air of the wall does nothing: the same bits as without.
+TEST(WallInTheLoop, FarFromTheWallNothingChanges) {
+    const std::vector<std::string> far = {"mission=hover", "wall.surface=metal",
+                                          "simulation.hover_s=3"};
+    std::vector<std::string> with_air = far;
+    with_air.push_back("environment.wall_aerodynamics=true");
+    with_air.push_back("environment.recirculation_moment_rms_N_m=0.1");
+    EXPECT_EQ(fly(model_of("hover", far)).state_hash, fly(model_of("hover", with_air)).state_hash);
+}
+
+TEST(WallInTheLoop, RecirculationShakesTheVehicleThatWaitsAtTheWall) {
+    const auto swing_deg = [](const char* rms) {
+        return trace(model_of("perch_metal",
+                              {std::string("environment.recirculation_moment_rms_N_m=") + rms}))
+            .result.metrics.pitch_oscillation_max_deg;
+    };
+    EXPECT_GT(swing_deg("0.1"), 1.5 * swing_deg("0"));
+}
+
+}  // namespace
+}  // namespace limpet
