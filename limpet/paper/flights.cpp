@@ -50,8 +50,8 @@ double mean(const std::vector<double>& values) {
                                 static_cast<double>(values.size());
 }
 
-/// How far values ever rise above the lowest one before, over their whole fall: 0 for a fall without
-/// a set-back.
+/// How far values ever rise above the lowest one before, over their whole fall: 0 for a fall
+/// without a set-back.
 double setback(const std::vector<double>& values) {
     double lowest = std::numeric_limits<double>::infinity(), worst = 0.0;
     for (const double value : values) {
@@ -76,9 +76,9 @@ double value_of(const RecordedEvent* event, const char* name) {
     return kNone;
 }
 
-class Measurement {
+class Reader {
 public:
-    Measurement(const PaperFlight& flight, Evidence& evidence)
+    Reader(const PaperFlight& flight, Evidence& evidence)
         : recording_(flight.recording), name_(flight.name), evidence_(evidence) {}
 
     void approach() {
@@ -86,13 +86,37 @@ public:
         set("distance_before_approach_m", value_of(first, "distance_m"));
         set("approach_after_pre_position_s",
             time_of(first) - time_of(first_event(recording_, "pre_positioned")));
+        // The walls of the paper's flights face south: the true angle is the yaw.
+        const auto yaw = within(recording_, "/truth/vehicle", "yaw_rad",
+                                {time_of(first) - 0.005, time_of(first) + 0.005});
+        set("wall_angle_error_deg",
+            yaw.empty() ? kNone
+                        : std::abs(value_of(first, "misalignment_deg") + degrees(yaw.front())));
         const RecordedEvent* impact = first_event(recording_, "impact");
+        set("spike_after_s", time_of(impact) - time_of(first));
+        set("contact_s", first_contact_s());
         // The last 0.2 s, up to 50 ms before the force sensor said so.
         const std::vector<double> speeds =
             within(recording_, "/truth/vehicle", "velocity_north_m_s",
                    {time_of(impact) - 0.25, time_of(impact) - 0.05});
         set("approach_speed_m_s", mean(speeds));
         set("approach_speed_change_m_s", most(speeds) - least(speeds));
+    }
+
+    /// How long the lip first met the wall.
+    [[nodiscard]] double first_contact_s() const {
+        const Table* table = find_table(recording_, "/cup");
+        const Column* phase = table == nullptr ? nullptr : table->find("phase");
+        double from_s = kNone;
+        for (std::size_t i = 0; phase != nullptr && i < phase->values.size(); ++i) {
+            const bool touches = phase->values[i] > 0.0;
+            if (touches && std::isnan(from_s)) {
+                from_s = table->time_s[i];
+            } else if (!touches && !std::isnan(from_s)) {
+                return table->time_s[i] - from_s;
+            }
+        }
+        return kNone;
     }
 
     void touch(const char* prefix, const RecordedEvent* impact) {
@@ -143,16 +167,17 @@ public:
         set("take_off_pitch_deg", value_of(on, "pitch_deg"));
         const auto thrust = within(recording_, "/truth/vehicle", "thrust_N", up);
         set("take_off_thrust_rise_N", thrust.empty() ? kNone : thrust.back() - thrust.front());
-        set("take_off_pitch_setback", setback(within(recording_, "/truth/vehicle", "pitch_rad", up)));
+        set("take_off_pitch_setback",
+            setback(within(recording_, "/truth/vehicle", "pitch_rad", up)));
         set("take_off_force_fall_N", value_of(on, "force_N") - value_of(level, "force_N"));
         set("pump_off_pitch_deg", std::abs(value_of(off, "pitch_deg")));
         set("pump_off_after_level_s", time_of(off) - time_of(level));
         const RecordedEvent* released = first_event(recording_, "pressure_released", time_of(off));
         set("pressure_released_hPa", 0.01 * value_of(released, "pressure_Pa"));
-        set("waited_s", (released != nullptr ? time_of(released)
-                                             : time_of(first_event(recording_, "aborted",
-                                                                   time_of(off)))) -
-                            time_of(off));
+        set("waited_s",
+            (released != nullptr ? time_of(released)
+                                 : time_of(first_event(recording_, "aborted", time_of(off)))) -
+                time_of(off));
         set("back_at_m", value_of(last_event(recording_, "backed_off"), "distance_m"));
     }
 
@@ -189,11 +214,15 @@ PaperFlight fly_recorded(const FlightOrder& order, const std::filesystem::path& 
 }
 
 void measure(const PaperFlight& flight, Evidence& evidence) {
-    Measurement take(flight, evidence);
+    Reader take(flight, evidence);
     for (const MetricInfo& metric : metric_table()) {
         take.set(std::string(metric.name), flight.result.metrics.*metric.field);
     }
     take.set("attempts", flight.result.attempts);
+    take.set("pressure_lowest_hPa", 0.01 * flight.result.metrics.pressure_min_Pa);
+    take.set("seal_margin_N",
+             flight.result.metrics.impact_force_N -
+                 value_of(last_event(flight.recording, "attached"), "seal_threshold_N"));
     for (const Outcome outcome : {Outcome::perched, Outcome::released, Outcome::failed_to_seal,
                                   Outcome::release_aborted, Outcome::crashed, Outcome::timed_out}) {
         take.set("is_" + std::string(to_string(outcome)),

@@ -100,15 +100,6 @@ std::vector<Extreme> extremes(const std::vector<double>& time_s, const std::vect
 
 }  // namespace
 
-Overrides slow_motors() {
-    return {"vehicle.rotor.time_constant_up_s=0.065", "vehicle.rotor.time_constant_down_s=0.065",
-            "vehicle.rotor.command_delay_s=0.016"};
-}
-
-Overrides slow_motors_and_gusts() {
-    return joined(slow_motors(), {});
-}
-
 Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
     LevelOnCup loop(build_model(load_scenario(scenario, {.overrides = overrides})));
     return pitch_mode(loop.modes());
@@ -180,7 +171,7 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     return measure_swing(std::move(time_s), std::move(pitches_deg));
 }
 
-void fill(StabilityMap& map, const Overrides& vehicle, int jobs) {
+void fill(StabilityMap& map, int jobs) {
     map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
     PlantCache plants;
     for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
@@ -190,7 +181,7 @@ void fill(StabilityMap& map, const Overrides& vehicle, int jobs) {
                                  fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
                                  fmt::format("vehicle.cup.joint_x_m={}", pivot_m)};
         const Scenario scenario =
-            load_scenario("perch_metal", {.overrides = joined(joined(vehicle, map.gains), point)});
+            load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
         LevelOnCup loop(
             build_model(scenario, [&](const std::string& mjcf) { return plants.get(mjcf); }));
         map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;

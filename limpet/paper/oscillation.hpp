@@ -17,11 +17,6 @@ namespace limpet {
 /// `--set` texts that make a scenario another case.
 using Overrides = std::vector<std::string>;
 
-/// The slow vehicle: 65 ms motors behind 16 ms of dead time, gusts of 0.03 N m at the wall.
-/// Source: facts.md section 5, baseline.md.
-[[nodiscard]] Overrides slow_motors();
-[[nodiscard]] Overrides slow_motors_and_gusts();
-
 /// Growth and frequency of the pitch mode on the cup, by the linearised loop.
 /// @throws InputError when the overrides do not make a scenario
 [[nodiscard]] Mode linear_swing(const std::string& scenario, const Overrides& overrides);
@@ -46,6 +41,7 @@ struct KickedSwing {
 /// Growth over motor lag and pivot distance, row by row of the pivot.
 struct StabilityMap {
     std::string title;
+    std::string scenario;  ///< all that is not on the axes, dead time included
     Overrides gains;
     std::vector<double> lag_s;
     std::vector<double> pivot_m;
@@ -54,9 +50,9 @@ struct StabilityMap {
         return growth_1_s[pivot * lag_s.size() + lag];
     }
 };
-/// @param map   its axes, title and gains; the growth is filled
+/// @param map   all but the growth, which is filled
 /// @param jobs  threads
-void fill(StabilityMap& map, const Overrides& vehicle, int jobs);
+void fill(StabilityMap& map, int jobs);
 
 /// Whole missions: the largest pitch while waiting for the release, over runs with noise and gusts.
 struct SwingMissions {

@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Over, LevelOnCupMode,
 
 TEST(LevelOnCup, GazebosMotorsDecayAndSlowOnesGrow) {
     EXPECT_LT(linear_swing("perch_metal", {}).growth_1_s, -0.2);
-    const Mode slow = linear_swing("perch_metal", slow_motors());
+    const Mode slow = linear_swing("slow_motors_metal", {});
     // From 0.5 to 5 deg within 16 s takes ln(10) / 16.
     EXPECT_NEAR(slow.growth_1_s, std::log(10.0) / 16.0, 0.05);
 }

@@ -40,26 +40,25 @@ TEST(MeasuredSwing, AFlatTraceHasNone) {
     EXPECT_TRUE(std::isnan(measure_swing(t.time_s, t.pitch_deg).growth_1_s));
 }
 
+struct Kick {
+    const char* scenario;
+    Overrides gains;
+};
+
 /// What the map says is what whole flights do: estimator, motion capture and all.
 TEST(KickedSwing, GrowsAsTheLinearisedLoopSays) {
-    const auto with = [](Overrides overrides, const char* one_more) {
-        overrides.emplace_back(one_more);
-        return overrides;
-    };
-    for (const Overrides& overrides :
-         {Overrides{}, slow_motors(), with(slow_motors(), "autopilot.MC_PITCHRATE_I=0"),
-          with(slow_motors(), "autopilot.MC_PITCHRATE_P=0.2")}) {
-        const Mode linear = linear_swing("perch_metal", overrides);
-        const KickedSwing kicked = kicked_swing("perch_metal", overrides);
+    for (const Kick& kick : {Kick{"perch_metal", {}}, Kick{"slow_motors_metal", {}},
+                             Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_I=0"}},
+                             Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_P=0.2"}}}) {
+        const Mode linear = linear_swing(kick.scenario, kick.gains);
+        const KickedSwing kicked = kicked_swing(kick.scenario, kick.gains);
         EXPECT_NEAR(kicked.growth_1_s, linear.growth_1_s, 0.03);
         EXPECT_NEAR(kicked.frequency_Hz, linear.frequency_Hz, 0.02);
     }
 }
 
 TEST(KickedSwing, AltitudeHoldKillsIt) {
-    Overrides overrides = slow_motors();
-    overrides.emplace_back("guidance.altitude_hold=1");
-    const KickedSwing swing = kicked_swing("perch_metal", overrides);
+    const KickedSwing swing = kicked_swing("slow_motors_metal", {"guidance.altitude_hold=1"});
     for (std::size_t i = 0; i < swing.time_s.size(); ++i) {
         if (swing.time_s[i] > 3.0) {
             EXPECT_LT(std::abs(swing.pitch_deg[i]), 0.1) << "at " << swing.time_s[i] << " s";
@@ -69,9 +68,10 @@ TEST(KickedSwing, AltitudeHoldKillsIt) {
 
 TEST(StabilityMap, GrowthRisesWithTheLag) {
     StabilityMap map;
+    map.scenario = "slow_motors_metal";
     map.lag_s = {0.02, 0.05, 0.08};
     map.pivot_m = {0.42, 0.50};
-    fill(map, {"vehicle.rotor.command_delay_s=0.016"}, 2);
+    fill(map, 2);
     for (std::size_t pivot = 0; pivot < 2; ++pivot) {
         EXPECT_LT(map.at(pivot, 0), map.at(pivot, 1));
         EXPECT_LT(map.at(pivot, 1), map.at(pivot, 2));
@@ -85,10 +85,9 @@ TEST(SwingMissions, BothOutcomesOfThePaper) {
     constexpr std::uint32_t kRuns = 15;
     const SwingMissions gazebo = swing_missions("perch_metal", {}, kRuns, 2);
     EXPECT_LT(gazebo.quantile(0.95), 1.0);
-    const SwingMissions metal = swing_missions("perch_metal", slow_motors_and_gusts(), kRuns, 2);
+    const SwingMissions metal = swing_missions("slow_motors_metal", {}, kRuns, 2);
     EXPECT_GT(metal.quantile(0.5), 5.0);
-    const SwingMissions concrete =
-        swing_missions("perch_concrete", slow_motors_and_gusts(), kRuns, 2);
+    const SwingMissions concrete = swing_missions("slow_motors_concrete", {}, kRuns, 2);
     EXPECT_LT(concrete.quantile(0.95), 2.0);
     for (const SwingMissions* missions : {&gazebo, &metal, &concrete}) {
         EXPECT_EQ(missions->crashed, 0U);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/claims.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <variant>
+
+namespace limpet {
+namespace {
+
+/// Evidence that is 1 or 0.
+constexpr const char* kYesNo = "yes/no";
+
+Quantity shown(double value, const std::string& unit) {
+    if (!std::isfinite(value)) {
+        return std::string("did not come to pass");
+    }
+    if (unit == kYesNo) {
+        return std::string(value > 0.5 ? "yes" : "no");
+    }
+    return value;
+}
+
+/// Simulated less paper, where that means something.
+Quantity difference(const Statement& statement, double value, bool holds) {
+    if (!std::isfinite(value)) {
+        return std::string("no value");
+    }
+    if (const double* paper = std::get_if<double>(&statement.paper)) {
+        return value - *paper;
+    }
+    if (const Range* range = std::get_if<Range>(&statement.paper)) {
+        const double below = value - range->low, above = value - range->high;
+        if (below >= 0.0 && above <= 0.0) {
+            return std::string("inside");
+        }
+        return below < 0.0 ? below : above;
+    }
+    return std::string(holds ? "as said" : "not as said");
+}
+
+}  // namespace
+
+Claim judge(const Statement& statement, const Evidence& evidence) {
+    Claim claim{.id = statement.id,
+                .section = statement.section,
+                .statement = statement.text,
+                .paper = statement.paper,
+                .simulated = std::string("not simulated"),
+                .unit = statement.unit == kYesNo ? "" : statement.unit,
+                .difference = std::string("not compared"),
+                .verdict = Verdict::not_modelled,
+                .note = statement.note,
+                .figure = statement.figure};
+    if (!statement.flight.empty()) {
+        claim.recording = fmt::format("flights/{}/flight.mcap", statement.flight);
+    }
+    if (statement.evidence.empty()) {
+        return claim;
+    }
+    const double value = evidence.get(statement.evidence);
+    const bool holds = value >= statement.accepted.low && value <= statement.accepted.high;
+    claim.simulated = shown(value, statement.unit);
+    claim.difference = difference(statement, value, holds);
+    claim.verdict = holds ? Verdict::reproduced : Verdict::differs;
+    return claim;
+}
+
+}  // namespace limpet

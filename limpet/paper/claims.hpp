@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limpet/paper/evidence.hpp"
+#include "limpet/report/claims.hpp"
+
+namespace limpet {
+
+/// A statement of the paper and what would bear it out. The verdict is not in it: judge() finds it.
+struct Statement {
+    std::string id = {};
+    std::string section = {};
+    std::string text = {};
+    Quantity paper = {};  ///< its number, range or words
+    std::string unit = {};
+    std::string evidence = {};  ///< name in Evidence; empty: the simulation has no such thing
+    Range accepted = {};        ///< of the evidence, ends included
+    std::string note = {};      ///< where the bounds come from, what is assumed
+    std::string figure = {};
+    std::string flight = {};  ///< whose recording shows it
+};
+
+/// Every number and qualitative statement of the paper's text, in its order.
+/// Source: paper.txt; bounds: the paper's tolerances, else facts.md section 7, else named in a
+/// note.
+[[nodiscard]] const std::vector<Statement>& statements();
+
+/// reproduced: the evidence lies within the accepted range; differs: it does not, or did not come
+/// to pass; not modelled: there is no evidence to look for.
+[[nodiscard]] Claim judge(const Statement& statement, const Evidence& evidence);
+
+}  // namespace limpet

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/rigs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/paper/parallel.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "limpet/vehicle/links.hpp"
+#include "limpet/vehicle/model_writer.hpp"
+
+namespace limpet {
+namespace {
+
+struct Wall {
+    const char* surface;
+    const char* scenario;
+};
+constexpr std::array<Wall, 4> kWalls = {{{"porous concrete", "perch_concrete"},
+                                         {"cinder block", "perch_cinder_block"},
+                                         {"turbine blade", "perch_turbine_blade"},
+                                         {"metal", "perch_metal"}}};
+
+/// Pitch at which cup and leg tips meet a vertical wall, the lip flat on it.
+double pitch_on_legs_rad(const Airframe& airframe) {
+    // In the vehicle's plane: the tip's surface is `lip` beyond the joint's distance to the wall.
+    const double ahead_m = airframe.cup.joint_x_m - airframe.legs.tip_x_m;
+    const double below_m = airframe.legs.tip_z_m - airframe.cup.joint_z_m;
+    const double reach_m = airframe.legs.tip_radius_m - airframe.cup.lip_offset_m;
+    // below sin(pitch) - ahead cos(pitch) + reach = 0
+    return std::atan2(ahead_m, below_m) - std::asin(reach_m / std::hypot(ahead_m, below_m));
+}
+
+/// A thrown, tumbling rigid vehicle against gravity and the conservation of spin and energy.
+double free_body_error() {
+    const Airframe airframe = load_scenario("hover", {.overrides = {"vehicle=iris"}}).airframe;
+    Scene scene;
+    scene.wall.present = false;
+    scene.ground_z_W_m = 100.0;
+    scene.visuals = false;
+    MujocoPlant plant(std::make_shared<const MujocoModel>(write_mjcf(airframe, scene)));
+    const Vector3 v0(1.0, -0.5, -2.0), w0(3.0, 2.0, -1.0);
+    plant.set_pose(Vector3::Zero(), Quaternion::Identity(), v0, w0);
+    const Matrix3 inertia = airframe.inertia_kg_m2.asDiagonal();
+    const auto spin = [&] {
+        const Kinematics base = plant.kinematics(Body::base);
+        return Vector3(base.q_WF * (inertia * base.w_WF_F_rad_s));
+    };
+    const Vector3 spin_before = spin();
+    constexpr double kStep_s = 1e-4, kTime_s = 1.0;
+    for (int k = 0; k < static_cast<int>(std::lround(kTime_s / kStep_s)); ++k) {
+        plant.step({.step_s = kStep_s, .contacts = false});
+    }
+    const Kinematics end = plant.kinematics(Body::base);
+    const Vector3 fallen =
+        v0 * kTime_s + 0.5 * kTime_s * kTime_s * Vector3(0.0, 0.0, kGravity_m_s2);
+    const double energy = 0.5 * w0.dot(inertia * w0);
+    const double energy_end = 0.5 * end.w_WF_F_rad_s.dot(inertia * end.w_WF_F_rad_s);
+    return std::max({(end.p_WF_m - fallen).norm() / fallen.norm(),
+                     (spin() - spin_before).norm() / spin_before.norm(),
+                     std::abs(energy_end - energy) / energy});
+}
+
+enum class Direction {
+    away,
+    along,
+    tilt,
+};
+
+/// Moves a sealed cup until it lets go.
+CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction direction) {
+    constexpr double kStep_s = 1e-3, kSpeed_m_s = 2e-3, kTurn_rad_s = 0.02, kLongest_s = 60.0;
+    const CupModel model{.parameters = scenario.cup, .wall = scenario.wall.plane};
+    CupState state;
+    state.status.phase = CupPhase::attached;
+    state.touches = 1;
+    Kinematics cup{.p_WF_m = model.wall.p_WT_m, .q_WF = Quaternion(model.wall.R_WT)};
+    const Vector3 out_W = -model.wall.R_WT.col(0), down_W = model.wall.R_WT.col(2);
+    if (direction == Direction::tilt) {
+        cup.w_WF_F_rad_s = kTurn_rad_s * Vector3::UnitY();
+    } else {
+        cup.v_WF_W_m_s = kSpeed_m_s * (direction == Direction::away ? out_W : down_W);
+    }
+    for (double time_s = 0.0; time_s < kLongest_s; time_s += kStep_s) {
+        state.mean_pressure_Pa = pressure_Pa;
+        const CupStatus before = state.status;
+        const CupOutput output = step(model, state, scenario.wall.surface, cup,
+                                      {.time_s = time_s, .press_N = 0.0, .pump_on = true}, kStep_s);
+        if (output.event && output.event->name == EventName::contact_lost) {
+            return before;
+        }
+        cup.p_WF_m += kStep_s * cup.v_WF_W_m_s;
+        cup.q_WF =
+            (cup.q_WF * quaternion_from_rotation_vector(kStep_s * cup.w_WF_F_rad_s)).normalized();
+    }
+    throw InternalError("a cup that nothing breaks off");
+}
+
+BreakOff break_off(const char* surface, const Scenario& scenario, double pressure_Pa) {
+    return {.surface = surface,
+            .pressure_Pa = pressure_Pa,
+            .pull_N = last_hold(scenario, pressure_Pa, Direction::away).pull_N,
+            .shear_N = last_hold(scenario, pressure_Pa, Direction::along).shear_N,
+            .peel_N_m = last_hold(scenario, pressure_Pa, Direction::tilt).peel_N_m};
+}
+
+double battery_Wh(const Airframe& airframe) {
+    constexpr double kCell_V = 3.7;  // nominal
+    return airframe.battery.cells * airframe.battery.capacity_Ah * kCell_V;
+}
+
+EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
+                    const Airframe& airframe) {
+    const double power_W = energy_Wh * 3600.0 / time_s;
+    return {.what = what, .power_W = power_W, .endurance_h = battery_Wh(airframe) / power_W};
+}
+
+}  // namespace
+
+void measure_vehicle(Evidence& evidence) {
+    const Scenario scenario = load_scenario("perch_concrete");
+    const Airframe& airframe = scenario.airframe;
+    evidence.set("vehicle.mass_kg", airframe.mass_kg);
+    evidence.set("vehicle.wheelbase_m", (airframe.rotor_p_B_m[0] - airframe.rotor_p_B_m[1]).norm());
+    constexpr double kInch_m = 0.0254;
+    evidence.set("vehicle.propeller_diameter_in", 2.0 * airframe.rotor.radius_m / kInch_m);
+    evidence.set("vehicle.battery_cells", airframe.battery.cells);
+    evidence.set("vehicle.battery_capacity_Ah", airframe.battery.capacity_Ah);
+    evidence.set("vehicle.pump_x_m", airframe.pump_B_m.x());
+    evidence.set("vehicle.lidar_x_m", airframe.lidar_x_m);
+    const std::vector<Link> links = make_links(airframe);
+    evidence.set("vehicle.cup_joint_freedoms",
+                 static_cast<double>(std::count_if(links.begin(), links.end(), [](const Link& l) {
+                     return l.joint && l.joint->kind == Joint::Kind::revolute;
+                 })));
+    evidence.set("vehicle.pitch_on_legs_deg", degrees(pitch_on_legs_rad(airframe)));
+    evidence.set("free_body.relative_error", free_body_error());
+    evidence.set("estimator.motion_capture_only",
+                 scenario.autopilot.EKF2_EV_CTRL > 0.0 && scenario.autopilot.EKF2_GPS_CTRL == 0.0
+                     ? 1.0
+                     : 0.0);
+}
+
+std::vector<BreakOff> break_off_loads() {
+    std::vector<BreakOff> loads;
+    for (const Wall& wall : kWalls) {
+        const Scenario scenario = load_scenario(wall.scenario);
+        for (const double pressure_Pa :
+             {scenario.wall.surface.vacuum_pressure_Pa, scenario.guidance.land_pressure_Pa}) {
+            loads.push_back(break_off(wall.surface, scenario, pressure_Pa));
+        }
+    }
+    return loads;
+}
+
+std::vector<EnergyUse> energy_use(Evidence& evidence) {
+    std::vector<EnergyUse> uses;
+    const Scenario hover = load_scenario("hover", {.overrides = {"vehicle=perching_uav"}});
+    const FlightResult hovered = fly(build_model(hover));
+    uses.push_back(energy_of("hovering", hovered.metrics.energy_flying_Wh,
+                             hovered.performance.simulated_s, hover.airframe));
+    for (const Wall& wall : kWalls) {
+        constexpr double kRest_s = 60.0;
+        const Scenario scenario =
+            load_scenario(wall.scenario, {.overrides = {"mission=perch", "guidance.rest_s=60"}});
+        const FlightResult rested = fly(build_model(scenario));
+        uses.push_back(energy_of(std::string("perched on ") + wall.surface,
+                                 rested.metrics.energy_perched_Wh, kRest_s, scenario.airframe));
+    }
+    evidence.set("energy.perched_share", uses[1].power_W / uses[0].power_W);
+    return uses;
+}
+
+std::vector<ReleaseTime> release_times(int jobs) {
+    std::vector<ReleaseTime> times(kWalls.size());
+    for_each_index(2 * kWalls.size(), jobs, [&](std::size_t i) {
+        const Wall& wall = kWalls[i / 2];
+        const bool valve = i % 2 == 1;
+        const FlightResult result = fly(build_model(load_scenario(
+            wall.scenario,
+            {.overrides = {"guidance.rest_s=1", "guidance.release_limit_s=600",
+                           "guidance.stuck_s=60",
+                           valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0"}})));
+        times[i / 2].surface = wall.surface;
+        (valve ? times[i / 2].with_valve_s : times[i / 2].without_valve_s) =
+            result.metrics.release_s;
+    });
+    return times;
+}
+
+}  // namespace limpet

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limpet/paper/evidence.hpp"
+
+/// Small experiments on parts of the simulation, each on the code that flies.
+namespace limpet {
+
+/// What the vehicle's file says, and how bodies move without forces.
+void measure_vehicle(Evidence& evidence);
+
+/// Load at which a sealed cup lets go.
+struct BreakOff {
+    std::string surface;
+    double pressure_Pa = 0.0;
+    double pull_N = 0.0;
+    double shear_N = 0.0;
+    double peel_N_m = 0.0;
+};
+/// Moves a sealed cup slowly away from the wall, along it, and tilts it, until it lets go, at the
+/// surface's best vacuum and at P_land.
+[[nodiscard]] std::vector<BreakOff> break_off_loads();
+
+/// Power from the battery, mean over a flight's part.
+struct EnergyUse {
+    std::string what;
+    double power_W = 0.0;
+    double endurance_h = 0.0;  ///< on a full battery
+};
+/// Hovering, and perched on each surface with the motors off; "energy.perched_share" is the power
+/// perched on concrete over that of hovering.
+[[nodiscard]] std::vector<EnergyUse> energy_use(Evidence& evidence);
+
+/// How long the cup takes to let go once the pump is off.
+struct ReleaseTime {
+    std::string surface;
+    double without_valve_s = 0.0;
+    double with_valve_s = 0.0;
+};
+/// Whole flights with all the time in the world, on each surface.
+[[nodiscard]] std::vector<ReleaseTime> release_times(int jobs);
+
+}  // namespace limpet
