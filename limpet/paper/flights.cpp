@@ -119,18 +119,18 @@ public:
         return kNone;
     }
 
-    void touch(const char* prefix, const RecordedEvent* impact) {
+    void touch(const std::string& prefix, const RecordedEvent* impact) {
         const Stretch after{time_of(impact) - 0.05, time_of(impact) + kSpikeWindow_s};
-        set(prefix + std::string("spike_N"),
+        set(prefix + "spike_N",
             least(within(recording_, "/sensors/force", "wrench.force.x", after)));
         const auto pitches = within(recording_, "/truth/vehicle", "pitch_rad",
                                     {time_of(impact), time_of(impact) + kSpikeWindow_s});
-        set(prefix + std::string("pitch_drop_deg"),
+        set(prefix + "pitch_drop_deg",
             pitches.empty() ? kNone : degrees(least(pitches) - pitches.front()));
-        set(prefix + std::string("lowest_pressure_hPa"),
+        set(prefix + "lowest_pressure_hPa",
             0.01 * least(within(recording_, "/sensors/cup_pressure", "fluid_pressure", after)));
         const RecordedEvent* over = first_event(recording_, "hold_over", time_of(impact));
-        set(prefix + std::string("hold_s"), time_of(over) - time_of(impact));
+        set(prefix + "hold_s", time_of(over) - time_of(impact));
     }
 
     void landing() {
