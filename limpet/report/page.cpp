@@ -120,10 +120,10 @@ private:
     void contents() {
         text_ += "<nav id=\"contents\" aria-label=\"Contents\">\n<ol>\n";
         for (std::size_t i = 0; i < page_.sections.size(); ++i) {
-            add("<li><a href=\"#{0}\"><span class=\"number\">{1}</span>{2}</a></li>\n",
+            add("<li><span class=\"number\">{1}</span><a href=\"#{0}\">{2}</a></li>\n",
                 page_.sections[i].id, i + 1, escaped(page_.sections[i].title));
         }
-        add("<li><a href=\"#environment\"><span class=\"number\">{}</span>{}</a></li>\n",
+        add("<li><span class=\"number\">{}</span><a href=\"#environment\">{}</a></li>\n",
             page_.sections.size() + 1, kMadeBy);
         text_ += "</ol>\n</nav>\n";
     }
@@ -151,16 +151,23 @@ private:
         add("<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-labelledby=\"{}\">\n"
             "<table>\n<thead><tr>",
             table.id);
+        std::vector<const char*> aligned;
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
-            const bool numbers = !table.rows.empty() &&
-                                 std::all_of(table.rows.begin(), table.rows.end(),
-                                             [c](const auto& row) { return is_number(row[c]); });
-            add("<th scope=\"col\"{}>{}</th>", numbers ? " class=\"number-cell\"" : "",
-                escaped(table.columns[c]));
+            const auto numbers = std::count_if(table.rows.begin(), table.rows.end(),
+                                               [c](const auto& row) { return is_number(row[c]); });
+            const bool mostly = 2 * static_cast<std::size_t>(numbers) > table.rows.size();
+            aligned.push_back(mostly ? " class=\"number-cell\"" : "");
+            add("<th scope=\"col\"{}>{}</th>", aligned[c], escaped(table.columns[c]));
         }
         text_ += "</tr></thead>\n<tbody>\n";
         for (const auto& row : table.rows) {
-            table_row(row);
+            text_ += "<tr>";
+            for (std::size_t c = 0; c < row.size(); ++c) {
+                const char* element = c == 0 ? "th" : "td";
+                add("<{}{}{}>{}</{}>", element, c == 0 ? " scope=\"row\"" : "", aligned[c],
+                    html::marked_up(to_text(row[c])), element);
+            }
+            text_ += "</tr>\n";
         }
         text_ += "</tbody>\n</table>\n</div>\n";
         if (!table.caption.empty()) {
@@ -168,20 +175,13 @@ private:
         }
     }
 
-    void table_row(const std::vector<Quantity>& row) {
-        text_ += "<tr>";
-        for (std::size_t c = 0; c < row.size(); ++c) {
-            const char* element = c == 0 ? "th scope=\"row\"" : "td";
-            add("<{}{}>{}</{}>", element, is_number(row[c]) ? " class=\"number-cell\"" : "",
-                html::marked_up(to_text(row[c])), c == 0 ? "th" : "td");
-        }
-        text_ += "</tr>\n";
-    }
-
     void block(const PageFigure& figure) {
         const html::Embedded image = picture(figure);
-        add("<figure id=\"{}\"{}>\n<div class=\"frame\"{}>", figure.id,
-            figure.wide ? " class=\"wide\"" : "",
+        const bool tall = 10 * image.height_px > 11 * image.width_px;
+        add("<figure id=\"{}\" class=\"{}\">\n<div class=\"frame\"{}>", figure.id,
+            figure.wide ? "wide"
+            : tall      ? "tall"
+                        : "plain",
             figure.wide ? fmt::format(" role=\"region\" tabindex=\"0\" aria-label=\"{}\"",
                                       escaped(figure.title))
                         : "");
@@ -211,7 +211,7 @@ private:
         text_ +=
             "<table class=\"claims\" role=\"table\">\n<colgroup><col class=\"id\"><col "
             "class=\"where\"><col><col class=\"value\"><col class=\"value\"><col "
-            "class=\"difference\"><col class=\"verdict\"><col class=\"evidence\"></colgroup>\n"
+            "class=\"difference\"><col class=\"verdict\"><col class=\"see\"></colgroup>\n"
             "<thead role=\"rowgroup\"><tr role=\"row\">";
         for (const char* name : {"id", "where", "the paper says", "paper", "simulated",
                                  "difference", "verdict", "see"}) {
@@ -224,14 +224,16 @@ private:
         text_ += "</tbody>\n</table>\n";
     }
 
-    void cell(const char* label, const std::string& content) {
-        add("<td role=\"cell\" data-label=\"{}\"{}>{}</td>", label,
-            content.empty() ? " class=\"empty\"" : "", content);
+    /// @param label  of the value on a card, where no column has a head
+    void cell(const char* name, const std::string& content, bool label = true) {
+        add("<td role=\"cell\" class=\"{}{}\"{}>{}</td>", name, content.empty() ? " empty" : "",
+            label ? fmt::format(" data-label=\"{}\"", name) : "", content);
     }
 
     void claim_row(const Claim& claim) {
-        add("<tr role=\"row\" id=\"{0}\"><td role=\"cell\" class=\"id\">{0}</td>", claim.id);
-        add("<td role=\"cell\" class=\"where\">{}</td>", escaped(claim.section));
+        add("<tr role=\"row\" id=\"{}\">", claim.id);
+        cell("id", claim.id, false);
+        cell("where", escaped(claim.section), false);
         add("<th role=\"rowheader\" scope=\"row\">{}", html::marked_up(claim.statement));
         if (!claim.note.empty()) {
             add("<span class=\"note\">{}</span>", html::marked_up(claim.note));
@@ -240,15 +242,15 @@ private:
         cell("paper", with_unit(claim.paper, claim.unit));
         cell("simulated", with_unit(claim.simulated, claim.unit));
         cell("difference", with_unit(claim.difference, claim.unit, true));
-        cell("verdict", badge(claim.verdict, to_text(claim.verdict)));
+        cell("verdict", badge(claim.verdict, to_text(claim.verdict)), false);
         std::string links;
         if (!claim.figure.empty()) {
             links += fmt::format("<a href=\"#{}\">figure</a>", claim.figure);
         }
         if (!claim.recording.empty()) {
-            links += fmt::format("<a href=\"{}\">recording</a>", html::link(claim.recording));
+            links += fmt::format(" <a href=\"{}\">recording</a>", html::link(claim.recording));
         }
-        cell("see", links);
+        cell("see", links, false);
         text_ += "</tr>\n";
     }
 

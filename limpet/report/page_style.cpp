@@ -48,8 +48,8 @@ code { font: .88em/1.4 "DejaVu Sans Mono", Menlo, Consolas, monospace; }
 .verdicts .badge { font-size: .95rem; padding: .35rem .8rem; }
 nav { margin: 2rem 0 0; font-size: .92rem; }
 nav ol { margin: .4rem 0 0; padding: 0; list-style: none; columns: 2 18rem; column-gap: 2.5rem; }
-nav li { padding: .2rem 0; break-inside: avoid; }
-nav .number { display: inline-block; min-width: 1.6rem; color: var(--soft); }
+nav li { display: flex; padding: .2rem 0; break-inside: avoid; }
+nav .number { flex: none; width: 1.7rem; color: var(--soft); }
 .badge {
   display: inline-block; padding: .1rem .5rem; border-radius: .3rem; white-space: nowrap;
   font-size: .82rem; line-height: 1.5; font-weight: 600;
@@ -59,7 +59,7 @@ nav .number { display: inline-block; min-width: 1.6rem; color: var(--soft); }
 .badge.not-modelled { color: var(--none); background: var(--none-ground); }
 .scroll { overflow-x: auto; margin: 0 0 .6rem; }
 table { border-collapse: collapse; font-size: .84rem; line-height: 1.45; }
-th, td { padding: .45rem .8rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
+th, td { padding: .45rem .6rem; border-bottom: 1px solid var(--line); text-align: left; vertical-align: top; }
 .scroll th, .scroll td { overflow-wrap: normal; }
 thead th { border-bottom: 1.5px solid var(--ink); font-weight: 600; vertical-align: bottom; }
 tbody th { font-weight: 400; }
@@ -67,10 +67,10 @@ tbody th { font-weight: 400; }
 .number-cell { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .caption { color: var(--soft); font-size: .9rem; }
 .claims { width: 100%; table-layout: fixed; }
-.claims col.id { width: 7%; } .claims col.where { width: 8%; } .claims col.value { width: 12.5%; }
-.claims col.difference { width: 11%; } .claims col.verdict { width: 12.5%; } .claims col.evidence { width: 9%; }
+.claims col.id { width: 6.5%; } .claims col.where { width: 8%; } .claims col.value { width: 12%; }
+.claims col.difference { width: 11%; } .claims col.verdict { width: 14.5%; } .claims col.see { width: 9%; }
 .claims th, .claims td { padding: .55rem .45rem; }
-.claims .badge { white-space: normal; }
+.claims .badge { font-size: .76rem; }
 .claims .id { color: var(--soft); font-size: .74rem; }
 .claims .note { display: block; margin-top: .3rem; color: var(--soft); font-size: .78rem; }
 .claims td a { display: block; }
@@ -88,24 +88,30 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: .3rem 1.4rem; m
 dt { color: var(--soft); } dd { margin: 0; }
 @media (max-width: 60rem) { main { padding: 2rem 2rem 3rem; } }
 @media screen and (max-width: 52rem) {
-  .claims, .claims tbody, .claims tr, .claims th, .claims td { display: block; width: auto; }
+  .claims, .claims tbody, .claims th, .claims td { display: block; width: auto; }
   .claims colgroup, .claims thead { display: none; }
-  .claims tr { padding: .9rem 0; border-bottom: 1px solid var(--line); }
-  .claims th, .claims td { padding: .12rem 0; border: 0; }
-  .claims tbody th { margin: .1rem 0 .4rem; font-size: .95rem; }
-  .claims td[data-label] { display: grid; grid-template-columns: 6.6rem 1fr; gap: .6rem; }
-  .claims td[data-label]::before { content: attr(data-label); color: var(--soft); }
-  .claims td.id, .claims td.where { display: inline-block; margin-right: .8rem; font-size: .78rem; color: var(--soft); }
-  .claims td.where::before { content: none; }
-  .claims td a { display: inline-block; margin-right: .8rem; padding: .15rem 0; }
-  .claims .empty { display: none !important; }
+  .claims tr {
+    display: grid; grid-template-columns: repeat(6, 1fr); column-gap: .8rem;
+    padding: 1rem 0; border-bottom: 1px solid var(--line);
+  }
+  .claims th, .claims td { grid-column: span 2; padding: .12rem 0; border: 0; }
+  .claims td.id { grid-column: span 1; white-space: nowrap; }
+  .claims td.where { color: var(--soft); font-size: .78rem; }
+  .claims td.verdict { grid-column: span 3; grid-row: 1; grid-column-end: 7; text-align: right; }
+  .claims tbody th, .claims td.see { grid-column: 1 / -1; }
+  .claims tbody th { margin: .2rem 0 .5rem; font-size: .95rem; }
+  .claims td[data-label]::before {
+    content: attr(data-label); display: block; color: var(--soft); font-size: .74rem;
+  }
+  .claims td a { display: inline-block; margin-right: 1.2rem; padding: .3rem 0; }
+  .claims .empty { display: none; }
 }
 @media screen and (max-width: 40rem) {
   body { font-size: 1rem; }
   main { padding: 1.4rem 1.1rem 2.5rem; }
   h1 { font-size: 1.45rem; } h2 { font-size: 1.15rem; margin-top: 2.4rem; }
   nav li { padding: .4rem 0; }
-  .wide img { max-width: none; width: 62rem; }
+  .wide img { max-width: 62rem; }
   dl { display: block; } dd { margin: 0 0 .5rem; }
 }
 @media print {
@@ -118,7 +124,8 @@ dt { color: var(--soft); } dd { margin: 0; }
   h2 { margin-top: 1.8rem; }
   tr, figure, .badge { break-inside: avoid; }
   thead { display: table-header-group; }
-  figure img { max-height: 215mm; width: auto; }
+  figure img { max-height: 92mm; width: auto; }
+  .tall img { max-height: 205mm; }
   .scroll, .frame { overflow: visible; }
   .badge { border: 1px solid currentColor; }
   .files { display: none; }
