@@ -29,7 +29,7 @@ class Layout {
 public:
     explicit Layout(const Chart& chart)
         : chart_(chart), columns_(static_cast<std::size_t>(std::max(1, chart.columns))) {
-        const double column_px = columns_ == 1 ? 760.0 : 620.0;
+        const double column_px = columns_ == 1 ? 640.0 : 600.0;
         width_px_ = column_px * static_cast<double>(columns_);
         column_sides();
         titles();

@@ -54,7 +54,7 @@ struct ChartPanel {
     std::optional<Range> y_range = {};         ///< without: what series and levels need, with air
     bool log_x = false;
     bool log_y = false;
-    double height_px = 300.0;  ///< of the plot itself
+    double height_px = 280.0;  ///< of the plot itself
 };
 
 /// A marked place on a map.
@@ -79,7 +79,7 @@ struct HeatPanel {
     bool signed_values = true;          ///< with a thick contour at 0
     std::optional<Range> z_range = {};  ///< of the colours; without: what the values need
     std::vector<HeatPoint> points = {};
-    double height_px = 420.0;
+    double height_px = 380.0;
 };
 
 struct Chart {
@@ -89,7 +89,7 @@ struct Chart {
     int columns = 1;
 };
 
-/// Draws STEM.png and STEM.svg; a panel without a number says so. One column is 760 px wide, fit
+/// Draws STEM.png and STEM.svg; a panel without a number says so. One column is 640 px wide, fit
 /// for a phone.
 /// @param stem    of letters, digits, '_' and '-'
 /// @param folder  made when it is not there

@@ -102,7 +102,7 @@ double head_px(const ChartPanel& panel, double width_px) {
 
 double foot_px(const ChartPanel& panel, double width_px) {
     const double names =
-        panel.categories.empty() ? 26.0 : category_names(panel, width_px).height_px;
+        panel.categories.empty() ? 30.0 : category_names(panel, width_px).height_px;
     return names + (panel.x_label.empty() ? 4.0 : 28.0);
 }
 

@@ -126,7 +126,7 @@ private:
                     break;
                 case Mark::bars: sketch_.box(x0 + 6.0, y - 8.0, x1, y + 8.0, colour.c_str()); break;
                 case Mark::points: {
-                    const std::string point = fmt::format("point pt {} ps 1.1 lc rgb '{}'",
+                    const std::string point = fmt::format("point pt {} ps 1.1*MARK lc rgb '{}'",
                                                           shape_of(entry.series), colour);
                     sketch_.label(0.5 * (x0 + x1), y, "", kChartSmall_px, colours::kInk,
                                   point.c_str());
@@ -204,7 +204,7 @@ private:
                     y_.low, y_.high);
         const double high = (box_.bottom_px - box_.top_px) / 56.0;
         set_ticks(sketch_, 'y', panel_.log_y ? log_ticks(y_, high) : ticks(y_, high));
-        double below = 26.0;
+        double below = 30.0;
         if (panel_.categories.empty()) {
             const double wide = box_.width_px() / 90.0;
             set_ticks(sketch_, 'x', panel_.log_x ? log_ticks(x_, wide) : ticks(x_, wide));
@@ -316,8 +316,8 @@ private:
                 block, pen));
         }
         if (s.mark == Mark::points) {
-            clause(fmt::format("{}1:2 with points pt {} ps 0.9 lc rgb '{}'", block, shape_of(index),
-                               colour));
+            clause(fmt::format("{}1:2 with points pt {} ps 0.9*MARK lc rgb '{}'", block,
+                               shape_of(index), colour));
         }
     }
 

@@ -100,7 +100,7 @@ public:
                       colours::kFaint);
         sketch_.label(box_.right_px + kBarGap_px + kBar_px, box_.top_px - 16.0, panel_.z_label,
                       kChartSmall_px, colours::kFaint, "right");
-        sketch_.label(0.5 * (box_.left_px + box_.right_px), box_.bottom_px + 42.0, panel_.x_label,
+        sketch_.label(0.5 * (box_.left_px + box_.right_px), box_.bottom_px + 46.0, panel_.x_label,
                       kChartSmall_px, colours::kFaint, "center");
         colour_bar();
         axes();
@@ -211,10 +211,11 @@ private:
             data_.text += rows;
             const int block = data_.close();
             // A white ground first: ink on dark colours would not be seen.
-            clause(fmt::format("DATA index {} using 1:2 with points pt 7 ps 1.5 lc rgb '#FFFFFF'",
-                               block));
-            clause(fmt::format("DATA index {} using 1:2 with points pt {} ps {} lw 1.8 lc rgb '{}'",
-                               block, filled ? 7 : 6, filled ? 1.0 : 1.1, colours::kInk));
+            clause(fmt::format(
+                "DATA index {} using 1:2 with points pt 7 ps 1.5*MARK lc rgb '#FFFFFF'", block));
+            clause(fmt::format(
+                "DATA index {} using 1:2 with points pt {} ps {}*MARK lw 1.8 lc rgb '{}'", block,
+                filled ? 7 : 6, filled ? 1.0 : 1.1, colours::kInk));
         }
         for (const HeatPoint& point : panel_.points) {
             // To the side where there is room.
@@ -267,7 +268,7 @@ double head_px(const HeatPanel& panel, double width_px) {
 }
 
 double foot_px(const HeatPanel& panel, double) {
-    return 26.0 + (panel.x_label.empty() ? 4.0 : 28.0);
+    return 30.0 + (panel.x_label.empty() ? 4.0 : 28.0);
 }
 
 void draw_panel(Sketch& sketch, ChartData& data, const HeatPanel& panel, const PlotBox& box) {

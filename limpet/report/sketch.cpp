@@ -58,12 +58,13 @@ std::string Sketch::script(const std::string& stem) const {
     const std::string size = fmt::format("size {},{} font 'DejaVu Sans,{}' background '#FFFFFF'",
                                          canvas_.width_px, canvas_.height_px, font_px_);
     const std::string body = text_ + "unset multiplot\nunset output\n";
-    return fmt::format("DATA = '{}.txt'\n", stem) +
-           // Fonts are measured in points of 1/72 in at 96 dpi there, in pixels here.
+    // Fonts are measured in points of 1/72 in at 96 dpi in a PNG, in pixels in an SVG, where marks
+    // are larger as well.
+    return fmt::format("DATA = '{}.txt'\nMARK = 1.0\n", stem) +
            fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size,
                        stem) +
-           body + fmt::format("reset\nset terminal svg {}\nset output '{}.svg'\n", size, stem) +
-           body;
+           body + "reset\nMARK = 0.55\n" +
+           fmt::format("set terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
 }
 
 std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string& data,

@@ -38,7 +38,8 @@ public:
     /// Labels, lines and boxes so far belong to the plots so far.
     void forget();
 
-    /// @return a script that draws STEM.png and STEM.svg with STEM.txt as DATA
+    /// @return a script that draws STEM.png and STEM.svg with STEM.txt as DATA; sizes of
+    /// marks are in units of MARK
     /// @param stem  of letters, digits, '_' and '-'
     [[nodiscard]] std::string script(const std::string& stem) const;
 
