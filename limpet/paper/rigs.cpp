@@ -100,11 +100,13 @@ CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction dire
 }
 
 BreakOff break_off(const char* surface, const Scenario& scenario, double pressure_Pa) {
-    return {.surface = surface,
-            .pressure_Pa = pressure_Pa,
-            .pull_N = last_hold(scenario, pressure_Pa, Direction::away).pull_N,
-            .shear_N = last_hold(scenario, pressure_Pa, Direction::along).shear_N,
-            .peel_N_m = last_hold(scenario, pressure_Pa, Direction::tilt).peel_N_m};
+    BreakOff load{.surface = surface,
+                  .pressure_Pa = pressure_Pa,
+                  .pull_N = last_hold(scenario, pressure_Pa, Direction::away).pull_N,
+                  .shear_N = last_hold(scenario, pressure_Pa, Direction::along).shear_N,
+                  .peel_N_m = last_hold(scenario, pressure_Pa, Direction::tilt).peel_N_m};
+    load.pull_in_weights = load.pull_N / (scenario.airframe.mass_kg * kGravity_m_s2);
+    return load;
 }
 
 double battery_Wh(const Airframe& airframe) {

@@ -19,6 +19,7 @@ struct BreakOff {
     double pull_N = 0.0;
     double shear_N = 0.0;
     double peel_N_m = 0.0;
+    double pull_in_weights = 0.0;  ///< over that of the vehicle
 };
 /// Moves a sealed cup slowly away from the wall, along it, and tilts it, until it lets go, at the
 /// surface's best vacuum and at P_land.
