@@ -120,7 +120,7 @@ std::vector<double> ticks(const Range& range, double count) {
 
 std::vector<double> log_ticks(const Range& range, double count) {
     const double decades = std::log10(range.high / range.low);
-    const double every = std::max(1.0, std::ceil(decades / std::max(1.0, count)));
+    const double every = std::max(1.0, std::round(decades / std::max(1.0, count)));
     std::vector<double> found;
     const std::vector<double> within =
         decades > 0.5 * count ? std::vector<double>{1.0} : std::vector<double>{1.0, 2.0, 5.0};

@@ -63,7 +63,7 @@ std::string Sketch::script(const std::string& stem) const {
     return fmt::format("DATA = '{}.txt'\nMARK = 1.0\n", stem) +
            fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size,
                        stem) +
-           body + "reset\nMARK = 0.55\n" +
+           body + "reset\nMARK = 0.65\n" +
            fmt::format("set terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
 }
 
