@@ -67,12 +67,14 @@ std::string perched_text(const Metrics& m) {
                : "";
 }
 
-std::string release_text(const Metrics& m) {
+std::string release_text(const Metrics& m, Outcome outcome) {
     std::string text;
     if (known(m.release_s)) {
         text = fmt::format("{:.2f} s after pump off; ", m.release_s);
     } else if (known(m.pressure_at_release_end_Pa)) {
-        text = fmt::format("given up at {:.0f} hPa; ", m.pressure_at_release_end_Pa / 100.0);
+        text = fmt::format("{} {:.0f} hPa; ",
+                           outcome == Outcome::release_aborted ? "given up at" : "waited until",
+                           m.pressure_at_release_end_Pa / 100.0);
     }
     if (!text.empty()) {
         text += fmt::format("largest pitch while waiting {:.2f} deg", m.pitch_oscillation_max_deg);
@@ -122,7 +124,7 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Termin
     add(lines, terminal, "impact", impact_text(m));
     add(lines, terminal, "seal", seal_text(m));
     add(lines, terminal, "perched", perched_text(m));
-    add(lines, terminal, "release", release_text(m));
+    add(lines, terminal, "release", release_text(m, result.outcome));
     add_loads(lines, terminal, m);
     add(lines, terminal, "energy",
         fmt::format("{:.2f} Wh with the motors on, {:.3f} Wh at rest on the wall",

@@ -32,19 +32,21 @@ bool is_whole(double value) {
 }
 
 void check_mission(const Scenario& scenario, const YamlNode& root) {
-    if (scenario.mission == Mission::hover) {
+    const bool flies = scenario.mount == Mount::free;
+    if (flies && scenario.mission == Mission::hover) {
         return;
     }
-    const std::string mission(to_string(scenario.mission));
+    const char* key = flies ? "mission" : "mount";
+    const std::string word(flies ? to_string(scenario.mission) : to_string(scenario.mount));
     if (!scenario.wall.present) {
-        fail_at(root, "mission", mission + " needs a wall, and there is none");
+        fail_at(root, key, word + " needs a wall, and there is none");
     }
     if (!scenario.airframe.has_cup) {
-        fail_at(root, "mission",
-                fmt::format("{} needs a cup, and {} has none", mission, scenario.airframe.name));
+        fail_at(root, key,
+                fmt::format("{} needs a cup, and {} has none", word, scenario.airframe.name));
     }
     const double lip_x_m = scenario.airframe.cup.joint_x_m + scenario.airframe.cup.lip_offset_m;
-    if (scenario.simulation.start_distance_m <= lip_x_m) {
+    if (flies && scenario.simulation.start_distance_m <= lip_x_m) {
         fail_at(root, "simulation.start_distance_m",
                 fmt::format("{} is too close, the lip is {} m ahead of the centre of mass",
                             scenario.simulation.start_distance_m, number_text(lip_x_m)));

@@ -30,6 +30,15 @@ Mission read_mission(const YamlNode& node) {
     return *mission;
 }
 
+Mount read_mount(const YamlNode& node) {
+    const std::string word = read_text(node);
+    const auto mount = mount_from(word);
+    if (!mount) {
+        fail(node, fmt::format("\"{}\" is none of free, pendulum, press_rig", shown(word)));
+    }
+    return *mount;
+}
+
 bool says_none(const YamlNode* node) {
     return node == nullptr || node->kind == YamlNode::Kind::null ||
            (node->kind == YamlNode::Kind::scalar && node->text == "none");
@@ -64,13 +73,17 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     if (!is_section(&root)) {
         fail(root, "is empty");
     }
-    check_keys(root, {"description", "mission", "vehicle", "seed", "wall", "environment", "suction",
-                      "guidance", "autopilot", "sensors", "simulation"});
+    check_keys(root, {"description", "mission", "mount", "vehicle", "seed", "wall", "pendulum",
+                      "press_rig", "environment", "suction", "guidance", "autopilot", "sensors",
+                      "simulation"});
     if (const YamlNode* node = root.find("description")) {
         scenario.description = read_text(*node);
     }
     if (const YamlNode* node = root.find("mission")) {
         scenario.mission = read_mission(*node);
+    }
+    if (const YamlNode* node = root.find("mount")) {
+        scenario.mount = read_mount(*node);
     }
     if (const YamlNode* node = root.find("seed")) {
         scenario.seed = read_count(*node);
@@ -82,7 +95,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
     read_wall(root.find("wall"), data, scenario.wall);
     const std::vector<Section> sections = scenario_sections(scenario);
-    for (const char* name : {"environment", "sensors", "simulation"}) {
+    for (const char* name : {"pendulum", "press_rig", "environment", "sensors", "simulation"}) {
         read_rows(root.find(name), find_section(sections, name).rows);
     }
     const YamlNode* simulation = root.find("simulation");

@@ -2,6 +2,7 @@
 #include "limpet/scenario/scenario.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/time.hpp"
@@ -79,6 +80,34 @@ const ParameterTable<WallSetup>& wall_table() {
     return table;
 }
 
+Vector3 heading_W(const WallSetup& wall) {
+    return Eigen::AngleAxisd(radians(wall.heading_deg), Vector3::UnitZ()) * Vector3::UnitX();
+}
+
+Quaternion attitude(const Start& start) {
+    return quaternion_from_euler({.pitch_rad = start.pitch_rad, .yaw_rad = start.yaw_rad});
+}
+
+Vector3 touching_p_WB_m(const Scenario& scenario) {
+    const Vector3 ahead_W = heading_W(scenario.wall);
+    const Vector3 p_BC_W_m = attitude(scenario.start) * lip_p_B_m(scenario.airframe);
+    const WallPlane& plane = scenario.wall.plane;
+    const Vector3 x_T_W = plane.R_WT.col(0);
+    return ahead_W * (x_T_W.dot(plane.p_WT_m - p_BC_W_m) / x_T_W.dot(ahead_W));
+}
+
+namespace {
+
+/// Pulled back on the ropes.
+Vector3 pulled_back_p_WB_m(const Scenario& scenario) {
+    const double length_m = scenario.pendulum.rope_length_m;
+    const double angle_rad = swing_angle_rad(scenario.pendulum.impact_speed_m_s, length_m);
+    return touching_p_WB_m(scenario) - length_m * (std::sin(angle_rad) * heading_W(scenario.wall) +
+                                                   (1.0 - std::cos(angle_rad)) * Vector3::UnitZ());
+}
+
+}  // namespace
+
 void lay_out(Scenario& scenario) {
     const SimulationParameters& simulation = scenario.simulation;
     const Matrix3 R_WH =
@@ -90,10 +119,27 @@ void lay_out(Scenario& scenario) {
                            .R_WT = R_WH * R_HT,
                            .half_width_m = 0.5 * scenario.wall.width_m,
                            .half_height_m = 0.5 * scenario.wall.height_m};
-    scenario.start = {
-        .p_WB_m = R_WH.col(1) * simulation.start_offset_m,
-        .yaw_rad = wrap_pi(radians(scenario.wall.heading_deg + simulation.start_yaw_deg)),
-        .ground_z_W_m = simulation.start_height_m};
+    const auto yaw_rad = [&](double off_normal_deg) {
+        return wrap_pi(radians(scenario.wall.heading_deg + off_normal_deg));
+    };
+    Start& start = scenario.start;
+    start = {.ground_z_W_m = simulation.start_height_m};
+    switch (scenario.mount) {
+        case Mount::free:
+            start.yaw_rad = yaw_rad(simulation.start_yaw_deg);
+            start.p_WB_m = R_WH.col(1) * simulation.start_offset_m;
+            break;
+        case Mount::pendulum:
+            start.yaw_rad = yaw_rad(scenario.pendulum.yaw_deg);
+            start.pitch_rad = radians(scenario.pendulum.pitch_deg);
+            start.p_WB_m = pulled_back_p_WB_m(scenario);
+            break;
+        case Mount::press_rig:
+            start.yaw_rad = yaw_rad(0.0);
+            start.p_WB_m = touching_p_WB_m(scenario) -
+                           scenario.press_rig.start_gap_m * heading_W(scenario.wall);
+            break;
+    }
 }
 
 }  // namespace limpet

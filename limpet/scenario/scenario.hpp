@@ -16,6 +16,7 @@
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/model_writer.hpp"
+#include "limpet/vehicle/mount.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
 
@@ -73,6 +74,7 @@ struct Environment {
 struct Start {
     Vector3 p_WB_m = Vector3::Zero();
     double yaw_rad = 0.0;
+    double pitch_rad = 0.0;     ///< 0 unless a pendulum hangs askew
     double ground_z_W_m = 1.5;  ///< W's z of the floor, down positive
 };
 
@@ -87,6 +89,9 @@ struct Scenario {
     Airframe airframe;
     WallSetup wall;
     Start start;
+    Mount mount = Mount::free;  ///< on another one the mission does not matter
+    PendulumParameters pendulum;
+    PressRigParameters press_rig;
     Environment environment;
     CupParameters cup;
     SensorParameters sensors;
@@ -95,9 +100,17 @@ struct Scenario {
     SimulationParameters simulation;
 };
 
-/// Fills `wall.plane` and `start` from the numbers of `wall` and `simulation`. W's origin is where
-/// the vehicle would start without the sideways offset; the wall's is start_distance_m ahead of it
-/// along the heading, at the same height.
+/// @return unit vector of travel into the wall, level
+[[nodiscard]] Vector3 heading_W(const WallSetup& wall);
+/// @return q_WB
+[[nodiscard]] Quaternion attitude(const Start& start);
+/// Where the vehicle's lip meets the wall on the line of travel, in the attitude of its start.
+[[nodiscard]] Vector3 touching_p_WB_m(const Scenario& scenario);
+
+/// Fills `wall.plane` and `start` from the numbers of `wall`, `simulation` and the mount's. W's
+/// origin is where a free vehicle would start without the sideways offset; the wall's is
+/// start_distance_m ahead of it along the heading, at the same height. On a mount the vehicle
+/// starts on that line: pulled back on its ropes, or start_gap_m before the wall.
 void lay_out(Scenario& scenario);
 
 }  // namespace limpet

@@ -64,6 +64,8 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     }
     sections.push_back({"wall", bind(wall_table(), scenario.wall)});
     sections.push_back({"wall.surface", bind(surface_table(), scenario.wall.surface)});
+    sections.push_back({"pendulum", bind(pendulum_table(), scenario.pendulum)});
+    sections.push_back({"press_rig", bind(press_rig_table(), scenario.press_rig)});
     sections.push_back(
         {"environment", joined(bind(wind_table(), scenario.environment.wind),
                                bind(wall_air_table(), scenario.environment.wall_air))});

@@ -110,13 +110,14 @@ std::string to_yaml(const Scenario& scenario) {
     Writer writer;
     writer.value(0, "description", in_quotes(copy.description));
     writer.value(0, "mission", to_string(copy.mission));
+    writer.value(0, "mount", to_string(copy.mount));
     writer.value(0, "seed", fmt::format("{}", copy.seed));
     write_vehicle(writer, copy.airframe);
     write_wall(writer, copy.wall);
     const std::vector<Section> sections = scenario_sections(copy);
     const std::vector<Section> derived = scenario_sections(alike);
-    for (const std::string_view name :
-         {"environment", "suction", "guidance", "autopilot", "sensors", "simulation"}) {
+    for (const std::string_view name : {"pendulum", "press_rig", "environment", "suction",
+                                        "guidance", "autopilot", "sensors", "simulation"}) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
     }
     return writer.take();

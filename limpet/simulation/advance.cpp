@@ -2,6 +2,7 @@
 #include "limpet/simulation/advance.hpp"
 
 #include "limpet/simulation/collision.hpp"
+#include "limpet/simulation/rig.hpp"
 
 namespace limpet {
 namespace {
@@ -101,6 +102,9 @@ void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
             see_motion(model, state.truth, plant);
         }
         plant.apply(Body::base, air.wrench_W, state.truth.base.p_WF_m);
+        if (model.scenario.mount != Mount::free) {
+            plant.apply(Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
+        }
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
             apply_cup(model, state, plant, time_s, mode.step_s, events);

@@ -68,6 +68,9 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.plane};
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
+    model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
+                           attitude(scenario.start));
+    model->clamp = clamp(scenario.press_rig, scenario.airframe);
     model->control_rate_Hz = whole(scenario.sensors.imu_rate_Hz);
     model->guidance_rate_Hz = whole(scenario.simulation.guidance_rate_Hz);
     model->record_rate_Hz = whole(scenario.simulation.record_rate_Hz);
@@ -79,7 +82,7 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
 SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uint32_t run) {
     const Scenario& scenario = model.scenario;
     const Airframe& airframe = scenario.airframe;
-    const Quaternion q_WB = quaternion_from_euler({.yaw_rad = scenario.start.yaw_rad});
+    const Quaternion q_WB = attitude(scenario.start);
     plant.set_pose(scenario.start.p_WB_m, q_WB);
 
     SimulationState state;
@@ -87,9 +90,11 @@ SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uin
     if (airframe.has_cup) {
         state.truth.cup = plant.kinematics(Body::cup);
     }
-    const double hover = hover_command(airframe);
-    state.rotors = spinning(airframe.rotor, hover);
-    state.command = {.command = {hover, hover, hover, hover}, .armed = true};
+    if (scenario.mount == Mount::free) {
+        const double hover = hover_command(airframe);
+        state.rotors = spinning(airframe.rotor, hover);
+        state.command = {.command = {hover, hover, hover, hover}, .armed = true};
+    }
     state.battery = charged(airframe.battery);
     state.truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
     state.truth.battery = status(airframe.battery, state.battery);
@@ -100,6 +105,10 @@ SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uin
     estimate.valid = true;
     state.autopilot = start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);
+    if (scenario.mount != Mount::free) {
+        state.guidance.state = PerchingState::approaching;
+        state.guidance.setpoint = {.pump_on = scenario.mount == Mount::pendulum};
+    }
     state.sensors = start(model.sensors, state.truth, scenario.seed, run);
     state.wind = start(model.wind, RandomStream(scenario.seed, run, Stream::wind));
     state.wall_air = start(model.wall_air, RandomStream(scenario.seed, run, Stream::wall_air));

@@ -17,6 +17,7 @@
 #include "limpet/simulation/metrics.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/battery.hpp"
+#include "limpet/vehicle/mount.hpp"
 #include "limpet/vehicle/rotor.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
@@ -34,6 +35,8 @@ struct SimulationModel {
     CupModel cup;
     WindModel wind;
     WallAirModel wall_air;
+    Pendulum pendulum;          ///< of mount pendulum
+    Clamp clamp;                ///< of mount press_rig
     int control_rate_Hz = 250;  ///< that of the IMU
     int guidance_rate_Hz = 50;
     int steps_a_tick = 1;        ///< of the plant in free flight and while hanging
@@ -47,6 +50,19 @@ using CompilePlant = std::function<std::shared_ptr<const MujocoModel>(const std:
 /// The same with plants from elsewhere: models that differ in other things can share one.
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
                                                                  const CompilePlant& compile);
+
+/// What a trial on a mount has come to, see rig.hpp.
+struct RigState {
+    double advance_m = 0.0;  ///< of the clamp
+    bool touched = false;
+    bool pressed = false;   ///< harder than the spot asks for
+    bool straight = false;  ///< within the tilt limit at such a moment
+    bool sealed = false;
+    bool attached = false;
+    bool released = false;           ///< leaked until the pressure of detachment
+    double attached_since_s = -1.0;  ///< < 0: it is not
+    double off_since_s = -1.0;       ///< since when off the wall again; < 0: it is not
+};
 
 /// All that changes during a flight except the plant's own state, which lives in the plant. Plain
 /// and copyable: with PlantState it is the whole run, to be saved, branched and resumed
@@ -63,6 +79,7 @@ struct SimulationState {
     WindState wind;
     WallAirState wall_air;
     CupState cup;
+    RigState rig;
     Tick fine_until = 0;  ///< sub-steps go on until then
     Metrics metrics;
     long long physics_steps = 0;
@@ -70,7 +87,8 @@ struct SimulationState {
     std::optional<Ending> ending;
 };
 
-/// The vehicle trimmed in hover at the scenario's start; puts the plant there.
+/// The vehicle at the scenario's start, trimmed in hover or with its motors off on a mount; puts
+/// the plant there.
 [[nodiscard]] SimulationState start(const SimulationModel& model, MujocoPlant& plant,
                                     std::uint32_t run = 0);
 

@@ -4,6 +4,7 @@
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/digest.hpp"
+#include "limpet/simulation/rig.hpp"
 
 // The loop, drawn in docs/design.md: a line a station, in the order in which data flows.
 //
@@ -36,7 +37,9 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
     if (controls) {
         estimate(model.autopilot, state.autopilot, readings);
     }
-    if (due(state.tick, model.guidance_rate_Hz)) {
+    if (model.scenario.mount != Mount::free) {
+        operate(model, state, events);  // a bench in guidance's place
+    } else if (due(state.tick, model.guidance_rate_Hz)) {
         update(model.scenario.guidance, model.task, state.guidance, readings,
                state.autopilot.estimate, time_s, events);
     }

@@ -64,8 +64,9 @@ TEST_F(BadInput, UnknownKey) {
     EXPECT_EQ(hover_error("simulatoin: {hover_s: 5}\n"),
               "x.yaml:3: simulatoin: unknown key, did you mean simulation?");
     EXPECT_EQ(hover_error("wind: 5\n"),
-              "x.yaml:3: wind: unknown key; there are description, mission, vehicle, seed, wall, "
-              "environment, suction, guidance, autopilot, sensors, simulation");
+              "x.yaml:3: wind: unknown key; there are description, mission, mount, vehicle, seed, "
+              "wall, pendulum, press_rig, environment, suction, guidance, autopilot, sensors, "
+              "simulation");
     EXPECT_EQ(
         hover_error("autopilot: {gain: 5}\n"),
         "x.yaml:3: autopilot.gain: unknown key; `limpet params autopilot` lists what there is");
@@ -200,6 +201,23 @@ TEST_F(BadInput, EnvironmentsThatCannotBe) {
     EXPECT_EQ(hover_error("environment: {recirculation_full_radii: 5}\n"),
               "x.yaml:3: environment.recirculation_full_radii: 5 must be below "
               "recirculation_none_radii, 4");
+}
+
+TEST_F(BadInput, MountsThatCannotBe) {
+    EXPECT_EQ(hover_error("mount: crane\n"),
+              "x.yaml:3: mount: \"crane\" is none of free, pendulum, press_rig");
+    EXPECT_EQ(hover_error("mount: pendulum\n"),
+              "x.yaml:3: mount: pendulum needs a wall, and there is none");
+    EXPECT_EQ(error_of([&] {
+                  return data_.load_text(
+                      "mount: press_rig\nvehicle: {base: small, has_cup: false}\n"
+                      "wall: {surface: stone}\n");
+              }),
+              "x.yaml:1: mount: press_rig needs a cup, and small has none");
+    EXPECT_EQ(hover_error("pendulum: {impact_speed_m_s: 5}\n"),
+              "x.yaml:3: pendulum.impact_speed_m_s: 5 is out of range, allowed 0.02..3 m/s");
+    EXPECT_EQ(hover_error("press_rig: {pres_N: 5}\n"),
+              "x.yaml:3: press_rig.pres_N: unknown key, did you mean press_N?");
 }
 
 TEST_F(BadInput, AVehicleTooHeavyToHover) {

@@ -124,7 +124,22 @@ TEST(Scenarios, AreTheExperimentsOfThePaper) {
     EXPECT_EQ(shipped("failed_perch").wall.first_touches.at(0).name, "spalled_concrete");
     EXPECT_EQ(shipped("hover").mission, Mission::hover);
     EXPECT_FALSE(shipped("hover").wall.present);
+    EXPECT_EQ(shipped("pendulum_concrete").mount, Mount::pendulum);
+    for (const char* surface : {"concrete", "cinder_block", "turbine_blade", "metal"}) {
+        EXPECT_EQ(shipped(std::string("press_") + surface).mount, Mount::press_rig) << surface;
+    }
+    EXPECT_EQ(shipped("perch_concrete").mount, Mount::free);
     EXPECT_EQ(shipped("perch_concrete").airframe.name, "perching_uav");
+}
+
+/// Fig. 2 needs the leak: at least two time constants of it, and the seal steady before.
+TEST(Scenarios, PressForAsLongAsFigureTwoNeeds) {
+    for (const char* surface : {"concrete", "cinder_block", "turbine_blade", "metal"}) {
+        const Scenario s = shipped(std::string("press_") + surface);
+        EXPECT_GE(s.press_rig.leak_s, 2.0 * s.wall.surface.unsealing_time_constant_s) << surface;
+        EXPECT_GE(s.press_rig.seal_s, 8.0 * s.wall.surface.sealing_time_constant_s) << surface;
+        EXPECT_GT(seal_probability(s.wall.surface, s.press_rig.press_N, 0.0), 0.998) << surface;
+    }
 }
 
 TEST(Scenarios, WaitLongEnoughForTheReleaseWhereOneComes) {

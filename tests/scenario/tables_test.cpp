@@ -65,6 +65,8 @@ TEST(Tables, ForgetNoField) {
     expect_complete(leg_table(), "legs");
     expect_complete(battery_table(), "battery");
     expect_complete(wind_table(), "wind");
+    expect_complete(pendulum_table(), "pendulum");
+    expect_complete(press_rig_table(), "press_rig");
     expect_complete(wall_air_table(), "wall_air");
     EXPECT_EQ(cup_table().size() + lip_table().size(), sizeof(CupParameters) / sizeof(double));
 }

@@ -18,6 +18,18 @@ TEST(SteadyState, TheLoopAllocatesNothing) {
     EXPECT_EQ(allocations() - before, 0);
 }
 
+TEST(SteadyState, NorDoesATrialOnAMount) {
+    for (const char* scenario : {"pendulum_concrete", "press_concrete"}) {
+        Flight flight(model_of(scenario, {"environment.gust_sigma_m_s=0.5"}));
+        flight.tick();
+        const long before = allocations();
+        while (!flight.ended()) {
+            flight.tick();
+        }
+        EXPECT_EQ(allocations(), before) << scenario;
+    }
+}
+
 TEST(SteadyState, NorDoesTheRecorder) {
     const auto model = model_of("perch_concrete");
     const std::filesystem::path path =

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/rig.hpp"
+
+#include <algorithm>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+double pitch_deg(const Truth& truth) {
+    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
+}
+
+void enter(SimulationState& state, PerchingState next, double time_s) {
+    state.guidance.state = next;
+    state.guidance.since_s = time_s;
+}
+
+void report(const SimulationState& state, EventName name, std::string_view reason, double time_s,
+            EventList& events) {
+    events.add(make_event(time_s, "rig", name, reason,
+                          {{"pitch_deg", pitch_deg(state.truth)},
+                           {"force_N", state.truth.slider.force_N},
+                           {"pressure_Pa", state.cup.status.pressure_Pa}}));
+}
+
+void end(SimulationState& state, Outcome outcome, std::string_view reason, double time_s) {
+    enter(state, PerchingState::finished, time_s);
+    state.guidance.ending = Ending{.outcome = outcome, .reason = reason};
+}
+
+/// What a failed seal failed at, asked once the press has come and gone.
+void watch_touch(const SimulationModel& model, SimulationState& state) {
+    RigState& rig = state.rig;
+    const CupPhase phase = state.cup.status.phase;
+    if (phase != CupPhase::attached) {
+        rig.attached_since_s = -1.0;
+    } else if (rig.attached_since_s < 0.0) {
+        rig.attached = true;
+        rig.attached_since_s = seconds(state.tick);
+    }
+    if (phase == CupPhase::free) {
+        return;
+    }
+    if (-state.truth.slider.force_N > state.cup.demand.threshold_N) {
+        rig.pressed = true;
+        rig.straight = rig.straight || lip_motion(model.cup.wall, state.truth.cup).tilt_rad() <
+                                           state.cup.demand.tilt_limit_rad;
+    }
+    rig.sealed = rig.sealed || phase == CupPhase::sealing || phase == CupPhase::attached;
+}
+
+std::string_view why_not(const RigState& rig) {
+    if (rig.attached) {
+        return "came off after it had attached";
+    }
+    if (rig.sealed) {
+        return "contact too short: came off before the pressure was below the threshold";
+    }
+    if (!rig.pressed) {
+        return "not enough force: pressed less than the spot asks for";
+    }
+    return rig.straight ? "the lip slid or rocked while it was pressed"
+                        : "tilted too far while it was pressed";
+}
+
+void report_first_touch(SimulationState& state, double time_s, EventList& events) {
+    if (!state.rig.touched && state.cup.status.phase != CupPhase::free) {
+        state.rig.touched = true;
+        report(state, EventName::impact, "the lip meets the wall", time_s, events);
+    }
+}
+
+void operate_pendulum(const SimulationModel& model, SimulationState& state, double time_s,
+                      EventList& events) {
+    const PendulumParameters& pendulum = model.scenario.pendulum;
+    RigState& rig = state.rig;
+    const CupPhase phase = state.cup.status.phase;
+    if (state.guidance.state == PerchingState::approaching && rig.touched) {
+        enter(state, PerchingState::holding, time_s);
+    }
+    if (phase != CupPhase::free) {
+        rig.off_since_s = -1.0;
+    } else if (rig.touched && rig.off_since_s < 0.0) {
+        rig.off_since_s = time_s;
+    }
+    if (rig.attached_since_s >= 0.0 && time_s - rig.attached_since_s >= pendulum.hold_s) {
+        report(state, EventName::hold_over, "held", time_s, events);
+        end(state, Outcome::perched, "the cup attached and held", time_s);
+    } else if (rig.off_since_s >= 0.0 && time_s - rig.off_since_s >= pendulum.hold_s) {
+        report(state, EventName::hold_over, "off the wall", time_s, events);
+        end(state, Outcome::failed_to_seal, why_not(rig), time_s);
+    }
+}
+
+void operate_press_rig(const SimulationModel& model, SimulationState& state, double time_s,
+                       EventList& events) {
+    const PressRigParameters& press = model.scenario.press_rig;
+    const CupStatus& cup = state.cup.status;
+    const double age_s = time_s - state.guidance.since_s;
+    if (state.guidance.state == PerchingState::approaching) {
+        state.rig.advance_m += press.approach_speed_m_s * kTick_s;
+        if (-state.truth.slider.force_N >= press.press_N && cup.phase != CupPhase::free) {
+            enter(state, PerchingState::holding, time_s);
+            state.guidance.setpoint.pump_on = true;
+        }
+    } else if (state.guidance.state == PerchingState::holding && age_s >= press.seal_s) {
+        report(state, EventName::hold_over, "sealed for long enough", time_s, events);
+        if (cup.phase != CupPhase::attached) {
+            end(state, Outcome::failed_to_seal, why_not(state.rig), time_s);
+        } else if (press.leak_s <= 0.0) {
+            end(state, Outcome::perched, "the cup attached, no leak was asked for", time_s);
+        } else {
+            report(state, EventName::pump_off, "leaks from here", time_s, events);
+            enter(state, PerchingState::releasing, time_s);
+            state.guidance.setpoint.pump_on = false;
+        }
+    } else if (state.guidance.state == PerchingState::releasing) {
+        if (!state.rig.released && cup.pressure_Pa > model.scenario.guidance.detach_pressure_Pa) {
+            state.rig.released = true;
+            report(state, EventName::pressure_released, "pressure above detachment", time_s,
+                   events);
+        }
+        if (age_s >= press.leak_s) {
+            end(state, state.rig.released ? Outcome::released : Outcome::perched,
+                state.rig.released ? "the seal leaked until it would let go"
+                                   : "the seal still holds after the leak",
+                time_s);
+        }
+    }
+}
+
+}  // namespace
+
+Wrench mount_wrench_W(const SimulationModel& model, const SimulationState& state) {
+    switch (model.scenario.mount) {
+        case Mount::free: return {};
+        case Mount::pendulum: return rope_wrench_W(model.pendulum, state.truth.base);
+        case Mount::press_rig: {
+            const Vector3 ahead_W = heading_W(model.scenario.wall);
+            const bool moves = state.guidance.state == PerchingState::approaching;
+            Kinematics held;
+            held.p_WF_m = model.scenario.start.p_WB_m + state.rig.advance_m * ahead_W;
+            held.q_WF = attitude(model.scenario.start);
+            if (moves) {
+                held.v_WF_W_m_s = model.scenario.press_rig.approach_speed_m_s * ahead_W;
+            }
+            return clamp_wrench_W(model.clamp, held, state.truth.base);
+        }
+    }
+    throw InternalError("mount out of range");
+}
+
+void operate(const SimulationModel& model, SimulationState& state, EventList& events) {
+    const double time_s = seconds(state.tick);
+    if (state.tick == 0) {
+        report(state, EventName::approach_started,
+               model.scenario.mount == Mount::pendulum ? "let go" : "the clamp moves", time_s,
+               events);
+    }
+    report_first_touch(state, time_s, events);
+    watch_touch(model, state);
+    if (model.scenario.mount == Mount::pendulum) {
+        operate_pendulum(model, state, time_s, events);
+    } else {
+        operate_press_rig(model, state, time_s, events);
+    }
+}
+
+}  // namespace limpet
