@@ -64,8 +64,9 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     }
     sections.push_back({"wall", bind(wall_table(), scenario.wall)});
     sections.push_back({"wall.surface", bind(surface_table(), scenario.wall.surface)});
-    sections.push_back(
-        {"suction", joined(bind(cup_table(), scenario.cup), bind(lip_table(), scenario.cup.lip))});
+    sections.push_back({"suction", joined(joined(bind(cup_table(), scenario.cup),
+                                                 bind(pneumatic_table(), scenario.cup.pneumatics)),
+                                          bind(lip_table(), scenario.cup.lip))});
     sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
     sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
     sections.push_back({"sensors", bind(sensor_table(), scenario.sensors)});
