@@ -28,8 +28,8 @@ namespace limpet {
 struct PneumaticParameters {
     double pump_speed_L_min = 14.0;     ///< S
     double pump_ultimate_Pa = 24000.0;  ///< P_ult
-    double pump_stop_Pa = 26200.0;      ///< vacuum switch: an attached cup's pump stops below it
-    double pump_restart_Pa = 28800.0;   ///< and starts again above it
+    double pump_stop_Pa = 26300.0;      ///< vacuum switch: an attached cup's pump stops below it
+    double pump_restart_Pa = 29400.0;   ///< and starts again above it
     double cup_volume_cm3 = 60.0;       ///< with hose; the surface's pores come on top
     double valve_bore_mm = 2.0;
     double hose_bore_mm = 4.0;
