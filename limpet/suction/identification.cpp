@@ -17,6 +17,7 @@ using P = CurveParameter;
 
 constexpr std::size_t kFewestSamples = 20;
 constexpr std::size_t kFewestOfAStage = 8;
+constexpr std::size_t kFewestOfBaseline = 3;
 constexpr double kRippleStandsOut = 15.0;  ///< exp(-15) of white noise's frequencies do
 
 std::size_t sample_at(const PressureTrace& trace, double t_s) {
@@ -46,7 +47,7 @@ void guess_sealing(const PressureTrace& trace, const Stages& stages,
                    const IdentificationOptions& options, std::size_t on, Guess& guess) {
     PressureCurve& curve = guess.curve;
     guess.free.push_back(P::tau_1);
-    curve.baseline = on >= 3;
+    curve.baseline = on >= kFewestOfBaseline;
     curve.on_s = options.pump_on_s.value_or(trace.t_s[on]);
     curve.tau_1_s = time_of_63(trace, on, trace.pressure_Pa[on], stages.low_Pa);
     if (curve.baseline) {
@@ -80,7 +81,7 @@ Guess guess_of(const PressureTrace& trace, const Stages& stages,
     if (stages.unsealing) {
         curve.off_s = options.pump_off_s.value_or(trace.t_s[off]);
         guess.free.push_back(P::tau_2);
-        if (!options.pump_off_s && (stages.sealing || off >= 3)) {
+        if (!options.pump_off_s && (stages.sealing || off >= kFewestOfBaseline)) {
             guess.free.push_back(P::off);
         }
         if (see_atmosphere && !curve.baseline) {
@@ -105,6 +106,12 @@ Guess best_guess(const PressureTrace& trace, const Stages& stages,
             Guess guess = guess_of(trace, stages, options, on, off, see_atmosphere);
             double squares = 0.0;
             guess.curve = improved_curve(trace, guess.curve, guess.free, squares);
+            if (guess.curve.baseline) {
+                if (guess.curve.on_s < trace.t_s[kFewestOfBaseline] && !options.pump_on_s) {
+                    continue;  // what looked like the air was the pump's beginning
+                }
+                squares *= 1.0 + 10.0 / static_cast<double>(trace.t_s.size());
+            }
             if (squares < least) {
                 least = squares;
                 best = std::move(guess);

@@ -2,6 +2,7 @@
 #include "limpet/suction/pneumatics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
@@ -20,6 +21,7 @@ constexpr double kHoseLaminar_Pa2 = 1e8;    ///< of P^2 - P_m^2, below it hoses 
 constexpr double kLeakReference_N = 100.0;  ///< clamping at which a surface's leak is given
 constexpr double kLipPreload_N = 5.0;       ///< N_0, assumed: the lip's own spring
 constexpr double kPiece_s = 1e-3;
+constexpr std::size_t kMostCups = 16;
 
 /// psi of orifice flow: throughput over A P sqrt(R T).
 double flow_function(double ratio) {
@@ -88,25 +90,76 @@ Inflow inflow(const CupAir& cup, double pressure_Pa) {
     return in;
 }
 
-/// (exp(x) - 1) / x
-double phi(double x) {
-    return std::abs(x) < 1e-9 ? 1.0 : std::expm1(x) / x;
+/// Numbers of all cups.
+using Cups = std::array<double, kMostCups>;
+
+/// The law made linear: dP/dt = slope + J (P - now), J = diag(own) + by_manifold follows'.
+struct Linear {
+    std::size_t count = 0;
+    Cups rate_Pa_s{};
+    Cups own{};          ///< of each cup alone, the manifold held [1/s]
+    Cups by_manifold{};  ///< of each cup by the manifold's pressure [1/s]
+    Cups follows{};      ///< of the manifold's pressure by each cup's
+};
+
+Linear linear_law(const Pump& pump, std::span<const CupAir> cups,
+                  std::span<const double> pressures_Pa) {
+    const double manifold_Pa = manifold_pressure_Pa(pump, cups, pressures_Pa);
+    const double slope_m3_s = balance(pump, cups, pressures_Pa, manifold_Pa).slope_m3_s;
+    Linear law;
+    law.count = cups.size();
+    for (std::size_t k = 0; k < cups.size(); ++k) {
+        const Inflow in = inflow(cups[k], pressures_Pa[k]);
+        const HoseFlow hose = hose_flow(cups[k].hose_m3_s, pressures_Pa[k], manifold_Pa);
+        law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / cups[k].volume_m3;
+        law.own[k] = (in.slope_m3_s - hose.by_cup) / cups[k].volume_m3;
+        law.by_manifold[k] = -hose.by_manifold / cups[k].volume_m3;
+        law.follows[k] = slope_m3_s > 0.0 ? hose.by_cup / slope_m3_s : 0.0;
+    }
+    return law;
 }
 
+/// x = (1 - g J)^-1 x, by Sherman's and Morrison's formula.
+void solve(const Linear& law, double g_s, Cups& x) {
+    Cups u{};
+    double along_x = 0.0;
+    double along_u = 0.0;
+    for (std::size_t k = 0; k < law.count; ++k) {
+        const double diagonal = std::max(0.1, 1.0 - g_s * law.own[k]);
+        x[k] /= diagonal;
+        u[k] = g_s * law.by_manifold[k] / diagonal;
+        along_x += law.follows[k] * x[k];
+        along_u += law.follows[k] * u[k];
+    }
+    for (std::size_t k = 0; k < law.count; ++k) {
+        x[k] += u[k] * along_x / (1.0 - along_u);
+    }
+}
+
+/// P += h (1 - g h J)^-2 (1 - a h J) f: exact to the second order, and what is fast is damped
+/// (its stability function falls to 0): g = 1 - 1/sqrt(2), a = 2 g - 1/2.
 void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
                    double dt_s) {
-    const double manifold_Pa = manifold_pressure_Pa(pump, cups, pressures_Pa);
-    const Balance total = balance(pump, cups, pressures_Pa, manifold_Pa);
-    for (std::size_t k = 0; k < cups.size(); ++k) {
-        const CupAir& cup = cups[k];
-        Inflow net = inflow(cup, pressures_Pa[k]);
-        const HoseFlow hose = hose_flow(cup.hose_m3_s, pressures_Pa[k], manifold_Pa);
-        net.flow_Pa_m3_s -= hose.flow_Pa_m3_s;
-        // The manifold follows the cup: dP_m/dP = by_cup / slope of the balance.
-        const double follows = total.slope_m3_s > 0.0 ? hose.by_cup / total.slope_m3_s : 0.0;
-        net.slope_m3_s -= hose.by_cup + hose.by_manifold * follows;
-        pressures_Pa[k] += net.flow_Pa_m3_s * dt_s / cup.volume_m3 *
-                           phi(std::min(net.slope_m3_s * dt_s / cup.volume_m3, 1.0));
+    const double g = 1.0 - std::sqrt(0.5);
+    const double a = 2.0 * g - 0.5;
+    const Linear law = linear_law(pump, cups, pressures_Pa);
+    double manifold_rate = 0.0;
+    for (std::size_t k = 0; k < law.count; ++k) {
+        manifold_rate += law.follows[k] * law.rate_Pa_s[k];
+    }
+    Cups step{};
+    for (std::size_t k = 0; k < law.count; ++k) {
+        const double bend = law.own[k] * law.rate_Pa_s[k] + law.by_manifold[k] * manifold_rate;
+        step[k] = law.rate_Pa_s[k] - a * dt_s * bend;
+    }
+    solve(law, g * dt_s, step);
+    solve(law, g * dt_s, step);
+    // Between the pump's and the atmosphere's all pressures stay, however wide a hole is.
+    const auto [least, most] = std::minmax_element(pressures_Pa.begin(), pressures_Pa.end());
+    const double floor_Pa = std::min(*least, pump.ultimate_Pa);
+    const double ceiling_Pa = std::max(*most, kAtmosphere_Pa);
+    for (std::size_t k = 0; k < law.count; ++k) {
+        pressures_Pa[k] = std::clamp(pressures_Pa[k] + dt_s * step[k], floor_Pa, ceiling_Pa);
     }
 }
 
@@ -222,6 +275,7 @@ double manifold_pressure_Pa(const Pump& pump, std::span<const CupAir> cups,
 
 void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
                      double dt_s) {
+    require(cups.size() <= kMostCups, "no more than 16 cups on a pump");
     const int pieces = std::max(1, static_cast<int>(std::ceil(dt_s / kPiece_s - 1e-9)));
     for (int k = 0; k < pieces; ++k) {
         advance_piece(pump, cups, pressures_Pa, dt_s / pieces);

@@ -90,9 +90,9 @@ struct CupAir {
 [[nodiscard]] double manifold_pressure_Pa(const Pump& pump, std::span<const CupAir> cups,
                                           std::span<const double> pressures_Pa);
 
-/// All cups over one step: each by the exact solution of its law made linear here (exponential
-/// Rosenbrock), which is of second order for one cup and damped for any step; long steps are cut
-/// into pieces of 1 ms.
+/// All cups over one step, by a Rosenbrock method of second order that damps what is too fast for
+/// the step; long steps are cut into pieces of 1 ms.
+/// @param cups  1..16
 /// @param pressures_Pa  absolute, now and then after dt_s [Pa]
 void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
                      double dt_s);

@@ -19,6 +19,7 @@ namespace {
 
 using std::size_t;
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr size_t kLongestLine = 100'000;  ///< beyond it this is no log
 
 [[noreturn]] void fail(const std::string& name, size_t line, const std::string& what) {
@@ -106,10 +107,6 @@ struct Columns {
 };
 
 Columns columns_of(std::string_view text, const std::string& name, size_t line) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text.starts_with(kByteOrderMark)) {
-        text.remove_prefix(kByteOrderMark.size());
-    }
     const std::vector<std::string_view> header = fields_of(text);
     return {.time = column_of(header, "t_s", name, line),
             .pressure = column_of(header, "pressure_Pa", name, line),
@@ -151,6 +148,9 @@ PressureTrace read_pressure_log(std::istream& text, const std::string& name) {
     size_t line = 0;
     while (std::getline(text, row)) {
         ++line;
+        if (line == 1 && row.starts_with(kByteOrderMark)) {
+            row.erase(0, kByteOrderMark.size());
+        }
         if (row.find('\0') != std::string::npos || row.size() > kLongestLine) {
             fail(name, line, "not a text file of comma-separated values");
         }

@@ -131,6 +131,9 @@ std::optional<Stages> find_stages(const PressureTrace& trace) {
                  }));
         }
     }
+    if (stages.sealing) {
+        keep(stages.on, 0);
+    }
     if (stages.unsealing) {
         for (const double share : {0.02, 0.05, 0.12, 0.25}) {
             keep(stages.off, last_of(fallen, stages.used, [&](size_t i) {
