@@ -81,9 +81,13 @@ PressureCurve stepped(PressureCurve curve, const std::vector<CurveParameter>& fr
     return curve;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
+double median_step_s(const PressureTrace& trace) {
+    std::vector<double> steps_s(trace.t_s.size() - 1);
+    for (std::size_t i = 0; i < steps_s.size(); ++i) {
+        steps_s[i] = trace.t_s[i + 1] - trace.t_s[i];
+    }
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+    std::nth_element(steps_s.begin(), middle, steps_s.end());
     return *middle;
 }
 
@@ -91,11 +95,6 @@ double median(std::vector<double> values) {
 /// over for the kernel's slope; by samples, gaps count as none.
 double memory_of(const PressureTrace& trace, const std::vector<double>& residuals_Pa) {
     const std::size_t n = residuals_Pa.size();
-    std::vector<double> steps_s(n - 1);
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        steps_s[i] = trace.t_s[i + 1] - trace.t_s[i];
-    }
-    const double step_s = median(std::move(steps_s));
     double variance = 0.0;
     for (const double residual_Pa : residuals_Pa) {
         variance += residual_Pa * residual_Pa;
@@ -111,7 +110,7 @@ double memory_of(const PressureTrace& trace, const std::vector<double>& residual
             break;
         }
     }
-    return step_s * static_cast<double>(std::max<std::size_t>(4, 2 * lag));
+    return median_step_s(trace) * static_cast<double>(std::max<std::size_t>(4, 2 * lag));
 }
 
 /// Sum over pairs of Bartlett's weight times the product of their scores.
@@ -133,6 +132,16 @@ MatrixXd long_run_scores(const PressureTrace& trace, const std::vector<double>& 
         sum += half + half.transpose();
     }
     return sum;
+}
+
+/// Degrees of freedom of each variance, after Satterthwaite: how many samples a parameter hangs on,
+/// less what they know of one another. The weights' fourth powers count where few samples decide.
+/// @param weights     of every sample (column) on every parameter (row)
+/// @param correlated  samples that Bartlett's kernel takes together
+VectorXd freedom_of(const MatrixXd& weights, double correlated) {
+    const VectorXd second = weights.cwiseAbs2().rowwise().sum();
+    const VectorXd fourth = weights.cwiseAbs2().cwiseAbs2().rowwise().sum();
+    return second.cwiseAbs2().cwiseQuotient(fourth) / std::max(1.0, 2.0 / 3.0 * correlated);
 }
 
 void add_covariance(const PressureTrace& trace, CurveFit& fit) {
@@ -159,14 +168,19 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
         gradients.col(static_cast<Eigen::Index>(i)) =
             picked(point.gradient, fit.free).cwiseQuotient(scale);
     }
-    const double freedom = static_cast<double>(n) - static_cast<double>(size);
-    fit.residual_Pa = std::sqrt(squares / freedom);
+    fit.residual_Pa = std::sqrt(squares / static_cast<double>(n - fit.free.size()));
     fit.memory_s = memory_of(trace, residuals_Pa);
     const MatrixXd inverse = scaled.inverse();
-    const MatrixXd scores = long_run_scores(trace, residuals_Pa, gradients, fit.memory_s);
+    // Samples that pull the curve towards themselves leave less than their noise (HC3).
+    std::vector<double> freed_Pa(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto gradient = gradients.col(static_cast<Eigen::Index>(i));
+        freed_Pa[i] = residuals_Pa[i] / std::max(0.1, 1.0 - gradient.dot(inverse * gradient));
+    }
+    const MatrixXd scores = long_run_scores(trace, freed_Pa, gradients, fit.memory_s);
     fit.covariance = scale.cwiseInverse().asDiagonal() * inverse * scores * inverse *
                      scale.cwiseInverse().asDiagonal();
-    fit.covariance *= static_cast<double>(n) / freedom;
+    fit.freedom = freedom_of(inverse * gradients, fit.memory_s / median_step_s(trace));
     fit.regular = fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() >= 0.0;
 }
 

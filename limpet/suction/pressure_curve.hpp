@@ -75,6 +75,7 @@ struct CurveFit {
     PressureCurve curve;
     std::vector<CurveParameter> free;
     Eigen::MatrixXd covariance;  ///< of the free ones; honest for correlated residuals
+    Eigen::VectorXd freedom;     ///< degrees of freedom of each variance in it, for Student's t
     double residual_Pa = 0.0;    ///< standard deviation
     double memory_s = 0.0;       ///< over which residuals were taken as correlated
     bool regular = false;        ///< the trace tells the free parameters apart
