@@ -65,7 +65,7 @@ public:
                                   static_cast<double>(panels) * (kPanel_px + kPanelAxis_px))};
     }
 
-    [[nodiscard]] const Page& page() const { return page_; }
+    [[nodiscard]] const Canvas& page() const { return page_; }
 
     [[nodiscard]] std::string body(std::size_t panels) {
         add("set multiplot\nset encoding utf8\nunset key\nset tics scale 0.4 nomirror textcolor "
@@ -168,7 +168,7 @@ private:
 
     const CampaignSummary& summary_;
     double bars_bottom_px_ = 0.0;
-    Page page_;
+    Canvas page_;
     std::string text_;
 };
 

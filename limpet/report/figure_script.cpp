@@ -63,7 +63,7 @@ double tick_step(double span) {
 
 /// The figure's page and where its parts are on it.
 struct Layout {
-    Page page;
+    Canvas page;
     double ribbon_top_px = 0.0;
     double panels_top_px = 0.0;
 

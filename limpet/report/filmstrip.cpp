@@ -52,7 +52,7 @@ View view_of(const Pose& pose, const std::optional<WallFace>& wall) {
 }
 
 struct Sheet {
-    Page page;
+    Canvas page;
     int columns = 1;
 
     explicit Sheet(std::size_t frames) {
@@ -79,7 +79,7 @@ void paste(const Image& image, int left_px, int top_px, Image& canvas) {
     }
 }
 
-Image blank(const Page& page) {
+Image blank(const Canvas& page) {
     Image image{page.width_px, page.height_px, {}};
     image.rgb.assign(
         3u * static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px),
@@ -87,7 +87,7 @@ Image blank(const Page& page) {
     return image;
 }
 
-std::string label(const Page& page, double x_px, double y_px, const std::string& text, int size,
+std::string label(const Canvas& page, double x_px, double y_px, const std::string& text, int size,
                   const char* colour, const char* face = "") {
     return fmt::format(
         "set label {} at screen {:.5f}, screen {:.5f} left font 'DejaVu Sans{},{}' textcolor rgb "
@@ -98,7 +98,7 @@ std::string label(const Page& page, double x_px, double y_px, const std::string&
 /// The photographs go as raw pixels, the letters by gnuplot over them.
 std::string script_of(const Recording& recording, const std::vector<Moment>& moments,
                       const Sheet& sheet, const std::string& title, const std::string& stem) {
-    const Page& page = sheet.page;
+    const Canvas& page = sheet.page;
     std::string script = fmt::format(
         "set terminal pngcairo size {0},{1} noenhanced font 'DejaVu Sans,20' background "
         "'#FFFFFF'\nset output '{2}.png'\nset encoding utf8\nunset key\nunset tics\nunset border\n"

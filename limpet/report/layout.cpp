@@ -47,4 +47,23 @@ double text_width_px(std::string_view text, double size_px) {
     return kMeanWidth * size_px * static_cast<double>(letters);
 }
 
+std::vector<std::string> wrapped(std::string_view text, double size_px, double width_px) {
+    std::vector<std::string> lines(1);
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(' '), text.size());
+        const std::string word(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (word.empty()) {
+            continue;
+        }
+        const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+        if (lines.back().empty() || text_width_px(longer, size_px) <= width_px) {
+            lines.back() = longer;
+        } else {
+            lines.push_back(word);
+        }
+    }
+    return lines;
+}
+
 }  // namespace limpet

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-/// Where things go on a page, in pixels from its top left corner.
+/// Where things go on a picture, in pixels from its top left corner.
 namespace limpet {
 
-struct Page {
+struct Canvas {
     int width_px = 0;
     int height_px = 0;
     /// gnuplot's screen coordinates: 0..1 from the bottom left corner.
@@ -27,5 +27,10 @@ struct Page {
 /// About how wide a text is in DejaVu Sans; a little more than less.
 /// @param size_px  height of the font
 [[nodiscard]] double text_width_px(std::string_view text, double size_px);
+
+/// Breaks a text at spaces into lines that fit; a word that is longer than a line stays whole.
+/// @return at least one line
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double size_px,
+                                               double width_px);
 
 }  // namespace limpet

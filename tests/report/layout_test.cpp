@@ -64,8 +64,16 @@ TEST(TextWidth, counts_letters_and_not_bytes) {
     EXPECT_DOUBLE_EQ(text_width_px("impact", 20.0), 2.0 * text_width_px("impact", 10.0));
 }
 
-TEST(Page, has_the_origin_of_gnuplot_at_the_bottom_left) {
-    const Page page{200, 100};
+TEST(Wrapped, breaks_at_spaces_where_a_line_is_full) {
+    const double width = text_width_px("aaaa bbbb", 10.0);
+    EXPECT_THAT(wrapped("aaaa bbbb cccc  d", 10.0, width), ElementsAre("aaaa bbbb", "cccc d"));
+    EXPECT_THAT(wrapped("", 10.0, width), ElementsAre(""));
+    EXPECT_THAT(wrapped("x muchlongerthanaline y", 10.0, width),
+                ElementsAre("x", "muchlongerthanaline", "y"));
+}
+
+TEST(Canvas, has_the_origin_of_gnuplot_at_the_bottom_left) {
+    const Canvas page{200, 100};
     EXPECT_DOUBLE_EQ(page.x(50.0), 0.25);
     EXPECT_DOUBLE_EQ(page.y(0.0), 1.0);
     EXPECT_DOUBLE_EQ(page.y(75.0), 0.25);

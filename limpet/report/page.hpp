@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "limpet/report/claims.hpp"
+#include "limpet/report/pictures.hpp"
+
+/// A report as a page that needs nothing but itself, and the same as data. Texts are plain and are
+/// escaped by the page; in paragraphs, captions and notes **bold** and `code` are marked up.
+namespace limpet {
+
+struct PageTable {
+    std::string id = {};  ///< ids: of letters, digits, '_' and '-'; unique on the page
+    std::string title = {};
+    std::vector<std::string> columns = {};  ///< the first names the rows
+    std::vector<std::vector<Quantity>> rows = {};
+    std::string caption = {};  ///< may be empty
+};
+
+struct PageFigure {
+    std::string id = {};
+    std::string title = {};
+    std::string caption = {};        ///< may be empty
+    std::string alt = {};            ///< what it shows, for who does not see it
+    std::filesystem::path png = {};  ///< relative to the page's folder
+    std::filesystem::path svg = {};  ///< likewise; may be empty
+    bool wide = false;               ///< on a phone it scrolls sideways instead of shrinking
+};
+
+/// Stands where all claims of the page go.
+struct ClaimTable {};
+
+/// A paragraph or one of those.
+using PageBlock = std::variant<std::string, PageTable, PageFigure, ClaimTable>;
+
+struct PageSection {
+    std::string id = {};
+    std::string title = {};
+    std::vector<PageBlock> blocks = {};
+};
+
+struct Page {
+    std::string title = {};
+    std::string subtitle = {};
+    std::vector<std::string> summary = {};  ///< paragraphs before the contents
+    std::vector<Claim> claims = {};
+    std::vector<PageSection> sections = {};
+    /// What made it; at least version, seed, mode ("quick" or "full") and command.
+    std::vector<std::pair<std::string, Quantity>> environment = {};
+};
+
+/// The page as HTML: no script, no request, pictures inside.
+/// @param folder  where the figures' files are
+/// @throws InputError naming a picture that cannot be read
+/// @throws InternalError for a claim, table or figure that leaves blank what may not be empty, an
+///         id that is not one or is there twice, a link to a figure that is not there
+[[nodiscard]] std::string page_html(const Page& page, const std::filesystem::path& folder);
+
+/// Claims, tables, figures and environment as docs/schema/results.schema.json describes them.
+/// @throws InternalError as page_html()
+[[nodiscard]] std::string results_json(const Page& page);
+
+/// Writes `index.html` and `results.json` into the folder that holds the figures' files, each whole
+/// or not at all.
+/// @return both
+/// @throws InputError for an unwritable folder, and as page_html()
+std::vector<std::filesystem::path> write_page(const Page& page,
+                                              const std::filesystem::path& folder);
+
+}  // namespace limpet

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/page_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+void promise(bool holds, const std::string& what) {
+    if (!holds) {
+        throw InternalError("page: " + what);
+    }
+}
+
+bool blank(const std::string& text) {
+    return std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return std::isspace(c) != 0; });
+}
+
+bool blank(const Quantity& quantity) {
+    const auto* words = std::get_if<std::string>(&quantity);
+    return words != nullptr && blank(*words);
+}
+
+class Checker {
+public:
+    void check(const Page& page) {
+        promise(!blank(page.title), "no title");
+        for (const PageSection& section : page.sections) {
+            id(section.id);
+            promise(!blank(section.title), "section " + section.id + " without a title");
+            for (const PageBlock& part : section.blocks) {
+                std::visit([&](const auto& p) { block(p); }, part);
+            }
+        }
+        for (const Claim& one : page.claims) {
+            claim(one);
+        }
+        environment(page);
+    }
+
+private:
+    void id(const std::string& text) {
+        promise(!text.empty() && std::all_of(text.begin(), text.end(),
+                                             [](unsigned char c) {
+                                                 return c < 0x80 && (std::isalnum(c) != 0 ||
+                                                                     c == '_' || c == '-');
+                                             }),
+                fmt::format("'{}' is no id", text));
+        promise(ids_.insert(text).second, fmt::format("id {} is there twice", text));
+    }
+
+    void block(const std::string& text) { promise(!blank(text), "an empty paragraph"); }
+    void block(const ClaimTable&) {}
+    void block(const PageTable& table) {
+        id(table.id);
+        promise(!blank(table.title) && !table.columns.empty(),
+                "table " + table.id + " without a title or columns");
+        for (const std::string& column : table.columns) {
+            promise(!blank(column), "table " + table.id + " has a column without a name");
+        }
+        for (const auto& row : table.rows) {
+            promise(row.size() == table.columns.size(),
+                    "table " + table.id + " has a row of another length");
+            for (const Quantity& cell : row) {
+                promise(!blank(cell), "table " + table.id + " has an empty cell");
+            }
+        }
+    }
+    void block(const PageFigure& figure) {
+        id(figure.id);
+        figures_.insert(figure.id);
+        promise(!blank(figure.title) && !blank(figure.alt) && !figure.png.empty(),
+                "figure " + figure.id + " without title, alt text or file");
+        promise(figure.png.is_relative() && figure.svg.is_relative(),
+                "figure " + figure.id + " is not beside the page");
+    }
+
+    void claim(const Claim& claim) {
+        id(claim.id);
+        promise(!blank(claim.section) && !blank(claim.statement) && !blank(claim.paper) &&
+                    !blank(claim.simulated) && !blank(claim.difference),
+                "claim " + claim.id + " is left blank");
+        promise(
+            claim.figure.empty() || figures_.count(claim.figure) > 0,
+            fmt::format("claim {} names a figure {} that is not there", claim.id, claim.figure));
+    }
+
+    static void environment(const Page& page) {
+        std::set<std::string> keys;
+        for (const auto& [key, value] : page.environment) {
+            promise(!blank(key) && !blank(value), "environment: something is blank");
+            promise(keys.insert(key).second, "environment: " + key + " is there twice");
+        }
+        for (const char* key : {"version", "seed", "mode", "command"}) {
+            promise(keys.count(key) > 0, fmt::format("environment: no {}", key));
+        }
+    }
+
+    std::set<std::string> ids_ = {"contents", "environment"};  // the page's own
+    std::set<std::string> figures_;
+};
+
+}  // namespace
+
+void check(const Page& page) {
+    Checker().check(page);
+}
+
+}  // namespace limpet
