@@ -69,8 +69,9 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     sections.push_back(
         {"environment", joined(bind(wind_table(), scenario.environment.wind),
                                bind(wall_air_table(), scenario.environment.wall_air))});
-    sections.push_back(
-        {"suction", joined(bind(cup_table(), scenario.cup), bind(lip_table(), scenario.cup.lip))});
+    sections.push_back({"suction", joined(joined(bind(cup_table(), scenario.cup),
+                                                 bind(pneumatic_table(), scenario.cup.pneumatics)),
+                                          bind(lip_table(), scenario.cup.lip))});
     sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
     sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
     sections.push_back({"sensors", bind(sensor_table(), scenario.sensors)});

@@ -23,14 +23,39 @@ Airflow airflow(CupPhase phase, bool pump_running, bool valve_open) {
     return pump_running ? Airflow::sealing : Airflow::unsealing;
 }
 
+/// The pneumatic pump's vacuum switch.
+bool switched_off(const PneumaticParameters& parameters, const CupState& state) {
+    return state.mean_pressure_Pa < parameters.pump_stop_Pa ||
+           (state.pump_resting && state.mean_pressure_Pa < parameters.pump_restart_Pa);
+}
+
 /// A pump on a tight surface rests between a stop and a restart pressure; elsewhere it runs.
 bool pump_rests(const CupParameters& parameters, const Surface& surface, const CupState& state) {
+    if (parameters.pneumatic > 0.5) {
+        return state.status.phase == CupPhase::attached &&
+               switched_off(parameters.pneumatics, state);
+    }
     if (surface.pump_cycles < 0.5 || state.status.phase != CupPhase::attached) {
         return false;
     }
     const double above_Pa = state.mean_pressure_Pa - surface.vacuum_pressure_Pa;
     return above_Pa < parameters.pump_stop_band_Pa ||
            (state.pump_resting && above_Pa < parameters.pump_restart_band_Pa);
+}
+
+/// The cup's pressure after one step, by the model that is chosen.
+double next_pressure_Pa(const CupParameters& parameters, const CupState& state,
+                        const Surface& surface, double dt_s) {
+    const CupStatus& status = state.status;
+    if (parameters.pneumatic > 0.5 && is_sealed(status.phase)) {
+        const CupAir air = sealed_cup(parameters.pneumatics, surface, parameters.lip.radius_m,
+                                      -status.pull_N, status.valve_open);
+        return pressure_after(pump_of(parameters.pneumatics, status.pump_running), air,
+                              state.mean_pressure_Pa, dt_s);
+    }
+    return pressure_after(surface, parameters.vent,
+                          airflow(status.phase, status.pump_running, status.valve_open),
+                          state.mean_pressure_Pa, dt_s);
 }
 
 void touch(CupState& state, const Surface& surface, const LipMotion& motion) {
@@ -125,6 +150,9 @@ const ParameterTable<CupParameters>& cup_table() {
          "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
         {"valve_fitted", "switch", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
          "1: a solenoid valve breaks the vacuum", "paper, section V.B (proposed)"},
+        {"pneumatic", "switch", 0.0, 1.0, [](C& c) -> double& { return c.pneumatic; },
+         "1: pressure by pump, volume and leak (rows \"pneumatic:\") instead of eqs. (5), (6)",
+         "docs/decisions/0008-pneumatic-model.md"},
         {"valve_time_constant_s", "s", 1e-4, 1e3,
          [](C& c) -> double& { return c.vent.valve_time_constant_s; },
          "pressure rises with it through the open valve", "facts.md item 20: 2 mm on 60 cm^3"},
@@ -179,9 +207,7 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     state.pump_resting = pump_rests(parameters, surface, state);
     status.pump_running = input.pump_on && !state.pump_resting;
     status.valve_open = input.valve_open;
-    state.mean_pressure_Pa = pressure_after(
-        surface, parameters.vent, airflow(status.phase, status.pump_running, input.valve_open),
-        state.mean_pressure_Pa, dt_s);
+    state.mean_pressure_Pa = next_pressure_Pa(parameters, state, surface, dt_s);
     const bool ripples = status.pump_running && is_sealed(status.phase);
     status.pressure_Pa =
         state.mean_pressure_Pa +

@@ -7,6 +7,7 @@
 #include "limpet/core/signals/cup_status.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/suction/force_law.hpp"
+#include "limpet/suction/pneumatics.hpp"
 #include "limpet/suction/pressure.hpp"
 #include "limpet/suction/seal.hpp"
 
@@ -39,9 +40,11 @@ struct CupParameters {
     double pump_stop_band_Pa = 100.0;         ///< above P_vac: a cycling pump stops below it
     double pump_restart_band_Pa = 2000.0;     ///< above P_vac: and starts again above it
     double valve_fitted = 0.0;                ///< 1: a solenoid valve breaks the vacuum
+    double pneumatic = 0.0;                   ///< 1: pneumatics.hpp instead of pressure.hpp
+    PneumaticParameters pneumatics;
 };
 
-/// Rows of `suction:` other than the lip's.
+/// Rows of `suction:` other than the lip's and the pneumatic model's.
 [[nodiscard]] const ParameterTable<CupParameters>& cup_table();
 
 /// Immutable during a flight.
@@ -52,7 +55,8 @@ struct CupModel {
 
 struct CupState {
     CupStatus status;
-    double mean_pressure_Pa = kAtmosphere_Pa;  ///< eqs. (5), (6); the status adds the pump's ripple
+    double mean_pressure_Pa =
+        kAtmosphere_Pa;  ///< without ripple; the status adds the pump's ripple
     Anchor anchor;
     SealDemand demand;
     bool pump_resting = false;  ///< a cycling pump between two refills

@@ -42,6 +42,15 @@ const ParameterTable<Surface>& surface_table() {
          "amplitude of the pressure ripple while the pump runs", "assumed"},
         {"pump_ripple_Hz", "Hz", 0.0, 400.0, [](S& s) -> double& { return s.pump_ripple_Hz; },
          "frequency of that ripple as the pressure sensor sees it", "assumed"},
+        {"pore_volume_cm3", "cm^3", 0.0, 1e5, [](S& s) -> double& { return s.pore_volume_cm3; },
+         "pneumatic: air in the wall that is pumped out with the cup's", "fitted to Table II"},
+        {"leak_conductance_cm3_s", "cm^3/s", 0.0, 1e6,
+         [](S& s) -> double& { return s.leak_conductance_cm3_s; },
+         "pneumatic: leak over the vacuum, at 100 N between lip and wall", "fitted to Table II"},
+        {"leak_clamping_exponent", "-", 0.0, 0.95,
+         [](S& s) -> double& { return s.leak_clamping_exponent; },
+         "pneumatic: the leak falls with this power of the force between lip and wall",
+         "fitted to Table II"},
     };
     return table;
 }

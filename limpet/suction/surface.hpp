@@ -26,6 +26,9 @@ struct Surface {
     double pump_cycles = 0.0;       ///< 1: tight enough for the pump to switch off
     double pump_ripple_Pa = 600.0;  ///< amplitude while the pump runs
     double pump_ripple_Hz = 8.0;
+    double pore_volume_cm3 = 78.6;          ///< of the wall, pumped out with the cup (pneumatic)
+    double leak_conductance_cm3_s = 347.0;  ///< at 100 N of clamping (pneumatic)
+    double leak_clamping_exponent = 0.425;  ///< it falls with this power of the clamping force
 };
 
 [[nodiscard]] const ParameterTable<Surface>& surface_table();

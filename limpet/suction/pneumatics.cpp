@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/pneumatics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kGasConstantTimesTemperature_m2_s2 = 287.05 * 293.15;  ///< dry air, 20 deg C
+constexpr double kRatioOfHeats = 1.4;
+constexpr double kDischarge = 0.6;          ///< assumed: sharp-edged hole
+constexpr double kLaminarRatio = 0.999;     ///< of pressures, above it orifices are linear
+constexpr double kFriction = 0.03;          ///< assumed: Darcy, smooth hose at Re 1e4
+constexpr double kEndLosses = 1.5;          ///< assumed: sharp inlet 0.5, outlet 1
+constexpr double kHoseLaminar_Pa2 = 1e8;    ///< of P^2 - P_m^2, below it hoses are linear
+constexpr double kLeakReference_N = 100.0;  ///< clamping at which a surface's leak is given
+constexpr double kLipPreload_N = 5.0;       ///< N_0, assumed: the lip's own spring
+constexpr double kPiece_s = 1e-3;
+constexpr std::size_t kMostCups = 16;
+
+/// psi of orifice flow: throughput over A P sqrt(R T).
+double flow_function(double ratio) {
+    constexpr double k = kRatioOfHeats;
+    const double critical = std::pow(2.0 / (k + 1.0), k / (k - 1.0));
+    const double r = std::max(ratio, critical);
+    return std::sqrt(2.0 * k / (k - 1.0) * (std::pow(r, 2.0 / k) - std::pow(r, (k + 1.0) / k)));
+}
+
+/// Flow from cup to manifold, and its slopes; odd and smooth in P^2 - P_m^2.
+struct HoseFlow {
+    double flow_Pa_m3_s;
+    double by_cup, by_manifold;  ///< slopes [m^3/s]
+};
+HoseFlow hose_flow(double conductance_m3_s, double cup_Pa, double manifold_Pa) {
+    const double x = cup_Pa * cup_Pa - manifold_Pa * manifold_Pa;
+    const double s = x * x + kHoseLaminar_Pa2 * kHoseLaminar_Pa2;
+    const double root = std::sqrt(std::sqrt(s));
+    const double slope = conductance_m3_s * (1.0 - 0.5 * x * x / s) / root;
+    return {conductance_m3_s * x / root, 2.0 * cup_Pa * slope, -2.0 * manifold_Pa * slope};
+}
+
+/// What the pump takes, above what the hoses bring; rises with the manifold's pressure.
+struct Balance {
+    double excess_Pa_m3_s;
+    double slope_m3_s;
+};
+Balance balance(const Pump& pump, std::span<const CupAir> cups, std::span<const double> pressures,
+                double manifold_Pa) {
+    Balance sum{0.0, 0.0};
+    if (pump.running && manifold_Pa > pump.ultimate_Pa) {
+        sum = {pump.speed_m3_s * (manifold_Pa - pump.ultimate_Pa), pump.speed_m3_s};
+    }
+    for (std::size_t k = 0; k < cups.size(); ++k) {
+        const HoseFlow hose = hose_flow(cups[k].hose_m3_s, pressures[k], manifold_Pa);
+        sum.excess_Pa_m3_s -= hose.flow_Pa_m3_s;
+        sum.slope_m3_s -= hose.by_manifold;
+    }
+    return sum;
+}
+
+/// dP/dt of one cup but for the hose, times its volume, and the slope of it by P.
+struct Inflow {
+    double flow_Pa_m3_s;
+    double slope_m3_s;
+};
+Inflow inflow(const CupAir& cup, double pressure_Pa) {
+    const double vacuum_Pa = kAtmosphere_Pa - pressure_Pa;
+    const double clamping_N = std::max(0.0, vacuum_Pa * cup.area_m2 + cup.press_N);
+    const double leak_m3_s = cup.leak_100_m3_s * std::pow((kLeakReference_N + kLipPreload_N) /
+                                                              (clamping_N + kLipPreload_N),
+                                                          cup.leak_exponent);
+    const double loosening = clamping_N > 0.0 ? cup.leak_exponent * cup.area_m2 * vacuum_Pa /
+                                                    (clamping_N + kLipPreload_N)
+                                              : 0.0;
+    Inflow in{(leak_m3_s + cup.off_wall_m3_s) * vacuum_Pa,
+              leak_m3_s * (loosening - 1.0) - cup.off_wall_m3_s};
+    if (cup.hole_m2 > 0.0) {
+        constexpr double kStep_Pa = 1.0;
+        const double here = orifice_flow_Pa_m3_s(cup.hole_m2, kAtmosphere_Pa, pressure_Pa);
+        const double there =
+            orifice_flow_Pa_m3_s(cup.hole_m2, kAtmosphere_Pa, pressure_Pa + kStep_Pa);
+        in.flow_Pa_m3_s += here;
+        in.slope_m3_s += (there - here) / kStep_Pa;
+    }
+    return in;
+}
+
+/// Numbers of all cups.
+using Cups = std::array<double, kMostCups>;
+
+/// The law made linear: dP/dt = slope + J (P - now), J = diag(own) + by_manifold follows'.
+struct Linear {
+    std::size_t count = 0;
+    Cups rate_Pa_s{};
+    Cups own{};          ///< of each cup alone, the manifold held [1/s]
+    Cups by_manifold{};  ///< of each cup by the manifold's pressure [1/s]
+    Cups follows{};      ///< of the manifold's pressure by each cup's
+};
+
+Linear linear_law(const Pump& pump, std::span<const CupAir> cups,
+                  std::span<const double> pressures_Pa) {
+    const double manifold_Pa = manifold_pressure_Pa(pump, cups, pressures_Pa);
+    const double slope_m3_s = balance(pump, cups, pressures_Pa, manifold_Pa).slope_m3_s;
+    Linear law;
+    law.count = cups.size();
+    for (std::size_t k = 0; k < cups.size(); ++k) {
+        const Inflow in = inflow(cups[k], pressures_Pa[k]);
+        const HoseFlow hose = hose_flow(cups[k].hose_m3_s, pressures_Pa[k], manifold_Pa);
+        law.rate_Pa_s[k] = (in.flow_Pa_m3_s - hose.flow_Pa_m3_s) / cups[k].volume_m3;
+        law.own[k] = (in.slope_m3_s - hose.by_cup) / cups[k].volume_m3;
+        law.by_manifold[k] = -hose.by_manifold / cups[k].volume_m3;
+        law.follows[k] = slope_m3_s > 0.0 ? hose.by_cup / slope_m3_s : 0.0;
+    }
+    return law;
+}
+
+/// x = (1 - g J)^-1 x, by Sherman's and Morrison's formula.
+void solve(const Linear& law, double g_s, Cups& x) {
+    Cups u{};
+    double along_x = 0.0;
+    double along_u = 0.0;
+    for (std::size_t k = 0; k < law.count; ++k) {
+        const double diagonal = std::max(0.1, 1.0 - g_s * law.own[k]);
+        x[k] /= diagonal;
+        u[k] = g_s * law.by_manifold[k] / diagonal;
+        along_x += law.follows[k] * x[k];
+        along_u += law.follows[k] * u[k];
+    }
+    for (std::size_t k = 0; k < law.count; ++k) {
+        x[k] += u[k] * along_x / (1.0 - along_u);
+    }
+}
+
+/// P += h (1 - g h J)^-2 (1 - a h J) f: exact to the second order, and what is fast is damped
+/// (its stability function falls to 0): g = 1 - 1/sqrt(2), a = 2 g - 1/2.
+void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
+                   double dt_s) {
+    const double g = 1.0 - std::sqrt(0.5);
+    const double a = 2.0 * g - 0.5;
+    const Linear law = linear_law(pump, cups, pressures_Pa);
+    double manifold_rate = 0.0;
+    for (std::size_t k = 0; k < law.count; ++k) {
+        manifold_rate += law.follows[k] * law.rate_Pa_s[k];
+    }
+    Cups step{};
+    for (std::size_t k = 0; k < law.count; ++k) {
+        const double bend = law.own[k] * law.rate_Pa_s[k] + law.by_manifold[k] * manifold_rate;
+        step[k] = law.rate_Pa_s[k] - a * dt_s * bend;
+    }
+    solve(law, g * dt_s, step);
+    solve(law, g * dt_s, step);
+    // Between the pump's and the atmosphere's all pressures stay, however wide a hole is.
+    const auto [least, most] = std::minmax_element(pressures_Pa.begin(), pressures_Pa.end());
+    const double floor_Pa = std::min(*least, pump.ultimate_Pa);
+    const double ceiling_Pa = std::max(*most, kAtmosphere_Pa);
+    for (std::size_t k = 0; k < law.count; ++k) {
+        pressures_Pa[k] = std::clamp(pressures_Pa[k] + dt_s * step[k], floor_Pa, ceiling_Pa);
+    }
+}
+
+}  // namespace
+
+const ParameterTable<PneumaticParameters>& pneumatic_table() {
+    using P = PneumaticParameters;
+    static const ParameterTable<P> table = {
+        {"pump_speed_L_min", "L/min", 0.0, 1e3, [](P& p) -> double& { return p.pump_speed_L_min; },
+         "pneumatic: pumping speed; free flow is 1 - pump_ultimate/P_atm of it",
+         "assumed: common 12 V diaphragm pump, facts.md section 3"},
+        {"pump_ultimate_Pa", "Pa", 100.0, 1e5, [](P& p) -> double& { return p.pump_ultimate_Pa; },
+         "pneumatic: the pump takes nothing below it", "fitted to Table II, facts.md section 3"},
+        {"pump_stop_Pa", "Pa", 100.0, 101325.0, [](P& p) -> double& { return p.pump_stop_Pa; },
+         "pneumatic: vacuum switch, an attached cup's pump rests below it",
+         "fitted to Table II: only metal passes it, 275 hPa is in the middle"},
+        {"pump_restart_Pa", "Pa", 100.0, 101325.0,
+         [](P& p) -> double& { return p.pump_restart_Pa; }, "pneumatic: and starts again above it",
+         "as pump_stop_Pa"},
+        {"cup_volume_cm3", "cm^3", 0.1, 1e5, [](P& p) -> double& { return p.cup_volume_cm3; },
+         "pneumatic: air in cup and hose",
+         "assumed: 80 mm cup 12 mm high; with the pump it gives tau_1 of the blade"},
+        {"valve_bore_mm", "mm", 0.0, 100.0, [](P& p) -> double& { return p.valve_bore_mm; },
+         "pneumatic: the open valve's bore", "facts.md item 20: 2 mm on 60 cm^3"},
+        {"hose_bore_mm", "mm", 0.0, 100.0, [](P& p) -> double& { return p.hose_bore_mm; },
+         "pneumatic: inner diameter of the hose from cup to pump; 0: blocked",
+         "assumed: common 6x4 mm hose"},
+        {"hose_length_m", "m", 0.0, 100.0, [](P& p) -> double& { return p.hose_length_m; },
+         "pneumatic: its length; 0: an orifice of that bore",
+         "assumed: from the cup to the pump at the back"},
+        {"partial_seal_area_mm2", "mm^2", 0.0, 1e4,
+         [](P& p) -> double& { return p.partial_seal_area_mm2; },
+         "pneumatic: open area where the lip does not meet the wall", "assumed: a whole seal"},
+    };
+    return table;
+}
+
+double leak_conductance_m3_s(const Surface& surface, double clamping_N) {
+    return 1e-6 * surface.leak_conductance_cm3_s *
+           std::pow(
+               (kLeakReference_N + kLipPreload_N) / (std::max(0.0, clamping_N) + kLipPreload_N),
+               surface.leak_clamping_exponent);
+}
+
+double orifice_flow_Pa_m3_s(double area_m2, double upstream_Pa, double downstream_Pa) {
+    if (downstream_Pa > upstream_Pa) {
+        return -orifice_flow_Pa_m3_s(area_m2, downstream_Pa, upstream_Pa);
+    }
+    static const double full = kDischarge * std::sqrt(kGasConstantTimesTemperature_m2_s2);
+    const double ratio = downstream_Pa / upstream_Pa;
+    const double psi = ratio <= kLaminarRatio
+                           ? flow_function(ratio)
+                           : flow_function(kLaminarRatio) * (1.0 - ratio) / (1.0 - kLaminarRatio);
+    return full * area_m2 * upstream_Pa * psi;
+}
+
+double hose_conductance_m3_s(double bore_mm, double length_m) {
+    const double bore_m = 1e-3 * bore_mm;
+    if (bore_m <= 0.0) {
+        return 0.0;
+    }
+    return 0.25 * kPi * bore_m * bore_m *
+           std::sqrt(kGasConstantTimesTemperature_m2_s2 /
+                     (kFriction * length_m / bore_m + kEndLosses));
+}
+
+Pump pump_of(const PneumaticParameters& parameters, bool running) {
+    return {.speed_m3_s = parameters.pump_speed_L_min / 60e3,
+            .ultimate_Pa = parameters.pump_ultimate_Pa,
+            .running = running};
+}
+
+CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface, double radius_m,
+                  double press_N, bool valve_open) {
+    const double valve_m = valve_open ? 1e-3 * parameters.valve_bore_mm : 0.0;
+    return {.volume_m3 = 1e-6 * (parameters.cup_volume_cm3 + surface.pore_volume_cm3),
+            .hose_m3_s = hose_conductance_m3_s(parameters.hose_bore_mm, parameters.hose_length_m),
+            .leak_100_m3_s = leak_conductance_m3_s(surface, kLeakReference_N),
+            .leak_exponent = surface.leak_clamping_exponent,
+            .area_m2 = kPi * radius_m * radius_m,
+            .press_N = press_N,
+            .hole_m2 = 1e-6 * parameters.partial_seal_area_mm2 + 0.25 * kPi * valve_m * valve_m};
+}
+
+CupAir cup_off_the_wall(const PneumaticParameters& parameters, double time_constant_s) {
+    const double volume_m3 = 1e-6 * parameters.cup_volume_cm3;
+    return {.volume_m3 = volume_m3,
+            .hose_m3_s = hose_conductance_m3_s(parameters.hose_bore_mm, parameters.hose_length_m),
+            .off_wall_m3_s = volume_m3 / time_constant_s};
+}
+
+double manifold_pressure_Pa(const Pump& pump, std::span<const CupAir> cups,
+                            std::span<const double> pressures_Pa) {
+    require(!cups.empty() && cups.size() == pressures_Pa.size(), "a pressure for every cup");
+    const auto [least, most] = std::minmax_element(pressures_Pa.begin(), pressures_Pa.end());
+    double low_Pa = pump.running ? std::min(*least, pump.ultimate_Pa) : *least;
+    double high_Pa = *most;
+    double manifold_Pa = high_Pa;
+    // Newton's step while it stays between what is known, halving otherwise.
+    for (int k = 0; k < 60 && high_Pa - low_Pa > 1e-7; ++k) {
+        const Balance at = balance(pump, cups, pressures_Pa, manifold_Pa);
+        (at.excess_Pa_m3_s > 0.0 ? high_Pa : low_Pa) = manifold_Pa;
+        const double step_Pa = at.slope_m3_s > 0.0 ? at.excess_Pa_m3_s / at.slope_m3_s : 0.0;
+        const double next_Pa = manifold_Pa - step_Pa;
+        const bool inside = at.slope_m3_s > 0.0 && next_Pa >= low_Pa && next_Pa <= high_Pa;
+        manifold_Pa = inside ? next_Pa : 0.5 * (low_Pa + high_Pa);
+        if (inside && std::abs(step_Pa) < 1e-7) {
+            break;
+        }
+    }
+    return manifold_Pa;
+}
+
+void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
+                     double dt_s) {
+    require(cups.size() <= kMostCups, "no more than 16 cups on a pump");
+    const int pieces = std::max(1, static_cast<int>(std::ceil(dt_s / kPiece_s - 1e-9)));
+    for (int k = 0; k < pieces; ++k) {
+        advance_piece(pump, cups, pressures_Pa, dt_s / pieces);
+    }
+}
+
+double pressure_after(const Pump& pump, const CupAir& cup, double pressure_Pa, double dt_s) {
+    advance_network(pump, std::span(&cup, 1), std::span(&pressure_Pa, 1), dt_s);
+    return pressure_Pa;
+}
+
+}  // namespace limpet

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "limpet/core/parameters.hpp"
+#include "limpet/suction/surface.hpp"
+
+namespace limpet {
+
+// The air of one or more cups on one pump, beside the exponential of pressure.hpp
+// (docs/decisions/0008). Isothermal, so that mass is counted as throughput Q = p dV/dt [Pa m^3/s]:
+//
+//   atmosphere --leak(clamping)--+
+//   atmosphere --hole, valve-----+--> cup (P, V) --hose--> manifold (P_m) --> pump --> atmosphere
+//                                                             |  no volume
+//                                            further cups ----+
+//
+//   V dP/dt = C(N) (P_atm - P) + Q_hole(P) - Q_hose(P, P_m),   sum of Q_hose = Q_pump(P_m)
+//
+//   pump   S (P_m - P_ult) while it runs, a check valve else: a diaphragm pump whose dead volume
+//          expands again has this straight line
+//   leak   C(N) = C_100 ((100 N + N_0) / (N + N_0))^m: a gap under a rough lip closes as the lip is
+//          pressed; N = (P_atm - P) A + press
+//   hole   orifice, choked below 0.53 P_atm
+//   hose   friction and ends: Q = G sqrt(P^2 - P_m^2), turbulent isothermal flow
+
+struct PneumaticParameters {
+    double pump_speed_L_min = 14.0;     ///< S
+    double pump_ultimate_Pa = 24000.0;  ///< P_ult
+    double pump_stop_Pa = 26300.0;      ///< vacuum switch: an attached cup's pump stops below it
+    double pump_restart_Pa = 29400.0;   ///< and starts again above it
+    double cup_volume_cm3 = 60.0;       ///< with hose; the surface's pores come on top
+    double valve_bore_mm = 2.0;
+    double hose_bore_mm = 4.0;
+    double hose_length_m = 0.5;
+    double partial_seal_area_mm2 = 0.0;  ///< hole where the lip does not meet the wall
+};
+
+/// Rows of `suction:` that only the pneumatic model reads.
+[[nodiscard]] const ParameterTable<PneumaticParameters>& pneumatic_table();
+
+/// @param clamping_N  force between lip and wall, >= 0 [N]
+/// @return C(N) [m^3/s]
+[[nodiscard]] double leak_conductance_m3_s(const Surface& surface, double clamping_N);
+
+/// Flow of air through a hole, isentropic up to the throat.
+/// @param area_m2        of the hole
+/// @param upstream_Pa    > 0
+/// @param downstream_Pa  >= 0; above upstream the flow turns round
+/// @return throughput at 293 K [Pa m^3/s]
+/// Source: compressible orifice, discharge coefficient 0.6; linear within 0.1 % of equal pressures.
+[[nodiscard]] double orifice_flow_Pa_m3_s(double area_m2, double upstream_Pa, double downstream_Pa);
+
+/// @return G of a hose, its friction factor 0.03 and 1.5 dynamic pressures lost at its ends [m^3/s]
+/// Source: isothermal pipe flow (Weymouth); both factors assumed: smooth hose, sharp ends.
+[[nodiscard]] double hose_conductance_m3_s(double bore_mm, double length_m);
+
+/// The pump, as strong as it is now.
+struct Pump {
+    double speed_m3_s = 0.0;
+    double ultimate_Pa = 0.0;
+    bool running = false;
+};
+[[nodiscard]] Pump pump_of(const PneumaticParameters& parameters, bool running);
+
+/// What lets air into one cup and out of it, over one step.
+struct CupAir {
+    double volume_m3 = 0.0;
+    double hose_m3_s = 0.0;      ///< G; 0: blocked
+    double leak_100_m3_s = 0.0;  ///< C_100
+    double leak_exponent = 0.0;  ///< m
+    double area_m2 = 0.0;        ///< on which the vacuum clamps
+    double press_N = 0.0;        ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
+    double hole_m2 = 0.0;        ///< to the atmosphere: unsealed part of the lip, open valve
+    double off_wall_m3_s = 0.0;  ///< conductance of the open mouth of a cup off the wall
+};
+
+/// A cup that seals on a surface.
+/// @param press_N  as CupAir::press_N
+[[nodiscard]] CupAir sealed_cup(const PneumaticParameters& parameters, const Surface& surface,
+                                double radius_m, double press_N, bool valve_open);
+
+/// A cup whose mouth is open: it fills with this time constant, whatever the pump does.
+[[nodiscard]] CupAir cup_off_the_wall(const PneumaticParameters& parameters,
+                                      double time_constant_s);
+
+/// Pressure where the hoses meet the pump.
+/// @param cups, pressures_Pa  as many of one as of the other, at least one
+[[nodiscard]] double manifold_pressure_Pa(const Pump& pump, std::span<const CupAir> cups,
+                                          std::span<const double> pressures_Pa);
+
+/// All cups over one step, by a Rosenbrock method of second order that damps what is too fast for
+/// the step; long steps are cut into pieces of 1 ms.
+/// @param cups  1..16
+/// @param pressures_Pa  absolute, now and then after dt_s [Pa]
+void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<double> pressures_Pa,
+                     double dt_s);
+
+/// One cup, alone on the pump.
+[[nodiscard]] double pressure_after(const Pump& pump, const CupAir& cup, double pressure_Pa,
+                                    double dt_s);
+
+}  // namespace limpet

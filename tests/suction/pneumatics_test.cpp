@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/suction/pneumatics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "limpet/core/frames.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kRadius_m = 0.04;
+
+/// A wall whose leak does not know the clamping, so that the law is linear but for the hose.
+Surface tight_surface() {
+    Surface surface;
+    surface.pore_volume_cm3 = 0.0;
+    surface.leak_conductance_cm3_s = 8.0;
+    surface.leak_clamping_exponent = 0.0;
+    return surface;
+}
+
+CupAir sealed(const PneumaticParameters& parameters, const Surface& surface) {
+    return sealed_cup(parameters, surface, kRadius_m, 0.0, false);
+}
+
+double after(const Pump& pump, const CupAir& cup, double pressure_Pa, double duration_s,
+             double step_s) {
+    const int steps = static_cast<int>(std::lround(duration_s / step_s));
+    for (int k = 0; k < steps; ++k) {
+        pressure_Pa = pressure_after(pump, cup, pressure_Pa, step_s);
+    }
+    return pressure_Pa;
+}
+
+TEST(Pneumatics, WithAWideHoseAndAConstantLeakItIsEquationsFiveAndSix) {
+    PneumaticParameters parameters;
+    parameters.hose_bore_mm = 100.0;
+    const CupAir cup = sealed(parameters, tight_surface());
+    const double S = 14.0 / 60e3;
+    const double C = 8e-6;
+    const double V = 60e-6;
+    const double vacuum_Pa = (S * 24000.0 + C * kAtmosphere_Pa) / (S + C);
+    for (const double t_s : {0.1, 0.3, 1.0, 3.0}) {
+        const double sealing_Pa =
+            vacuum_Pa + (kAtmosphere_Pa - vacuum_Pa) * std::exp(-t_s * (S + C) / V);
+        EXPECT_NEAR(after(pump_of(parameters, true), cup, kAtmosphere_Pa, t_s, 1e-3), sealing_Pa,
+                    20.0);
+        const double unsealing_Pa =
+            kAtmosphere_Pa - (kAtmosphere_Pa - 30000.0) * std::exp(-t_s * C / V);
+        EXPECT_NEAR(after(pump_of(parameters, false), cup, 30000.0, t_s, 1e-3), unsealing_Pa, 0.1);
+    }
+}
+
+TEST(Pneumatics, StepHardlyMattersWhateverFlows) {
+    PneumaticParameters parameters;
+    parameters.partial_seal_area_mm2 = 0.3;
+    for (const bool valve : {false, true}) {
+        for (const bool running : {false, true}) {
+            const Pump pump = pump_of(parameters, running);
+            const CupAir cup = sealed_cup(parameters, Surface{}, kRadius_m, 10.0, valve);
+            for (const double start_Pa : {kAtmosphere_Pa, 30000.0}) {
+                const double fine_Pa = after(pump, cup, start_Pa, 0.1, 1e-5);
+                EXPECT_NEAR(after(pump, cup, start_Pa, 0.1, 2.5e-4), fine_Pa, 1.0);
+                EXPECT_NEAR(after(pump, cup, start_Pa, 0.1, 1e-3), fine_Pa, 8.0);
+                EXPECT_NEAR(after(pump, cup, start_Pa, 0.1, 0.1), fine_Pa, 8.0);
+            }
+        }
+    }
+}
+
+TEST(Pneumatics, ErrorFallsWithTheSquareOfTheStep) {
+    const Pump pump = pump_of({}, true);
+    const CupAir cup = sealed({}, Surface{});
+    const double exact_Pa = after(pump, cup, kAtmosphere_Pa, 0.256, 1e-5);
+    const double coarse = std::abs(after(pump, cup, kAtmosphere_Pa, 0.256, 1e-3) - exact_Pa);
+    const double fine = std::abs(after(pump, cup, kAtmosphere_Pa, 0.256, 5e-4) - exact_Pa);
+    EXPECT_NEAR(coarse / fine, 4.0, 0.5);
+}
+
+TEST(Pneumatics, NothingBlowsUpHoweverOpenTheCupIs) {
+    PneumaticParameters parameters;
+    parameters.cup_volume_cm3 = 0.1;
+    parameters.valve_bore_mm = 50.0;
+    const CupAir cup = sealed_cup(parameters, tight_surface(), kRadius_m, -500.0, true);
+    double pressure_Pa = 20000.0;
+    for (int k = 0; k < 100; ++k) {
+        const double next_Pa = pressure_after(pump_of(parameters, true), cup, pressure_Pa, 1e-3);
+        ASSERT_GE(next_Pa, std::min(pressure_Pa, 0.9 * kAtmosphere_Pa));
+        ASSERT_LE(next_Pa, kAtmosphere_Pa + 1e-6);
+        pressure_Pa = next_Pa;
+    }
+    EXPECT_NEAR(pressure_Pa, kAtmosphere_Pa, 100.0);
+}
+
+TEST(Pneumatics, AChokedHoleFlowsByTheTextbook) {
+    // 0.6 A P sqrt(k / (R T)) (2/(k+1))^((k+1)/(2(k-1))) is its mass flow, times R T as throughput
+    const double RT = 287.05 * 293.15;
+    const double mass_kg_s = 0.6 * 1e-6 * 1e5 * std::sqrt(1.4 / RT) * std::pow(1.0 / 1.2, 3.0);
+    EXPECT_NEAR(orifice_flow_Pa_m3_s(1e-6, 1e5, 1e4), mass_kg_s * RT, 1e-9 * mass_kg_s * RT);
+    EXPECT_EQ(orifice_flow_Pa_m3_s(1e-6, 1e5, 1e4), orifice_flow_Pa_m3_s(1e-6, 1e5, 5e4));
+    EXPECT_LT(orifice_flow_Pa_m3_s(1e-6, 1e5, 9e4), orifice_flow_Pa_m3_s(1e-6, 1e5, 5e4));
+    EXPECT_EQ(orifice_flow_Pa_m3_s(1e-6, 1e5, 9e4), -orifice_flow_Pa_m3_s(1e-6, 9e4, 1e5));
+    // for small differences of pressure it is Bernoulli's: A Cd sqrt(2 rho dP) times R T
+    const double bernoulli = 0.6 * 1e-6 * std::sqrt(2.0 * 1e5 / RT * 500.0) * RT;
+    EXPECT_NEAR(orifice_flow_Pa_m3_s(1e-6, 1e5, 99500.0), bernoulli, 0.01 * bernoulli);
+}
+
+TEST(Pneumatics, TheValveEmptiesACupInOrificeTime) {
+    // facts.md item 20: a 2 mm orifice refills 60 cm^3 from 275 to 980 hPa in 0.12 s
+    double pressure_Pa = 27500.0;
+    const CupAir cup = sealed_cup({}, tight_surface(), kRadius_m, 0.0, true);
+    double t_s = 0.0;
+    for (; pressure_Pa < 98000.0 && t_s < 1.0; t_s += 1e-3) {
+        pressure_Pa = pressure_after(pump_of({}, false), cup, pressure_Pa, 1e-3);
+    }
+    EXPECT_NEAR(t_s, 0.12, 0.03);
+}
+
+TEST(Pneumatics, TheLeakClosesAsTheLipIsPressed) {
+    const Surface concrete;
+    EXPECT_NEAR(leak_conductance_m3_s(concrete, 100.0), 347e-6, 1e-12);
+    EXPECT_NEAR(leak_conductance_m3_s(concrete, 205.0) / leak_conductance_m3_s(concrete, 100.0),
+                std::pow(0.5, 0.425), 1e-9);
+    EXPECT_TRUE(std::isfinite(leak_conductance_m3_s(concrete, 0.0)));
+    EXPECT_EQ(leak_conductance_m3_s(tight_surface(), 0.0), 8e-6);
+}
+
+/// Steady pressure on concrete.
+double steady_Pa(const PneumaticParameters& parameters, double press_N = 0.0) {
+    const CupAir cup = sealed_cup(parameters, Surface{}, kRadius_m, press_N, false);
+    return after(pump_of(parameters, true), cup, kAtmosphere_Pa, 20.0, 1e-3);
+}
+
+TEST(Pneumatics, APartialSealTakesVacuumUntilTheCupNoLongerAttaches) {
+    PneumaticParameters parameters;
+    double before_Pa = steady_Pa(parameters);
+    for (const double area_mm2 : {0.2, 0.5, 1.0, 2.0, 3.0}) {
+        parameters.partial_seal_area_mm2 = area_mm2;
+        const double pressure_Pa = steady_Pa(parameters);
+        EXPECT_GT(pressure_Pa, before_Pa + 500.0);
+        // what the pump takes at that pressure is what hole and pores let in
+        const CupAir cup = sealed_cup(parameters, Surface{}, kRadius_m, 0.0, false);
+        const double manifold_Pa = manifold_pressure_Pa(
+            pump_of(parameters, true), std::span(&cup, 1), std::span(&pressure_Pa, 1));
+        const double clamping_N = (kAtmosphere_Pa - pressure_Pa) * kPi * kRadius_m * kRadius_m;
+        const double in =
+            orifice_flow_Pa_m3_s(1e-6 * area_mm2, kAtmosphere_Pa, pressure_Pa) +
+            leak_conductance_m3_s(Surface{}, clamping_N) * (kAtmosphere_Pa - pressure_Pa);
+        EXPECT_NEAR(14.0 / 60e3 * (manifold_Pa - 24000.0), in, 1e-4);
+        before_Pa = pressure_Pa;
+    }
+    EXPECT_GT(before_Pa, 88000.0);
+}
+
+TEST(Pneumatics, PullingOnTheCupCostsVacuum) {
+    EXPECT_GT(steady_Pa({}, -60.0), steady_Pa({}, 0.0) + 1000.0);
+    EXPECT_LT(steady_Pa({}, 60.0), steady_Pa({}, 0.0) - 1000.0);
+}
+
+TEST(Pneumatics, ALongHoseIsSlowAndABlockedOneSucksNothing) {
+    PneumaticParameters wide;
+    PneumaticParameters narrow;
+    narrow.hose_bore_mm = 1.0;
+    narrow.hose_length_m = 2.0;
+    PneumaticParameters blocked;
+    blocked.hose_bore_mm = 0.0;
+    const Surface surface = tight_surface();
+    const auto at = [&](const PneumaticParameters& parameters, double t_s) {
+        return after(pump_of(parameters, true), sealed(parameters, surface), kAtmosphere_Pa, t_s,
+                     1e-3);
+    };
+    EXPECT_GT(at(narrow, 0.5), at(wide, 0.5) + 10000.0);
+    EXPECT_NEAR(at(blocked, 1.0), kAtmosphere_Pa, 1e-6);
+    // A sealed narrow hose between two known pressures: Weymouth by hand, no pressure to lean on.
+    const double G = 0.25 * kPi * 1e-6 * std::sqrt(287.05 * 293.15 / (0.03 * 2000.0 + 1.5));
+    EXPECT_NEAR(hose_conductance_m3_s(1.0, 2.0), G, 1e-12);
+}
+
+TEST(Pneumatics, TheManifoldBalancesPumpAndHose) {
+    PneumaticParameters parameters;
+    parameters.hose_bore_mm = 1.5;
+    parameters.hose_length_m = 1.0;
+    const CupAir cup = sealed(parameters, tight_surface());
+    const double cup_Pa = 80000.0;
+    const double manifold_Pa =
+        manifold_pressure_Pa(pump_of(parameters, true), std::span(&cup, 1), std::span(&cup_Pa, 1));
+    const double hose =
+        hose_conductance_m3_s(1.5, 1.0) * std::sqrt(cup_Pa * cup_Pa - manifold_Pa * manifold_Pa);
+    EXPECT_NEAR(hose, 14.0 / 60e3 * (manifold_Pa - 24000.0), 1e-3 * hose);
+}
+
+/// Two cups on one pump.
+class TwoCups : public testing::Test {
+protected:
+    void run(bool pump_on, double duration_s, double step_s = 1e-3) {
+        const int steps = static_cast<int>(std::lround(duration_s / step_s));
+        for (int k = 0; k < steps; ++k) {
+            advance_network(pump_of(parameters_, pump_on), cups_, pressures_Pa_, step_s);
+        }
+    }
+    PneumaticParameters parameters_;
+    std::array<CupAir, 2> cups_;
+    std::array<double, 2> pressures_Pa_ = {kAtmosphere_Pa, kAtmosphere_Pa};
+};
+
+TEST_F(TwoCups, BothGoodTheyShareThePump) {
+    cups_ = {sealed(parameters_, tight_surface()), sealed(parameters_, tight_surface())};
+    run(true, 0.3);
+    EXPECT_NEAR(pressures_Pa_[0], pressures_Pa_[1], 1e-6);
+    PneumaticParameters half = parameters_;  // alone on half a pump: the same, but for the hose
+    half.pump_speed_L_min /= 2.0;
+    EXPECT_NEAR(
+        pressures_Pa_[0],
+        after(pump_of(half, true), sealed(half, tight_surface()), kAtmosphere_Pa, 0.3, 1e-3),
+        500.0);
+}
+
+TEST_F(TwoCups, OneOffTheWallTakesTheOthersVacuumUnlessItsHoseIsNarrow) {
+    cups_ = {sealed(parameters_, tight_surface()), cup_off_the_wall(parameters_, 0.01)};
+    run(true, 5.0);
+    EXPECT_GT(pressures_Pa_[0], 88000.0);
+
+    parameters_.hose_bore_mm = 0.6;  // a restrictor for each cup, as multi-cup grippers have
+    cups_ = {sealed(parameters_, tight_surface()), cup_off_the_wall(parameters_, 0.01)};
+    run(true, 5.0);
+    EXPECT_LT(pressures_Pa_[0], 60000.0);
+    EXPECT_GT(pressures_Pa_[1], 95000.0);
+}
+
+TEST_F(TwoCups, WithThePumpOffAirMovesFromOneToTheOtherAndNoneIsLost) {
+    Surface airtight = tight_surface();
+    airtight.leak_conductance_cm3_s = 0.0;
+    cups_ = {sealed(parameters_, airtight), sealed(parameters_, airtight)};
+    cups_[1].volume_m3 *= 2.0;
+    pressures_Pa_ = {90000.0, 30000.0};
+    run(false, 2.0);
+    EXPECT_NEAR(pressures_Pa_[0], 50000.0, 50.0);
+    EXPECT_NEAR(pressures_Pa_[1], 50000.0, 50.0);
+}
+
+TEST_F(TwoCups, LongStepsAreDamped) {
+    cups_ = {sealed(parameters_, tight_surface()), sealed_cup(parameters_, {}, 0.04, 0.0, false)};
+    const auto start = pressures_Pa_;
+    run(true, 1.0, 2.5e-4);
+    const auto fine = pressures_Pa_;
+    pressures_Pa_ = start;
+    run(true, 1.0, 0.05);
+    EXPECT_NEAR(pressures_Pa_[0], fine[0], 60.0);
+    EXPECT_NEAR(pressures_Pa_[1], fine[1], 60.0);
+}
+
+}  // namespace
+}  // namespace limpet
