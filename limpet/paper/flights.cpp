@@ -147,7 +147,7 @@ public:
     }
 
     void rest() {
-        const double off_s = time_of(last_event(recording_, "motors_off"));
+        const double off_s = time_of(first_event(recording_, "motors_off"));
         const RecordedEvent* on = first_event(recording_, "motors_on", off_s);
         const Stretch end{std::max(off_s, time_of(on) - kSteady_s), time_of(on)};
         auto measured = within(recording_, "/sensors/cup_pressure", "fluid_pressure", end);
@@ -220,6 +220,8 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
     }
     take.set("attempts", flight.result.attempts);
     take.set("pressure_lowest_hPa", 0.01 * flight.result.metrics.pressure_min_Pa);
+    take.set("pressure_at_release_end_hPa",
+             0.01 * flight.result.metrics.pressure_at_release_end_Pa);
     take.set("seal_margin_N",
              flight.result.metrics.impact_force_N -
                  value_of(last_event(flight.recording, "attached"), "seal_threshold_N"));

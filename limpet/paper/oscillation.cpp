@@ -40,8 +40,7 @@ void silence(Scenario& scenario) {
             }
         }
     }
-    // scenario.environment.recirculation_moment_rms_N_m = 0.0;
-    // scenario.environment.gust_sigma_m_s = 0.0;
+    scenario.environment = {};
 }
 
 /// Turns the vehicle about its cup's joint with a speed, the cup itself staying as it is.

@@ -40,12 +40,12 @@ struct KickedSwing {
 
 /// Growth over motor lag and pivot distance, row by row of the pivot.
 struct StabilityMap {
-    std::string title;
-    std::string scenario;  ///< all that is not on the axes, dead time included
-    Overrides gains;
-    std::vector<double> lag_s;
-    std::vector<double> pivot_m;
-    std::vector<double> growth_1_s;  ///< [pivot * lag_s.size() + lag]
+    std::string title = {};
+    std::string scenario = {};  ///< all that is not on the axes, dead time included
+    Overrides gains = {};
+    std::vector<double> lag_s = {};
+    std::vector<double> pivot_m = {};
+    std::vector<double> growth_1_s = {};  ///< [pivot * lag_s.size() + lag]
     [[nodiscard]] double at(std::size_t pivot, std::size_t lag) const {
         return growth_1_s[pivot * lag_s.size() + lag];
     }

@@ -74,10 +74,11 @@ PageTable break_off_table(const std::vector<BreakOff>& loads) {
                     .title = "What breaks the cup off",
                     .columns = {"surface", "pressure, hPa", "pull, N", "shear, N", "peel, N m",
                                 "pull in weights"},
-                    .caption = "A sealed cup of 80 mm (assumed) moved away from the wall, along "
-                               "it, or tilted, each alone, until it lets go: at its best vacuum and "
-                               "at P_land. Closed forms: pull (P_atm - P) A, shear mu times that, "
-                               "peel that times R/2."};
+                    .caption =
+                        "A sealed cup of 80 mm (assumed) moved away from the wall, along "
+                        "it, or tilted, each alone, until it lets go: at its best vacuum and "
+                        "at P_land. Closed forms: pull (P_atm - P) A, shear mu times that, "
+                        "peel that times R/2."};
     for (const BreakOff& load : loads) {
         table.rows.push_back({load.surface, 0.01 * load.pressure_Pa, load.pull_N, load.shear_N,
                               load.peel_N_m, load.pull_in_weights});
@@ -88,7 +89,7 @@ PageTable break_off_table(const std::vector<BreakOff>& loads) {
 }  // namespace
 
 void study_beyond(Study& study) {
-    PageSection section{.id = "beyond"};
+    PageSection section{.id = "part-beyond"};
     study.say("release times");
     const std::vector<ReleaseTime> times = release_times(study.jobs);
     section.blocks.emplace_back(

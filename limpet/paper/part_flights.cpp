@@ -115,14 +115,15 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
 }
 
 PageTable flight_table(const std::vector<PaperFlight>& flights) {
-    PageTable table{.id = "flights-table",
-                    .title = "Flights",
-                    .columns = {"flight", "outcome", "docking runs", "impact, m/s", "press, N",
-                                "880 hPa after, s", "perched pitch, deg", "release, s",
-                                "state hash"},
-                    .caption = "One row a flight; each recording lies beside this page in "
-                               "`flights/NAME/flight.mcap` (Foxglove, PlotJuggler, ros2 bag). An "
-                               "empty value did not come to pass."};
+    PageTable table{
+        .id = "flights-table",
+        .title = "Flights",
+        .columns = {"flight", "outcome", "docking runs", "impact, m/s", "press, N",
+                    "880 hPa after, s", "perched pitch, deg", "release, s", "state hash"},
+        .caption =
+            "One row a flight; each recording lies beside this page in "
+            "`flights/NAME/flight.mcap` (Foxglove, PlotJuggler, ros2 bag). An "
+            "empty value did not come to pass."};
     const auto cell = [](double value) {
         return std::isfinite(value) ? Quantity(value) : Quantity(std::string("–"));
     };
@@ -160,7 +161,7 @@ void study_flights(Study& study) {
     (void)film(find(flights, "perch_concrete").recording,
                study.folder / "flights" / "perch_concrete");
 
-    PageSection section{.id = "flights"};
+    PageSection section{.id = "part-flights"};
     section.blocks.emplace_back(
         "The paper's flights, flown by the same method (its Fig. 7) on the simulated vehicle. Blue "
         "is what the sensors said, as in the paper's plots; events are those of the method.");

@@ -9,6 +9,7 @@
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet {
 namespace {
@@ -45,34 +46,34 @@ std::vector<StabilityMap> maps(const Study& study) {
 }
 
 /// A point of the map flown as a whole flight.
-struct Sample {
+struct MapPoint {
     double lag_s;
     double pivot_m;
     double linear_1_s = 0.0;
     double flown_1_s = 0.0;
 };
 
-std::vector<Sample> samples(const Study& study) {
-    std::vector<Sample> all = {{0.030, 0.46}, {0.065, 0.46}, {0.050, 0.50}, {0.080, 0.44}};
+std::vector<MapPoint> samples(const Study& study) {
+    std::vector<MapPoint> all = {{0.030, 0.46}, {0.065, 0.46}, {0.050, 0.50}, {0.080, 0.44}};
     if (!study.quick) {
         all.insert(all.end(), {{0.020, 0.54}, {0.065, 0.42}, {0.045, 0.46}, {0.080, 0.50}});
     }
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {
-        Sample& sample = all[i];
-        const Overrides point = {
-            fmt::format("vehicle.rotor.time_constant_up_s={}", sample.lag_s),
-            fmt::format("vehicle.rotor.time_constant_down_s={}", sample.lag_s),
-            fmt::format("vehicle.cup.joint_x_m={}", sample.pivot_m)};
+        MapPoint& sample = all[i];
+        const Overrides point = {fmt::format("vehicle.rotor.time_constant_up_s={}", sample.lag_s),
+                                 fmt::format("vehicle.rotor.time_constant_down_s={}", sample.lag_s),
+                                 fmt::format("vehicle.cup.joint_x_m={}", sample.pivot_m)};
         sample.linear_1_s = linear_swing(kSlow, point).growth_1_s;
         sample.flown_1_s = kicked_swing(kSlow, point).growth_1_s;
     });
     return all;
 }
 
-PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<Sample>& samples,
+PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<MapPoint>& samples,
                       const Study& study) {
-    Chart chart{.title = "Where the swing grows",
-                .subtitle = "growth rate of the pitch mode, vehicle level on its cup; dead time 16 ms"};
+    Chart chart{
+        .title = "Where the swing grows",
+        .subtitle = "growth rate of the pitch mode, vehicle level on its cup; dead time 16 ms"};
     for (const StabilityMap& map : maps) {
         HeatPanel panel{.title = map.title,
                         .x_label = "time constant of the motors  [ms]",
@@ -86,7 +87,7 @@ PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<S
         panel.levels = {-0.4, -0.2, 0.2, 0.4};
         panel.z_range = Range{-0.6, 0.6};
         if (map.gains.empty()) {
-            for (const Sample& sample : samples) {
+            for (const MapPoint& sample : samples) {
                 panel.points.push_back({.x = 1000.0 * sample.lag_s,
                                         .y = sample.pivot_m,
                                         .label = fmt::format("{:+.2f}", sample.flown_1_s)});
@@ -99,20 +100,22 @@ PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<S
     PageFigure figure = study.figure(
         chart, "fig-map",
         "From the linearised closed loop, the simulation's own stations differentiated at rest. "
-        "Blue decays, orange grows, the thick line parts them. Points with numbers: the same vehicle "
+        "Blue decays, orange grows, the thick line parts them. Points with numbers: the same "
+        "vehicle "
         "kicked in a whole flight, estimator included.",
         "Four maps of the growth rate over motor lag and pivot distance, for four sets of gains");
     figure.wide = true;
     return figure;
 }
 
-PageTable sample_table(const std::vector<Sample>& samples) {
-    PageTable table{.id = "map-check",
-                    .title = "The map against whole flights",
-                    .columns = {"motors, ms", "pivot, m", "linearised, 1/s", "kicked flight, 1/s",
-                                "difference, 1/s"},
-                    .caption = "Kick of 0.5 deg while the vehicle waits for the release, no noise."};
-    for (const Sample& sample : samples) {
+PageTable sample_table(const std::vector<MapPoint>& samples) {
+    PageTable table{
+        .id = "map-check",
+        .title = "The map against whole flights",
+        .columns = {"motors, ms", "pivot, m", "linearised, 1/s", "kicked flight, 1/s",
+                    "difference, 1/s"},
+        .caption = "Kick of 0.5 deg while the vehicle waits for the release, no noise."};
+    for (const MapPoint& sample : samples) {
         table.rows.push_back({fmt::format("{:.0f}", 1000.0 * sample.lag_s), sample.pivot_m,
                               sample.linear_1_s, sample.flown_1_s,
                               sample.flown_1_s - sample.linear_1_s});
@@ -153,9 +156,8 @@ std::vector<Cure> cures(const Study& study) {
 }
 
 PageFigure cure_figure(const std::vector<Cure>& cures, const Study& study) {
-    ChartPanel traces{.title = "pitch after a kick",
-                      .x_label = "since the kick  [s]",
-                      .y_label = "pitch  [deg]"};
+    ChartPanel traces{
+        .title = "pitch after a kick", .x_label = "since the kick  [s]", .y_label = "pitch  [deg]"};
     ChartPanel bars{.title = "growth", .y_label = "growth  [1/s]"};
     ChartSeries linear{.name = "linearised", .mark = ChartSeries::Mark::bars};
     ChartSeries flown{.name = "kicked flight", .mark = ChartSeries::Mark::bars};
@@ -178,20 +180,20 @@ PageFigure cure_figure(const std::vector<Cure>& cures, const Study& study) {
     traces.y_range = Range{-6.0, 6.0};
     bars.y_range = Range{-0.8, 0.6};
     bars.series = {linear, flown};
-    return study.figure({.title = "What makes it grow, what cures it", .panels = {traces, bars}},
-                        "fig-cures",
-                        "Each cure alone on the vehicle with slow motors. Altitude hold damps the "
-                        "height, and with it the pitch of a vehicle that pivots about its cup; its "
-                        "bar ends below the axis. A valve needs no cure: it releases before a swing "
-                        "can grow.",
-                        "Pitch after a kick for four cases, and growth rates of eight");
+    return study.figure(
+        {.title = "What makes it grow, what cures it", .panels = {traces, bars}}, "fig-cures",
+        "Each cure alone on the vehicle with slow motors. Altitude hold damps the "
+        "height, and with it the pitch of a vehicle that pivots about its cup; its "
+        "bar ends below the axis. A valve needs no cure: it releases before a swing "
+        "can grow.",
+        "Pitch after a kick for four cases, and growth rates of eight");
 }
 
 PageTable cure_table(const std::vector<Cure>& cures) {
-    PageTable table{.id = "cures",
-                    .title = "Growth and frequency",
-                    .columns = {"vehicle", "linearised, 1/s", "at, Hz", "kicked flight, 1/s",
-                                "at, Hz "}};
+    PageTable table{
+        .id = "cures",
+        .title = "Growth and frequency",
+        .columns = {"vehicle", "linearised, 1/s", "at, Hz", "kicked flight, 1/s", "at, Hz "}};
     const auto cell = [](double value) {
         return std::isfinite(value) ? Quantity(value) : Quantity(std::string("no swing left"));
     };
@@ -290,8 +292,9 @@ std::vector<PageFigure> slow_flights(Study& study) {
         PageFigure figure{.id = order.id,
                           .title = order.title,
                           .caption = "Seed 1 of `" + order.flight.scenario + "`.",
-                          .alt = "Pressure, pitch, force, thrust and distance while the vehicle "
-                                 "takes off, waits and releases",
+                          .alt =
+                              "Pressure, pitch, force, thrust and distance while the vehicle "
+                              "takes off, waits and releases",
                           .wide = true};
         fs::create_directories(study.folder / "figures");
         for (const char* ending : {".png", ".svg"}) {
@@ -303,6 +306,21 @@ std::vector<PageFigure> slow_flights(Study& study) {
         figures.push_back(std::move(figure));
     }
     return figures;
+}
+
+std::string candidate_text() {
+    const Airframe airframe = load_scenario(kSlow).airframe;
+    const double arm_m = airframe.cup.joint_x_m;
+    const double free_kg_m2 = airframe.inertia_kg_m2.y();
+    return fmt::format(
+        "**A candidate** from the simulation: level on its cup the vehicle turns about a pivot "
+        "{:.2f} m ahead, with {:.1f} times its free inertia, and PX4's rate integrator with the "
+        "lag "
+        "of the motors leaves hardly any damping. With Gazebo's fast motors the swing decays; with "
+        "motors of {:.0f} ms behind {:.0f} ms of dead time it grows, and gusts at the wall start "
+        "it.",
+        arm_m, (free_kg_m2 + airframe.mass_kg * arm_m * arm_m) / free_kg_m2,
+        1000.0 * airframe.rotor.time_constant_up_s, 1000.0 * airframe.rotor.command_delay_s);
 }
 
 void collect(const std::vector<MissionCase>& cases, const std::vector<Cure>& cures,
@@ -324,22 +342,19 @@ void collect(const std::vector<MissionCase>& cases, const std::vector<Cure>& cur
 void study_oscillation(Study& study) {
     study.say("stability maps");
     const std::vector<StabilityMap> all_maps = maps(study);
-    const std::vector<Sample> flown = samples(study);
+    const std::vector<MapPoint> flown = samples(study);
     study.say("kicked flights");
     const std::vector<Cure> all_cures = cures(study);
     study.say("missions");
     const std::vector<MissionCase> cases = missions(study);
     collect(cases, all_cures, study.evidence);
 
-    PageSection section{.id = "oscillation"};
+    PageSection section{.id = "part-oscillation"};
     section.blocks.emplace_back(
         "While the cup waits to release, the paper's vehicle swings in pitch and its simulation "
         "does not; on metal the swing grows past 5 deg within 16 s. The paper suspects "
-        "aerodynamics. **A candidate** from the simulation: level on its cup the vehicle turns "
-        "about a pivot 0.46 m ahead, with seven times its free inertia, and PX4's rate integrator "
-        "with the lag of the motors leaves hardly any damping. With Gazebo's fast motors the swing "
-        "decays; with motors of 65 ms behind 16 ms of dead time it grows, and gusts at the wall "
-        "start it.");
+        "aerodynamics.");
+    section.blocks.emplace_back(candidate_text());
     section.blocks.emplace_back(mission_figure(cases, study));
     section.blocks.emplace_back(mission_table(cases));
     for (PageFigure& figure : slow_flights(study)) {
@@ -349,13 +364,15 @@ void study_oscillation(Study& study) {
     section.blocks.emplace_back(sample_table(flown));
     section.blocks.emplace_back(cure_figure(all_cures, study));
     section.blocks.emplace_back(cure_table(all_cures));
-    section.blocks.emplace_back(
+    section.blocks.emplace_back(fmt::format(
         "**It is a candidate, not a proof.** The motor by itself is estimated at 21 to 47 ms, so "
         "that something more is needed: lower gains than PX4's defaults, a longer arm, a centre of "
-        "mass above the joint, a slower spin-down. What would tell: the frequency of the real swing "
-        "(here 0.64 to 0.66 Hz, falling with a longer arm), whether it vanishes with the rate "
+        "mass above the joint, a slower spin-down. What would tell: the frequency of the real "
+        "swing "
+        "(here {:.2f} to {:.2f} Hz, falling with a longer arm), whether it vanishes with the rate "
         "integrator off or with altitude hold on, the step response of a motor on the stand, and "
-        "the gains that flew.");
+        "the gains that flew.",
+        all_cures[0].mode.frequency_Hz, all_cures[1].mode.frequency_Hz));
     study.sections.push_back(std::move(section));
 }
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/reproduce.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "output.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    std::string out = "out/reproduce";
+    std::string only;
+    bool quick = false;
+    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+std::string command_of(const Options& options) {
+    return std::string("limpet reproduce") + (options.quick ? " --quick" : "") +
+           (options.only.empty() ? "" : " --only " + options.only);
+}
+
+void run(const Options& options) {
+    const Clock::time_point begin = Clock::now();
+    Terminal terminal(Terminal::Voice::normal);
+    std::string part;
+    const ReproduceWatch watch{
+        .on_part =
+            [&](std::size_t k, std::size_t of, const std::string& title) {
+                const double past_s = std::chrono::duration<double>(Clock::now() - begin).count();
+                part = fmt::format("{}/{}  {}", k, of, title);
+                terminal.line(fmt::format("{:5.0f} s  {}", past_s, part));
+            },
+        .on_work =
+            [&](const std::string& what) { terminal.progress(part + ": " + what + " ..."); }};
+    const Reproduction result = reproduce({.folder = make_folder(options.out),
+                                           .only = options.only,
+                                           .quick = options.quick,
+                                           .jobs = options.jobs,
+                                           .command = command_of(options)},
+                                          watch);
+    terminal.line("");
+    for (const Claim& claim : result.page.claims) {
+        if (claim.verdict == Verdict::differs) {
+            terminal.line(fmt::format("differs    {} ({}): {} {}", claim.statement, claim.section,
+                                      to_text(claim.simulated), claim.unit));
+        }
+    }
+    terminal.line(terminal.bold("claims     ") +
+                  fmt::format("{} reproduced, {} differ, {} not modelled",
+                              result.count(Verdict::reproduced), result.count(Verdict::differs),
+                              result.count(Verdict::not_modelled)));
+    for (const auto& file : result.files) {
+        terminal.line(terminal.bold("written    ") + file.string());
+    }
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand(
+        "reproduce",
+        "Fly the paper's experiments and write its tables, figures and claims as a page");
+    verb->add_option("--out", options->out, "folder (default: out/reproduce)")->type_name("DIR");
+    verb->add_option("--only", options->only, "one part, named below")->type_name("NAME");
+    verb->add_flag("--quick", options->quick, "fewer missions, coarser maps; under two minutes");
+    verb->add_option("--jobs,-j", options->jobs, "threads (default: one a processor)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    std::string footer = "Parts:\n";
+    for (const auto& [name, title] : part_titles()) {
+        footer += fmt::format("  {:<12} {}\n", name, title);
+    }
+    verb->footer(
+        footer +
+        "Writes index.html (opens offline), results.json, figures/, and the recordings and "
+        "campaigns behind them.\n");
+    verb->callback([options] { run(*options); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/paper/reproduce.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/version.hpp"
+#include "limpet/paper/claims.hpp"
+#include "limpet/paper/study.hpp"
+
+namespace limpet {
+namespace {
+
+std::vector<Part> wanted(const std::string& only) {
+    std::vector<Part> chosen;
+    std::string names;
+    for (const Part& part : parts()) {
+        if (only.empty() || only == part.name) {
+            chosen.push_back(part);
+        }
+        names += (names.empty() ? "" : ", ") + part.name;
+    }
+    if (chosen.empty()) {
+        throw InputError(fmt::format("--only {}: no such part; there are {}", only, names));
+    }
+    return chosen;
+}
+
+std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
+    std::set<std::string> ids;
+    for (const PageSection& section : sections) {
+        for (const PageBlock& block : section.blocks) {
+            if (const auto* figure = std::get_if<PageFigure>(&block)) {
+                ids.insert(figure->id);
+            }
+        }
+    }
+    return ids;
+}
+
+/// All of them; of a part alone those that it has evidence for.
+std::vector<Claim> judged(const Study& study, bool all) {
+    const std::set<std::string> figures = figure_ids(study.sections);
+    std::vector<Claim> claims;
+    for (const Statement& statement : statements()) {
+        if (!all && !study.evidence.has(statement.evidence)) {
+            continue;
+        }
+        require(statement.evidence.empty() || study.evidence.has(statement.evidence),
+                "evidence is looked for under its name");
+        Claim claim = judge(statement, study.evidence);
+        if (figures.count(claim.figure) == 0) {
+            require(!all || claim.figure.empty(), "the figure of a statement is on the page");
+            claim.figure.clear();
+        }
+        if (!claim.recording.empty() && !std::filesystem::exists(study.folder / claim.recording)) {
+            require(!all, "the recording of a statement is there");
+            claim.recording.clear();
+        }
+        claims.push_back(std::move(claim));
+    }
+    return claims;
+}
+
+std::vector<std::string> summary_of(const Reproduction& result) {
+    return {
+        fmt::format("**{} of the paper's statements are reproduced, {} differ, {} are not "
+                    "modelled.** Each verdict is computed from the simulation: the measured "
+                    "value lies within the accepted range or it does not.",
+                    result.count(Verdict::reproduced), result.count(Verdict::differs),
+                    result.count(Verdict::not_modelled)),
+        "The paper gives no cup diameter, slider, arm length, motor lag or gains. Ours are "
+        "assumed, marked so, and can all be set; where a claim rests on one, its note says so."};
+}
+
+}  // namespace
+
+std::size_t Reproduction::count(Verdict verdict) const {
+    return static_cast<std::size_t>(
+        std::count_if(page.claims.begin(), page.claims.end(),
+                      [&](const Claim& claim) { return claim.verdict == verdict; }));
+}
+
+std::vector<std::pair<std::string, std::string>> part_titles() {
+    std::vector<std::pair<std::string, std::string>> titles;
+    for (const Part& part : parts()) {
+        titles.emplace_back(part.name, part.title);
+    }
+    return titles;
+}
+
+Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
+    const std::vector<Part> chosen = wanted(options.only);
+    Study study;
+    study.folder = options.folder;
+    study.quick = options.quick;
+    study.jobs = options.jobs;
+    study.tell = watch.on_work;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        if (watch.on_part) {
+            watch.on_part(i + 1, chosen.size(), chosen[i].title);
+        }
+        chosen[i].run(study);
+        study.sections.back().title = chosen[i].title;
+    }
+    Reproduction result;
+    Page& page = result.page;
+    page.title = "Perching with a suction cup, reproduced";
+    page.subtitle =
+        "Simulation and Experimental Validation of an Autonomous Perching and Takeoff Method for a "
+        "Multirotor UAV on Vertical Surfaces using a Suction Cup: every table, figure and claim";
+    page.claims = judged(study, options.only.empty());
+    page.summary = summary_of(result);
+    page.sections.push_back(
+        {.id = "claims", .title = "What the paper says, line by line", .blocks = {ClaimTable{}}});
+    for (PageSection& section : study.sections) {
+        page.sections.push_back(std::move(section));
+    }
+    page.environment = {{"version", std::string(kVersion)},
+                        {"seed", 1.0},
+                        {"mode", std::string(options.quick ? "quick" : "full")},
+                        {"command", options.command}};
+    result.files = write_page(page, options.folder);
+    return result;
+}
+
+}  // namespace limpet

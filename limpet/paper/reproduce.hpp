@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "limpet/report/page.hpp"
+
+namespace limpet {
+
+struct ReproduceOptions {
+    std::filesystem::path folder;
+    std::string only = {};  ///< name of a part; empty: all
+    bool quick = false;     ///< fewer missions, coarser maps
+    int jobs = 1;           ///< threads
+    std::string command;    ///< as typed, for the page
+};
+
+/// How it is watched. Empty members watch nothing.
+struct ReproduceWatch {
+    /// @param part  from 1
+    std::function<void(std::size_t part, std::size_t of, const std::string& title)> on_part;
+    std::function<void(const std::string& what)> on_work;
+};
+
+struct Reproduction {
+    Page page;
+    std::vector<std::filesystem::path> files;  ///< index.html, results.json
+    [[nodiscard]] std::size_t count(Verdict verdict) const;
+};
+
+/// Names of the parts that `only` takes, with their titles.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> part_titles();
+
+/// Flies the paper's experiments, measures them, judges its statements and writes
+/// FOLDER/index.html, results.json, figures/, flights/ and campaigns/. With `only`, the statements
+/// that this part bears on.
+/// @throws InputError for a part that is none, an unwritable folder, a missing gnuplot
+Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch = {});
+
+}  // namespace limpet
