@@ -155,6 +155,15 @@ std::string tick_label(double value) {
     return text;
 }
 
+void set_ticks(Sketch& sketch, char axis, const std::vector<double>& values) {
+    std::string list;
+    for (const double value : values) {
+        list += fmt::format("{}'{}' {:.10g}", list.empty() ? "" : ", ", tick_label(value), value);
+    }
+    // An empty list would mean gnuplot's own ticks.
+    sketch.add("set {}tics ({})\n", axis, list.empty() ? "'' -1e30" : list);
+}
+
 bool drawable(double value, bool logarithmic) {
     return std::isfinite(value) && (!logarithmic || value > 0.0);
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limpet/report/chart.hpp"
+#include "limpet/report/sketch.hpp"
 
 /// Where the axes of a chart begin and end, and their ticks.
 namespace limpet {
@@ -22,6 +23,10 @@ namespace limpet {
 
 /// As short as it may be: "0.4", "10⁻⁶".
 [[nodiscard]] std::string tick_label(double value);
+
+/// These ticks and no others on the plots to come.
+/// @param axis  'x' or 'y'
+void set_ticks(Sketch& sketch, char axis, const std::vector<double>& values);
 
 /// True where a number can be drawn on the axis.
 [[nodiscard]] bool drawable(double value, bool logarithmic);

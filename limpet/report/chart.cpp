@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/axes.hpp"
 #include "limpet/report/chart_parts.hpp"
 #include "limpet/report/colours.hpp"
 #include "limpet/report/gnuplot.hpp"
@@ -141,15 +140,6 @@ double draw_title(Sketch& sketch, const std::string& title, double left_px, doub
         y += kLine_px;
     }
     return y - 0.5 * kLine_px + 4.0;
-}
-
-void set_ticks(Sketch& sketch, char axis, const std::vector<double>& values) {
-    std::string list;
-    for (const double value : values) {
-        list += fmt::format("{}'{}' {:.10g}", list.empty() ? "" : ", ", tick_label(value), value);
-    }
-    // An empty list would mean gnuplot's own ticks.
-    sketch.add("set {}tics ({})\n", axis, list.empty() ? "'' -1e30" : list);
 }
 
 Pictures draw_chart(const Chart& chart, const std::string& stem,

@@ -57,7 +57,7 @@ struct ChartPanel {
     double height_px = 280.0;  ///< of the plot itself
 };
 
-/// A marked place on a map.
+/// A marked place on a map; not shown where it lies beside it.
 struct HeatPoint {
     double x = 0.0;
     double y = 0.0;

@@ -15,6 +15,7 @@ namespace {
 using Mark = ChartSeries::Mark;
 
 constexpr double kMomentGap_px = 24.0;
+constexpr double kMostBar_px = 80.0;
 
 constexpr const char* kPalette[] = {colours::kDarkBlue, colours::kOrange, colours::kBlue,
                                     colours::kRust,     colours::kGreen,  colours::kPlum};
@@ -35,8 +36,12 @@ std::string colour_of(const ChartPanel& panel, std::size_t index) {
     return own;
 }
 
-int shape_of(std::size_t index) {
-    return kShapes[index % std::size(kShapes)];
+/// Each series of points has its own.
+int shape_of(const ChartPanel& panel, std::size_t index) {
+    const auto before = std::count_if(panel.series.begin(),
+                                      panel.series.begin() + static_cast<std::ptrdiff_t>(index),
+                                      [](const ChartSeries& s) { return s.mark == Mark::points; });
+    return kShapes[static_cast<std::size_t>(before) % std::size(kShapes)];
 }
 
 bool has_number(const ChartPanel& panel) {
@@ -127,7 +132,7 @@ private:
                 case Mark::bars: sketch_.box(x0 + 6.0, y - 8.0, x1, y + 8.0, colour.c_str()); break;
                 case Mark::points: {
                     const std::string point = fmt::format("point pt {} ps 1.1*MARK lc rgb '{}'",
-                                                          shape_of(entry.series), colour);
+                                                          shape_of(panel_, entry.series), colour);
                     sketch_.label(0.5 * (x0 + x1), y, "", kChartSmall_px, colours::kInk,
                                   point.c_str());
                     break;
@@ -317,7 +322,7 @@ private:
         }
         if (s.mark == Mark::points) {
             clause(fmt::format("{}1:2 with points pt {} ps 0.9*MARK lc rgb '{}'", block,
-                               shape_of(index), colour));
+                               shape_of(panel_, index), colour));
         }
     }
 
@@ -336,7 +341,8 @@ private:
                 pitch = apart > 0.0 ? std::min(pitch, apart) : pitch;
             }
         }
-        return 0.76 * pitch / static_cast<double>(bar_count());
+        const double most = kMostBar_px / box_.width_px() * (x_.high - x_.low);
+        return std::min(0.76 * pitch / static_cast<double>(bar_count()), most);
     }
 
     [[nodiscard]] double bar_shift(std::size_t index) const {

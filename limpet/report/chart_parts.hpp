@@ -58,7 +58,4 @@ double draw_title(Sketch& sketch, const std::string& title, double left_px, doub
                   double width_px);
 [[nodiscard]] double title_px(const std::string& title, double width_px);
 
-/// Ticks for gnuplot: `set xtics ("0.2" 0.2, ...)`.
-void set_ticks(Sketch& sketch, char axis, const std::vector<double>& values);
-
 }  // namespace limpet

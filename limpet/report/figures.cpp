@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/figure_script.hpp"
+#include "limpet/report/figure_sketch.hpp"
 #include "limpet/report/gnuplot.hpp"
 
 namespace limpet {
@@ -63,16 +62,6 @@ Figure make_figure(const Recording& recording, const Chapter& chapter) {
     return figure;
 }
 
-void draw(const Figure& figure, const std::string& stem, const std::filesystem::path& folder) {
-    std::ofstream data(folder / (stem + ".txt"), std::ios::binary);
-    data << figure_data(figure);
-    data.close();
-    if (!data) {
-        throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
-    }
-    gnuplot::run(folder, figure_script(figure, stem));
-}
-
 }  // namespace
 
 Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
@@ -83,9 +72,10 @@ Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
         if (figure.panels.empty() || chapter.window.span_s() <= 0.0) {
             continue;
         }
-        draw(figure, chapter.file, work.path());
-        drawn.push_back(work.path() / (chapter.file + ".png"));
-        drawn.push_back(work.path() / (chapter.file + ".svg"));
+        for (const auto& file :
+             draw(figure_sketch(figure), figure_data(figure), chapter.file, work.path())) {
+            drawn.push_back(file);
+        }
     }
     if (drawn.empty()) {
         throw InputError(fmt::format("{}: nothing to plot: {}", recording.path.string(),

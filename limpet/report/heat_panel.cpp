@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kBarGap_px = 20.0;
 constexpr double kBar_px = 20.0;
-constexpr std::size_t kPixels = 200;  ///< of the map along each axis; between them it is smooth
+constexpr double kNameHalf_px = 10.0;  ///< half the height of a name on the map
+constexpr std::size_t kPixels = 200;   ///< of the map along each axis; between them it is smooth
 
 struct Rgb {
     double red = 0.0;
@@ -188,11 +189,11 @@ private:
     /// In the middle of its longest line, on a ground of its own.
     void name(double level, const ContourLine& line) {
         const ContourPoint& middle = line[line.size() / 2];
-        place(middle.x, middle.y, tick_label(level), "center boxed", 0.0);
-    }
-
-    void place(double x, double y, const std::string& text, const char* options, double offset_px) {
-        sketch_.label(x_px(x) + offset_px, y_px(y), text, kChartSmall_px, colours::kInk, options);
+        const std::string text = tick_label(level);
+        const double x = x_px(middle.x), y = y_px(middle.y);
+        const double half = 0.5 * text_width_px(text, kChartSmall_px);
+        sketch_.label(x, y, text, kChartSmall_px, colours::kInk, "center boxed");
+        taken_.push_back({x - half, y - kNameHalf_px, x + half, y + kNameHalf_px});
     }
 
     void points() {
@@ -200,10 +201,9 @@ private:
         for (const bool filled : {true, false}) {
             std::string rows;
             for (const HeatPoint& point : panel_.points) {
-                if (point.filled != filled) {
-                    continue;
+                if (point.filled == filled && inside(point)) {
+                    rows += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
                 }
-                rows += fmt::format("{:.10g} {:.10g}\n", point.x, point.y);
             }
             if (rows.empty()) {
                 continue;
@@ -217,15 +217,40 @@ private:
                 "DATA index {} using 1:2 with points pt {} ps {}*MARK lw 1.8 lc rgb '{}'", block,
                 filled ? 7 : 6, filled ? 1.0 : 1.1, colours::kInk));
         }
+        names();
+    }
+
+    void names() {
+        constexpr double kMark_px = 7.0, kGap_px = 12.0;
         for (const HeatPoint& point : panel_.points) {
-            // To the side where there is room.
-            const bool left =
-                x_px(point.x) + 20.0 + text_width_px(point.label, kChartSmall_px) > box_.right_px;
-            if (!point.label.empty()) {
-                place(point.x, point.y, point.label, left ? "right boxed" : "left boxed",
-                      left ? -13.0 : 13.0);
-            }
+            const double x = x_px(point.x), y = y_px(point.y);
+            taken_.push_back({x - kMark_px, y - kMark_px, x + kMark_px, y + kMark_px});
         }
+        for (const HeatPoint& point : panel_.points) {
+            if (point.label.empty() || !inside(point)) {
+                continue;
+            }
+            const Box place =
+                beside(x_px(point.x), y_px(point.y), text_width_px(point.label, kChartSmall_px),
+                       2.0 * kNameHalf_px, kGap_px, taken_,
+                       {box_.left_px, box_.top_px, box_.right_px, box_.bottom_px});
+            // The estimate of the width is generous: the name keeps to the mark's side.
+            const bool right = place.left_px > x_px(point.x), left = place.right_px < x_px(point.x);
+            sketch_.label(right  ? place.left_px
+                          : left ? place.right_px
+                                 : x_px(point.x),
+                          0.5 * (place.top_px + place.bottom_px), point.label, kChartSmall_px,
+                          colours::kInk,
+                          right  ? "left boxed"
+                          : left ? "right boxed"
+                                 : "center boxed");
+            taken_.push_back(place);
+        }
+    }
+
+    [[nodiscard]] bool inside(const HeatPoint& point) const {
+        return point.x >= panel_.x.front() && point.x <= panel_.x.back() &&
+               point.y >= panel_.y.front() && point.y <= panel_.y.back();
     }
 
     [[nodiscard]] double x_px(double x) const {
@@ -247,6 +272,7 @@ private:
     const PlotBox& box_;
     Range range_;
     std::string clauses_;
+    std::vector<Box> taken_;  ///< by names and marks
 };
 
 }  // namespace

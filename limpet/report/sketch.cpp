@@ -23,8 +23,10 @@ std::string Sketch::at(double x_px, double y_px) const {
 
 void Sketch::label(double x_px, double y_px, std::string_view text, double size_px,
                    const char* colour, const char* options) {
-    add("set label {} at {} {} noenhanced font 'DejaVu Sans,{}' textcolor rgb '{}' front\n",
-        gnuplot::literal(text), at(x_px, y_px), options, size_px, colour);
+    const bool enhanced = std::string_view(options).find("enhanced") != std::string_view::npos;
+    add("set label {} at {} {} {} font 'DejaVu Sans,{}' textcolor rgb '{}' front\n",
+        gnuplot::literal(text), at(x_px, y_px), options, enhanced ? "" : "noenhanced", size_px,
+        colour);
 }
 
 void Sketch::line(double x0_px, double y0_px, double x1_px, double y1_px, const char* colour,

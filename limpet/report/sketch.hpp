@@ -26,7 +26,8 @@ public:
         text_ += fmt::vformat(format, fmt::make_format_args(values...));
     }
 
-    /// @param options  "left", "center" or "right", and what else `set label` takes
+    /// @param options  "left", "center" or "right", and what else `set label` takes; marks in the
+    /// text are letters unless "enhanced"
     void label(double x_px, double y_px, std::string_view text, double size_px, const char* colour,
                const char* options = "left");
     void line(double x0_px, double y0_px, double x1_px, double y1_px, const char* colour,

@@ -10,7 +10,7 @@
 
 #include "flights.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/figure_script.hpp"
+#include "limpet/report/figure_sketch.hpp"
 #include "png.hpp"
 
 namespace limpet {
@@ -83,10 +83,10 @@ TEST(FigureData, parts_curves_by_two_empty_lines_and_gaps_by_one) {
     EXPECT_EQ(figure_data(figure), "1 10\n\n4 11\n\n\n0 1\n1 2\n\n\n");
 }
 
-TEST(FigureScript, draws_every_curve_and_names_every_event) {
+TEST(FigureSketch, draws_every_curve_and_names_every_event) {
     const Recording flight = test::fly();
     const Figure figure = figure_of(flight, {0.0, 28.5});
-    const std::string script = figure_script(figure, "stem");
+    const std::string script = figure_sketch(figure).script("stem");
     EXPECT_TRUE(has(script, "index 8 "));
     EXPECT_FALSE(has(script, "index 9 "));
     EXPECT_TRUE(has(script, "\"impact  3.90\""));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "limpet/report/panels.hpp"
+#include "limpet/report/sketch.hpp"
 #include "limpet/report/story.hpp"
 
 namespace limpet {
@@ -24,7 +25,7 @@ struct Figure {
 /// empty line where a curve has a gap. Times and values to 10 digits.
 [[nodiscard]] std::string figure_data(const Figure& figure);
 
-/// A gnuplot script that draws STEM.png and STEM.svg from figure_data() in the file STEM.txt.
-[[nodiscard]] std::string figure_script(const Figure& figure, const std::string& stem);
+/// The picture whose DATA is figure_data().
+[[nodiscard]] Sketch figure_sketch(const Figure& figure);
 
 }  // namespace limpet
