@@ -44,6 +44,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_film(app);
     add_csv(app);
     add_export(app);
+    add_rotor(app);
 }
 
 /// The first word must be a verb; said before the parser only misses one.

@@ -27,5 +27,6 @@ void add_campaign(CLI::App& app, ExitCode& code);
 void add_replay(CLI::App& app);
 void add_reproduce(CLI::App& app);
 void add_summary(CLI::App& app);
+void add_rotor(CLI::App& app);
 
 }  // namespace limpet::app

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
+#include "limpet/vehicle/propeller_file.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RotorOptions {
+    std::string file;
+    std::string diameter;
+    double density_kg_m3 = kAirDensity_kg_m3;
+    std::optional<double> speed_rpm;
+    bool json = false;
+};
+
+struct Finding {
+    double diameter_m = 0.0;
+    std::vector<PropellerRow> rows;
+    std::vector<RotorConstants> constants;  ///< of each row
+    RotorConstants chosen;
+};
+
+Finding find(const RotorOptions& options) {
+    if (!(options.density_kg_m3 >= 0.01 && options.density_kg_m3 <= 10.0)) {
+        throw InputError(fmt::format("--density {:g}: is out of range, allowed 0.01..10 kg/m3",
+                                     options.density_kg_m3));
+    }
+    Finding found;
+    found.diameter_m = length_m(options.diameter, "--diameter");
+    found.rows = read_propeller_file(options.file);
+    for (const PropellerRow& row : found.rows) {
+        found.constants.push_back(rotor_constants(row, found.diameter_m, options.density_kg_m3));
+    }
+    if (!options.speed_rpm) {
+        found.chosen = fitted_constants(found.rows, found.diameter_m, options.density_kg_m3);
+        return found;
+    }
+    try {
+        found.chosen = rotor_constants(row_at(found.rows, *options.speed_rpm), found.diameter_m,
+                                       options.density_kg_m3);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--rpm: {}: {}", options.file, error.what()));
+    }
+    return found;
+}
+
+struct Range {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+Range range_of(const std::vector<RotorConstants>& all, double RotorConstants::*field) {
+    const auto [low, high] =
+        std::minmax_element(all.begin(), all.end(),
+                            [field](const auto& a, const auto& b) { return a.*field < b.*field; });
+    return {(*low).*field, (*high).*field};
+}
+
+std::string how(const RotorOptions& options) {
+    return options.speed_rpm ? fmt::format("at {:g} rpm", *options.speed_rpm)
+                             : "least squares over all rows";
+}
+
+std::string spread(const Range& range, double chosen) {
+    return fmt::format("rows {:.4g} .. {:.4g}, {:+.1f} .. {:+.1f} %", range.low, range.high,
+                       100.0 * (range.low / chosen - 1.0), 100.0 * (range.high / chosen - 1.0));
+}
+
+void print_text(const RotorOptions& options, const Finding& found) {
+    fmt::print("{:>9}  {:>8}  {:>8}  {:>12}  {:>9}\n", "rpm", "C_T", "C_P", "k_mot kg m",
+               "k_mom m");
+    for (std::size_t i = 0; i < found.rows.size(); ++i) {
+        const PropellerRow& row = found.rows[i];
+        fmt::print("{:9.1f}  {:8.5f}  {:8.5f}  {:12.4e}  {:9.5f}\n", row.speed_rpm,
+                   row.thrust_coefficient, row.power_coefficient,
+                   found.constants[i].motor_constant_kg_m, found.constants[i].moment_constant_m);
+    }
+    const Range k_mot = range_of(found.constants, &RotorConstants::motor_constant_kg_m);
+    const Range k_mom = range_of(found.constants, &RotorConstants::moment_constant_m);
+    fmt::print("\nD {:g} m, rho {:g} kg/m3, eqs. (3) and (4), {}:\n", found.diameter_m,
+               options.density_kg_m3, how(options));
+    fmt::print("  motor_constant_kg_m: {:.4e}   # {}\n", found.chosen.motor_constant_kg_m,
+               spread(k_mot, found.chosen.motor_constant_kg_m));
+    fmt::print("  moment_constant_m: {:.4e}     # {}\n", found.chosen.moment_constant_m,
+               spread(k_mom, found.chosen.moment_constant_m));
+    fmt::print("as the section `rotor` of a vehicle takes them\n");
+}
+
+Json json_of(const RotorConstants& constants) {
+    return {{"motor_constant_kg_m", constants.motor_constant_kg_m},
+            {"moment_constant_m", constants.moment_constant_m}};
+}
+
+void print_json(const RotorOptions& options, const Finding& found) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < found.rows.size(); ++i) {
+        Json row = {{"speed_rpm", found.rows[i].speed_rpm},
+                    {"thrust_coefficient", found.rows[i].thrust_coefficient},
+                    {"power_coefficient", found.rows[i].power_coefficient}};
+        row.update(json_of(found.constants[i]));
+        rows.push_back(row);
+    }
+    const Json json = {{"file", options.file},
+                       {"diameter_m", found.diameter_m},
+                       {"density_kg_m3", options.density_kg_m3},
+                       {"how", how(options)},
+                       {"rotor", json_of(found.chosen)},
+                       {"rows", rows}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_rotor(CLI::App& app) {
+    auto options = std::make_shared<RotorOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "rotor", "Work out a rotor's constants from a propeller's static measurement");
+    verb->add_option("file", options->file, "UIUC static file: columns RPM, CT, CP")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("--diameter", options->diameter,
+                     "of the propeller, with its unit: 12in, 305mm")
+        ->required()
+        ->type_name("LENGTH");
+    verb->add_option("--density", options->density_kg_m3, "of the air in the result, 1.225 kg/m3")
+        ->type_name("RHO");
+    verb->add_option("--rpm", options->speed_rpm,
+                     "take the coefficients at this speed, as at hover; else a fit over all rows,\n"
+                     "in which a row counts with the fourth power of its speed")
+        ->type_name("R");
+    verb->add_flag("--json", options->json, "one JSON object on standard output");
+    verb->footer(
+        "Example:\n"
+        "  limpet rotor apce_12x5.5_static.txt --diameter 12in --rpm 5350\n"
+        "Files: m-selig.ae.illinois.edu/props/propDB.html\n");
+    verb->callback([options] {
+        const Finding found = find(*options);
+        options->json ? print_json(*options, found) : print_text(*options, found);
+    });
+}
+
+}  // namespace limpet::app
