@@ -26,5 +26,6 @@ void add_export(CLI::App& app);
 void add_campaign(CLI::App& app, ExitCode& code);
 void add_replay(CLI::App& app);
 void add_summary(CLI::App& app);
+void add_identify(CLI::App& app);
 
 }  // namespace limpet::app
