@@ -175,6 +175,22 @@ std::string seconds_text(double t_s) {
     return text.str();
 }
 
+void check_options(const IdentificationOptions& options) {
+    for (const auto& given :
+         {options.pump_on_s, options.pump_off_s, options.from_s, options.to_s}) {
+        if (given && !std::isfinite(*given)) {
+            throw InputError("a time that is given must be a finite number");
+        }
+    }
+    if (!(options.atmosphere_Pa > 0.0 && std::isfinite(options.atmosphere_Pa))) {
+        throw InputError("the atmosphere must be a finite pressure above zero");
+    }
+    require(options.confidence > 0.0 && options.confidence < 1.0, "a confidence between 0 and 1");
+    if (options.pump_on_s && options.pump_off_s && *options.pump_on_s >= *options.pump_off_s) {
+        throw InputError("the pump must go on before it goes off");
+    }
+}
+
 void check(const PressureTrace& trace, const IdentificationOptions& options) {
     if (trace.t_s.size() < kFewestSamples) {
         throw InputError(std::to_string(trace.t_s.size()) +
@@ -188,9 +204,6 @@ void check(const PressureTrace& trace, const IdentificationOptions& options) {
                              seconds_text(trace.t_s.front()) + " to " +
                              seconds_text(trace.t_s.back()));
         }
-    }
-    if (options.pump_on_s && options.pump_off_s && *options.pump_on_s >= *options.pump_off_s) {
-        throw InputError("the pump must go on before it goes off");
     }
 }
 
@@ -306,6 +319,7 @@ CurveFit fitted_curve(const PressureTrace& trace, const Stages& stages,
 PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOptions& options) {
     require(trace.t_s.size() == trace.pressure_Pa.size(), "a pressure for every time");
     require(std::is_sorted(trace.t_s.begin(), trace.t_s.end()), "a trace's times rise");
+    check_options(options);
     const std::size_t first = options.from_s ? sample_at(trace, *options.from_s) : 0;
     const std::size_t end = options.to_s ? sample_at(trace, *options.to_s) : trace.t_s.size();
     const PressureTrace asked = samples_of(trace, first, std::max(first, end) - first);

@@ -64,7 +64,8 @@ TEST(Tables, ForgetNoField) {
     expect_complete(cup_mount_table(), "cup");
     expect_complete(leg_table(), "legs");
     expect_complete(battery_table(), "battery");
-    EXPECT_EQ(cup_table().size() + lip_table().size(), sizeof(CupParameters) / sizeof(double));
+    EXPECT_EQ(cup_table().size() + pneumatic_table().size() + lip_table().size(),
+              sizeof(CupParameters) / sizeof(double));
 }
 
 TEST(Tables, HoldEveryDerivedKey) {
