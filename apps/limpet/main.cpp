@@ -37,6 +37,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_replay(app);
     add_summary(app);
     add_reproduce(app);
+    add_identify(app);
     add_check(app);
     add_list(app);
     add_params(app);

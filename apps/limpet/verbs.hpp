@@ -28,5 +28,6 @@ void add_replay(CLI::App& app);
 void add_reproduce(CLI::App& app);
 void add_summary(CLI::App& app);
 void add_rotor(CLI::App& app);
+void add_identify(CLI::App& app);
 
 }  // namespace limpet::app

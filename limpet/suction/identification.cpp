@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -167,9 +169,29 @@ bool add_ripple(const PressureTrace& trace, Guess& guess) {
     return true;
 }
 
+std::string seconds_text(double t_s) {
+    std::ostringstream text;
+    text << std::setprecision(6) << t_s << " s";
+    return text.str();
+}
+
+void check_options(const IdentificationOptions& options) {
+    for (const auto& given :
+         {options.pump_on_s, options.pump_off_s, options.from_s, options.to_s}) {
+        if (given && !std::isfinite(*given)) {
+            throw InputError("a time that is given must be a finite number");
+        }
+    }
+    if (!(options.atmosphere_Pa > 0.0 && std::isfinite(options.atmosphere_Pa))) {
+        throw InputError("the atmosphere must be a finite pressure above zero");
+    }
+    require(options.confidence > 0.0 && options.confidence < 1.0, "a confidence between 0 and 1");
+    if (options.pump_on_s && options.pump_off_s && *options.pump_on_s >= *options.pump_off_s) {
+        throw InputError("the pump must go on before it goes off");
+    }
+}
+
 void check(const PressureTrace& trace, const IdentificationOptions& options) {
-    require(trace.t_s.size() == trace.pressure_Pa.size(), "a pressure for every time");
-    require(std::is_sorted(trace.t_s.begin(), trace.t_s.end()), "a trace's times rise");
     if (trace.t_s.size() < kFewestSamples) {
         throw InputError(std::to_string(trace.t_s.size()) +
                          " samples are too few to fit, at least 20 are needed");
@@ -177,14 +199,11 @@ void check(const PressureTrace& trace, const IdentificationOptions& options) {
     for (const auto& [name, given] :
          {std::pair("pump on", options.pump_on_s), std::pair("pump off", options.pump_off_s)}) {
         if (given && !(*given >= trace.t_s.front() && *given <= trace.t_s.back())) {
-            throw InputError(std::string(name) + " at " + std::to_string(*given) +
-                             " s is outside the log, which is from " +
-                             std::to_string(trace.t_s.front()) + " to " +
-                             std::to_string(trace.t_s.back()) + " s");
+            throw InputError(std::string(name) + " at " + seconds_text(*given) +
+                             " is outside the log, which is from " +
+                             seconds_text(trace.t_s.front()) + " to " +
+                             seconds_text(trace.t_s.back()));
         }
-    }
-    if (options.pump_on_s && options.pump_off_s && *options.pump_on_s >= *options.pump_off_s) {
-        throw InputError("the pump must go on before it goes off");
     }
 }
 
@@ -243,6 +262,7 @@ PressureFit result_of(const CurveFit& fit, const IdentificationOptions& options)
                        .ripple_Pa = std::hypot(curve.ripple_cos_Pa, curve.ripple_sin_Pa),
                        .residual_Pa = fit.residual_Pa,
                        .memory_s = fit.memory_s,
+                       .first_sample = 0,
                        .samples = 0,
                        .curve = curve,
                        .notes = {}};
@@ -272,38 +292,51 @@ void drop_short_stages(const PressureTrace& trace, Stages& stages) {
     }
 }
 
-}  // namespace
-
-PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOptions& options) {
-    check(trace, options);
-    Stages stages = stages_of(trace, options);
-    if (options.pump_off_s) {
-        stages.used = std::max(stages.used, sample_at(trace, *options.pump_off_s));
-    }
-    const PressureTrace used = first_samples(trace, stages.used);
-    drop_short_stages(used, stages);
-
-    Guess guess = best_guess(used, stages, options, false);
+/// From a mean curve to one with ripple, and its covariance.
+CurveFit fitted_curve(const PressureTrace& trace, const Stages& stages,
+                      const IdentificationOptions& options) {
+    Guess guess = best_guess(trace, stages, options, false);
     const bool sees_atmosphere = guess.curve.unsealing && !guess.curve.baseline &&
-                                 used.t_s.back() - guess.curve.off_s > 2.0 * guess.curve.tau_2_s;
+                                 trace.t_s.back() - guess.curve.off_s > 2.0 * guess.curve.tau_2_s;
     if (sees_atmosphere) {
-        guess = best_guess(used, stages, options, true);
+        guess = best_guess(trace, stages, options, true);
     }
-    const bool ripples = add_ripple(used, guess);
-    CurveFit fit = fit_curve(used, guess.curve, guess.free);
+    const bool ripples = add_ripple(trace, guess);
+    CurveFit fit = fit_curve(trace, guess.curve, guess.free);
     if (!fit.regular && ripples) {  // a line that the whole trace does not bear out
         guess.free.resize(guess.free.size() - 3);
         guess.curve.ripple_Hz = guess.curve.ripple_cos_Pa = guess.curve.ripple_sin_Pa = 0.0;
-        fit = fit_curve(used, guess.curve, guess.free);
+        fit = fit_curve(trace, guess.curve, guess.free);
     }
     if (!fit.regular) {
         throw InputError("the log is too short or too coarse to tell its time constants");
     }
-    PressureFit result = result_of(fit, options);
+    return fit;
+}
+
+}  // namespace
+
+PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOptions& options) {
+    require(trace.t_s.size() == trace.pressure_Pa.size(), "a pressure for every time");
+    require(std::is_sorted(trace.t_s.begin(), trace.t_s.end()), "a trace's times rise");
+    check_options(options);
+    const std::size_t first = options.from_s ? sample_at(trace, *options.from_s) : 0;
+    const std::size_t end = options.to_s ? sample_at(trace, *options.to_s) : trace.t_s.size();
+    const PressureTrace asked = samples_of(trace, first, std::max(first, end) - first);
+    check(asked, options);
+    Stages stages = stages_of(asked, options);
+    if (options.pump_off_s) {
+        stages.used = asked.t_s.size();  // the user knows better where it ends
+    }
+    const PressureTrace used = samples_of(asked, 0, stages.used);
+    drop_short_stages(used, stages);
+
+    PressureFit result = result_of(fitted_curve(used, stages, options), options);
+    result.first_sample = first;
     result.samples = used.t_s.size();
-    if (used.t_s.size() < trace.t_s.size()) {
-        result.notes.push_back("the log seals again at " + std::to_string(used.t_s.back()) +
-                               " s: only what is before was used");
+    if (used.t_s.size() < asked.t_s.size()) {
+        result.notes.push_back("the log seals again at " + seconds_text(used.t_s.back()) +
+                               ": only what is before was used");
     }
     return result;
 }

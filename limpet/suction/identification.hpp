@@ -12,6 +12,8 @@ namespace limpet {
 struct IdentificationOptions {
     std::optional<double> pump_on_s = {};   ///< when sealing begins; else found
     std::optional<double> pump_off_s = {};  ///< when unsealing begins; else found
+    std::optional<double> from_s = {};      ///< what is before is left out
+    std::optional<double> to_s = {};        ///< what is after is left out
     double atmosphere_Pa = kAtmosphere_Pa;  ///< where the log does not show it
     double confidence = 0.95;               ///< of the intervals, 0..1
 };
@@ -31,10 +33,11 @@ struct PressureFit {
     std::optional<Fitted> sealing_begins_s = {};  ///< in the log's time
     std::optional<Fitted> unsealing_begins_s = {};
     std::optional<Fitted> ripple_Hz = {};
-    double ripple_Pa = 0.0;    ///< amplitude at P_vac; 0: none found
-    double residual_Pa = 0.0;  ///< standard deviation of what the curve leaves
-    double memory_s = 0.0;     ///< over which it is correlated
-    std::size_t samples = 0;
+    double ripple_Pa = 0.0;        ///< amplitude at P_vac; 0: none found
+    double residual_Pa = 0.0;      ///< standard deviation of what the curve leaves
+    double memory_s = 0.0;         ///< over which it is correlated
+    std::size_t first_sample = 0;  ///< of the trace, that was used
+    std::size_t samples = 0;       ///< that were used
     PressureCurve curve;
     std::vector<std::string> notes;  ///< what is missing, assumed or not used: a sentence each
 };

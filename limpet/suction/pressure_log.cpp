@@ -66,24 +66,28 @@ std::string shown(std::string_view text) {
     return "\"" + out + (text.size() > kMost ? "...\"" : "\"");
 }
 
+/// Columns are found by the name of a bench's log, or by that of a recording written as CSV.
 size_t column_of(const std::vector<std::string_view>& header, std::string_view column,
-                 const std::string& name, size_t line) {
-    const auto found = std::find(header.begin(), header.end(), column);
-    if (found == header.end()) {
-        std::string there;
-        for (const std::string_view field : header) {
-            there += (there.empty() ? "" : ", ") + shown(field);
-            if (there.size() > 200) {
-                there += ", ...";
-                break;
-            }
+                 std::string_view recorded, const std::string& name, size_t line) {
+    for (const std::string_view wanted : {column, recorded}) {
+        const auto count = std::count(header.begin(), header.end(), wanted);
+        if (count > 1) {
+            fail(name, line, "two columns \"" + std::string(wanted) + "\"");
         }
-        fail(name, line, "no column \"" + std::string(column) + "\"; there are " + there);
+        if (count == 1) {
+            return static_cast<size_t>(std::find(header.begin(), header.end(), wanted) -
+                                       header.begin());
+        }
     }
-    if (std::find(found + 1, header.end(), column) != header.end()) {
-        fail(name, line, "two columns \"" + std::string(column) + "\"");
+    std::string there;
+    for (const std::string_view field : header) {
+        there += (there.empty() ? "" : ", ") + shown(field);
+        if (there.size() > 200) {
+            there += ", ...";
+            break;
+        }
     }
-    return static_cast<size_t>(found - header.begin());
+    fail(name, line, "no column \"" + std::string(column) + "\"; there are " + there);
 }
 
 double number_of(std::string_view field, std::string_view column, const std::string& name,
@@ -108,8 +112,8 @@ struct Columns {
 
 Columns columns_of(std::string_view text, const std::string& name, size_t line) {
     const std::vector<std::string_view> header = fields_of(text);
-    return {.time = column_of(header, "t_s", name, line),
-            .pressure = column_of(header, "pressure_Pa", name, line),
+    return {.time = column_of(header, "t_s", "time_s", name, line),
+            .pressure = column_of(header, "pressure_Pa", "fluid_pressure_Pa", name, line),
             .count = header.size()};
 }
 

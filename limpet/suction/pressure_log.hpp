@@ -10,7 +10,8 @@
 namespace limpet {
 
 /// Reads a log of pressure as CSV: a header that names `t_s` and `pressure_Pa` among any other
-/// columns in any order, then a row a sample. Blank lines and lines that begin with '#' are passed
+/// columns in any order (`time_s` and `fluid_pressure_Pa` will do, so that `limpet csv` writes such
+/// logs), then a row a sample. Blank lines and lines that begin with '#' are passed
 /// over; lines end in "\n" or "\r\n"; fields may stand in quotes.
 /// @param name  of the file, for errors
 /// @throws InputError with name:line: a column that is not there, a cell that is no finite number,

@@ -94,10 +94,11 @@ void keep(std::vector<size_t>& candidates, size_t sample) {
 
 }  // namespace
 
-PressureTrace first_samples(const PressureTrace& trace, size_t count) {
-    const auto end = static_cast<ptrdiff_t>(count);
-    return {.t_s = {trace.t_s.begin(), trace.t_s.begin() + end},
-            .pressure_Pa = {trace.pressure_Pa.begin(), trace.pressure_Pa.begin() + end}};
+PressureTrace samples_of(const PressureTrace& trace, size_t first, size_t count) {
+    const auto begin = static_cast<ptrdiff_t>(first);
+    const auto end = static_cast<ptrdiff_t>(first + count);
+    return {.t_s = {trace.t_s.begin() + begin, trace.t_s.begin() + end},
+            .pressure_Pa = {trace.pressure_Pa.begin() + begin, trace.pressure_Pa.begin() + end}};
 }
 
 std::optional<Stages> find_stages(const PressureTrace& trace) {

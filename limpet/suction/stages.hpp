@@ -23,7 +23,8 @@ struct Stages {
 /// @return nothing when the pressure does not change by more than its noise and 20 hPa
 [[nodiscard]] std::optional<Stages> find_stages(const PressureTrace& trace);
 
-/// @return the trace's first samples
-[[nodiscard]] PressureTrace first_samples(const PressureTrace& trace, std::size_t count);
+/// @return a piece of the trace
+[[nodiscard]] PressureTrace samples_of(const PressureTrace& trace, std::size_t first,
+                                       std::size_t count);
 
 }  // namespace limpet

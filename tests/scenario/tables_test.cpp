@@ -68,7 +68,8 @@ TEST(Tables, ForgetNoField) {
     expect_complete(pendulum_table(), "pendulum");
     expect_complete(press_rig_table(), "press_rig");
     expect_complete(wall_air_table(), "wall_air");
-    EXPECT_EQ(cup_table().size() + lip_table().size(), sizeof(CupParameters) / sizeof(double));
+    EXPECT_EQ(cup_table().size() + pneumatic_table().size() + lip_table().size(),
+              sizeof(CupParameters) / sizeof(double));
 }
 
 TEST(Tables, HoldEveryDerivedKey) {

@@ -38,6 +38,13 @@ TEST(PressureLog, ColumnsInAnyOrderAmongOthersWithCommentsAndBlankLines) {
     EXPECT_THAT(trace.pressure_Pa, ElementsAre(101325.0, 101000.0));
 }
 
+TEST(PressureLog, TakesARecordingWrittenAsCsv) {
+    const PressureTrace trace =
+        read("time_s,header.stamp_s,fluid_pressure_Pa,frame\n0.01,0,101284,cup\n");
+    EXPECT_THAT(trace.t_s, ElementsAre(0.01));
+    EXPECT_THAT(trace.pressure_Pa, ElementsAre(101284.0));
+}
+
 TEST(PressureLog, RefusesWithTheLineAndWhatIsThere) {
     EXPECT_THAT(refusal(""), HasSubstr("log.csv: is empty"));
     EXPECT_THAT(refusal("# only\n\n"), HasSubstr("is empty"));

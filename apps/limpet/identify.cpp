@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/report/chart.hpp"
+#include "limpet/scenario/catalogue.hpp"
+#include "limpet/suction/identification.hpp"
+#include "limpet/suction/pressure_log.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct IdentifyOptions {
+    std::string log;
+    std::string out;
+    bool json = false;
+    double atmosphere_hPa = kAtmosphere_Pa / 100.0;
+    std::optional<double> pump_on_s;
+    std::optional<double> pump_off_s;
+    std::optional<double> from_s;
+    std::optional<double> to_s;
+};
+
+/// A line of the table: what, in which unit, and Table II's if it has one.
+struct Row {
+    const char* name;
+    const char* key;
+    const char* unit;
+    double scale;
+    std::optional<Fitted> fitted;
+    std::optional<double> table_two = {};
+};
+
+/// The surface of Table II whose numbers are nearest, each as a ratio.
+std::optional<Surface> nearest_surface(const PressureFit& fit) {
+    std::optional<Surface> nearest;
+    double least = 0.0;
+    for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
+        const Surface surface = load_surface(name, data_root());
+        double distance = 0.0;
+        const auto add = [&](const std::optional<Fitted>& fitted, double value) {
+            if (fitted && fitted->value > 0.0) {
+                distance += std::pow(std::log(fitted->value / value), 2);
+            }
+        };
+        add(fit.vacuum_Pa, surface.vacuum_pressure_Pa);
+        add(fit.sealing_time_s, surface.sealing_time_constant_s);
+        add(fit.unsealing_time_s, surface.unsealing_time_constant_s);
+        if (!nearest || distance < least) {
+            nearest = surface;
+            least = distance;
+        }
+    }
+    return nearest;
+}
+
+std::vector<Row> rows_of(const PressureFit& fit, const std::optional<Surface>& surface) {
+    using S = Surface;
+    const auto of_table = [&](double S::*member, double scale) {
+        return surface ? std::optional(scale * ((*surface).*member)) : std::nullopt;
+    };
+    std::optional<Fitted> offset = fit.atmosphere_Pa;
+    if (offset) {
+        offset->value -= kAtmosphere_Pa;
+    }
+    return {
+        {"P_atm", "atmosphere_Pa", "hPa", 0.01, fit.atmosphere_Pa},
+        {"  - 1013.25", "atmosphere_offset_Pa", "hPa", 0.01, offset},
+        {"P_vac", "vacuum_pressure_Pa", "hPa", 0.01, fit.vacuum_Pa,
+         of_table(&S::vacuum_pressure_Pa, 0.01)},
+        {"tau_1", "sealing_time_constant_s", "s", 1.0, fit.sealing_time_s,
+         of_table(&S::sealing_time_constant_s, 1.0)},
+        {"tau_2", "unsealing_time_constant_s", "s", 1.0, fit.unsealing_time_s,
+         of_table(&S::unsealing_time_constant_s, 1.0)},
+        {"sealing from", "sealing_begins_s", "s", 1.0, fit.sealing_begins_s},
+        {"unsealing from", "unsealing_begins_s", "s", 1.0, fit.unsealing_begins_s},
+        {"ripple", "ripple_Hz", "Hz", 1.0, fit.ripple_Hz},
+    };
+}
+
+/// Decimals that show two digits of an interval.
+int decimals(double half_width) {
+    constexpr int kMost = 9;
+    return half_width > 0.0
+               ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half_width))), 0, kMost)
+               : kMost;
+}
+
+std::string text_of(const PressureFit& fit, const std::vector<Row>& rows,
+                    const std::optional<Surface>& surface) {
+    std::string text = fmt::format("{:<16}{:>12}    {:<15}{}\n", "", "value", "95 % interval",
+                                   surface ? "Table II: " + surface->name : "");
+    for (const Row& row : rows) {
+        if (!row.fitted) {
+            continue;
+        }
+        const double half = row.scale * row.fitted->half_width;
+        const int digits = decimals(half);
+        text += fmt::format("{:<16}{:>12.{}f} +- {:<9.{}f} {:<4}", row.name,
+                            row.scale * row.fitted->value, digits, half, digits, row.unit);
+        text += row.table_two ? fmt::format("{:>6.4g}\n", *row.table_two) : "\n";
+    }
+    if (fit.ripple_Hz) {
+        text +=
+            fmt::format("{:<16}{:>12.4g}              hPa\n", "  amplitude", fit.ripple_Pa / 100.0);
+    }
+    text +=
+        fmt::format("{:<16}{:>12.4g}              hPa, of {} samples, correlated over {:.2g} s\n",
+                    "residual", fit.residual_Pa / 100.0, fit.samples, fit.memory_s);
+    for (const std::string& note : fit.notes) {
+        text += "note            " + note + "\n";
+    }
+    return text;
+}
+
+ordered_json json_of(const PressureFit& fit, const std::vector<Row>& rows,
+                     const std::optional<Surface>& surface) {
+    ordered_json json;
+    for (const Row& row : rows) {
+        json[row.key] = nullptr;
+        if (row.fitted) {
+            json[row.key] = {{"value", row.fitted->value},
+                             {"low", row.fitted->value - row.fitted->half_width},
+                             {"high", row.fitted->value + row.fitted->half_width}};
+        }
+    }
+    json["confidence"] = 0.95;
+    json["ripple_Pa"] = fit.ripple_Pa;
+    json["residual_Pa"] = fit.residual_Pa;
+    json["residual_memory_s"] = fit.memory_s;
+    json["samples"] = fit.samples;
+    json["nearest_surface"] = surface ? ordered_json(surface->name) : ordered_json(nullptr);
+    json["notes"] = fit.notes;
+    return json;
+}
+
+/// What was measured and the curve, above what the curve leaves.
+Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::string& title) {
+    using Mark = ChartSeries::Mark;
+    constexpr std::size_t kCrowd = 1000;  // from here on points hide one another
+    const Mark mark = trace.t_s.size() > kCrowd ? Mark::line : Mark::points;
+    ChartSeries data{.name = "measured", .mark = mark};
+    ChartSeries rest{.mark = mark};
+    const Range times{trace.t_s.front(), trace.t_s.back()};
+    for (std::size_t i = 0; i < trace.t_s.size(); ++i) {
+        const double curve_Pa = point_of(fit.curve, trace.t_s[i]).pressure_Pa;
+        data.x.push_back(trace.t_s[i]);
+        data.y.push_back(trace.pressure_Pa[i] / 100.0);
+        if (i >= fit.first_sample && i < fit.first_sample + fit.samples) {
+            rest.x.push_back(trace.t_s[i]);
+            rest.y.push_back((trace.pressure_Pa[i] - curve_Pa) / 100.0);
+        }
+    }
+    ChartSeries curve{.name = "eqs. (5), (6)", .mark = Mark::line};
+    constexpr int kPoints = 2000;
+    const double first_s = trace.t_s[fit.first_sample];
+    const double last_s = trace.t_s[fit.first_sample + fit.samples - 1];
+    for (int k = 0; k <= kPoints; ++k) {
+        const double t_s = first_s + (last_s - first_s) * k / kPoints;
+        curve.x.push_back(t_s);
+        curve.y.push_back(mean_pressure_Pa(fit.curve, t_s) / 100.0);
+    }
+    std::vector<ChartLine> moments;
+    if (fit.sealing_begins_s) {
+        moments.push_back({fit.sealing_begins_s->value, "sealing"});
+    }
+    if (fit.unsealing_begins_s) {
+        moments.push_back({fit.unsealing_begins_s->value, "unsealing"});
+    }
+    return {.title = title,
+            .panels = {ChartPanel{.y_label = "pressure  [hPa]",
+                                  .series = {std::move(data), std::move(curve)},
+                                  .moments = std::move(moments),
+                                  .x_range = times},
+                       ChartPanel{.x_label = "time  [s]",
+                                  .y_label = "left over  [hPa]",
+                                  .series = {std::move(rest)},
+                                  .x_range = times,
+                                  .height_px = 140.0}}};
+}
+
+void identify(const IdentifyOptions& options) {
+    const PressureTrace trace = read_pressure_log(fs::path(options.log));
+    PressureFit fit;
+    try {
+        fit = identify_pressure(trace, {.pump_on_s = options.pump_on_s,
+                                        .pump_off_s = options.pump_off_s,
+                                        .from_s = options.from_s,
+                                        .to_s = options.to_s,
+                                        .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
+    } catch (const InputError& error) {
+        throw InputError(options.log + ": " + error.what());
+    }
+    const std::optional<Surface> surface = nearest_surface(fit);
+    const std::vector<Row> rows = rows_of(fit, surface);
+    const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
+    const fs::path folder = options.out.empty() ? "out/identify" : options.out;
+    if (draws) {
+        (void)make_folder(folder);
+    }
+    if (options.json) {
+        fmt::print("{}\n", json_of(fit, rows, surface).dump(2));
+    } else {
+        fmt::print("{}", text_of(fit, rows, surface));
+    }
+    if (!draws) {
+        return;
+    }
+    const Pictures pictures = draw_chart(
+        chart_of(trace, fit, fs::path(options.log).filename().string()), "identify", folder);
+    for (const fs::path& file : pictures.files) {
+        if (!options.json) {
+            fmt::print("{}\n", file.string());
+        }
+    }
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app) {
+    auto options = std::make_shared<IdentifyOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "identify", "Fit P_vac, tau_1 and tau_2 of eqs. (5), (6) to a log of the cup's pressure");
+    verb->add_option("log", options->log, "CSV with columns t_s and pressure_Pa among any others")
+        ->required()
+        ->type_name("CSV");
+    verb->add_option("--pump-on", options->pump_on_s, "when sealing begins (default: found)")
+        ->type_name("S");
+    verb->add_option("--pump-off", options->pump_off_s, "when unsealing begins (default: found)")
+        ->type_name("S");
+    verb->add_option("--from", options->from_s, "leave out what is before")->type_name("S");
+    verb->add_option("--to", options->to_s, "leave out what is after, as where the cup lets go")
+        ->type_name("S");
+    verb->add_option("--atmosphere", options->atmosphere_hPa,
+                     "where the log does not show it (default: 1013.25)")
+        ->type_name("HPA")
+        ->check(CLI::Range(10.0, 1200.0));
+    verb->add_option("--out", options->out, "folder of the figure (default: out/identify)")
+        ->type_name("DIR");
+    verb->add_flag("--json", options->json, "one JSON object, in SI; the figure only with --out");
+    verb->footer(
+        "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals are "
+        "for\n"
+        "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");
+    verb->callback([options] { identify(*options); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Porous concrete by eqs. (5) and (6), as a sensor of 0.5 hPa with 6 hPa of pump tells it.
+std::string concrete_log(double from_s = 0.0, double to_s = 7.0) {
+    std::string csv = "# bench\nnote,pressure_Pa,t_s\n";
+    const int first = static_cast<int>(std::lround(100.0 * from_s));
+    const int last = static_cast<int>(std::lround(100.0 * to_s));
+    for (int k = first; k < last; ++k) {
+        const double t_s = 0.01 * k;
+        double pressure_Pa = 101600.0;
+        if (t_s >= 4.0) {
+            pressure_Pa = 101600.0 - 36600.0 * std::exp(-(t_s - 4.0) / 0.40);
+        } else if (t_s >= 1.0) {
+            pressure_Pa = 65000.0 + 36600.0 * std::exp(-(t_s - 1.0) / 0.33);
+            pressure_Pa += 600.0 * (101600.0 - pressure_Pa) / 36600.0 * std::sin(50.0 * t_s);
+        }
+        const double read_Pa = 50.0 * std::round(pressure_Pa / 50.0);
+        csv += "x," + std::to_string(read_Pa) + "," + std::to_string(t_s) + "\n";
+    }
+    return csv;
+}
+
+TEST(Identify, FindsTheNumbersOfALogAndDrawsThem) {
+    const Bench bench;
+    (void)bench.write("log.csv", concrete_log());
+    const Finished finished = bench.run({"identify", "log.csv"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(finished.err, "");
+    EXPECT_THAT(finished.out,
+                AllOf(HasSubstr("tau_1"), HasSubstr("tau_2"),
+                      HasSubstr("Table II: porous_concrete"), Not(HasSubstr("note"))));
+    EXPECT_THAT(bench.files(), Contains("out/identify/identify.png"));
+    EXPECT_THAT(bench.files(), Contains("out/identify/identify.svg"));
+}
+
+TEST(Identify, JsonIsInSiAndHoldsTheTruth) {
+    const Bench bench;
+    (void)bench.write("log.csv", concrete_log());
+    const Finished finished = bench.run({"identify", "log.csv", "--json"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    const auto json = nlohmann::json::parse(finished.out);
+    const std::pair<const char*, double> truths[] = {
+        {"vacuum_pressure_Pa", 65000.0},     {"sealing_time_constant_s", 0.33},
+        {"unsealing_time_constant_s", 0.40}, {"atmosphere_Pa", 101600.0},
+        {"atmosphere_offset_Pa", 275.0},     {"sealing_begins_s", 1.0},
+        {"unsealing_begins_s", 4.0}};
+    for (const auto& [key, truth] : truths) {
+        EXPECT_NEAR(json[key]["value"].get<double>(), truth, 0.005 * truth) << key;
+        EXPECT_LT(json[key]["low"].get<double>(), json[key]["value"].get<double>()) << key;
+        EXPECT_GT(json[key]["high"].get<double>(), json[key]["value"].get<double>()) << key;
+    }
+    EXPECT_NEAR(json["ripple_Hz"]["value"].get<double>(), 50.0 / 6.283185307, 0.02);
+    EXPECT_EQ(json["nearest_surface"], "porous_concrete");
+    EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
+}
+
+TEST(Identify, SaysWhatIsMissingAndFitsTheRest) {
+    const Bench bench;
+    (void)bench.write("seal.csv", concrete_log(0.0, 3.9));
+    (void)bench.write("unseal.csv", concrete_log(3.0, 7.0));
+    const auto seal = nlohmann::json::parse(bench.run({"identify", "seal.csv", "--json"}).out);
+    EXPECT_TRUE(seal["unsealing_time_constant_s"].is_null());
+    EXPECT_NEAR(seal["sealing_time_constant_s"]["value"].get<double>(), 0.33, 0.005);
+    EXPECT_THAT(seal["notes"].dump(), HasSubstr("no unsealing"));
+    const auto unseal = nlohmann::json::parse(
+        bench.run({"identify", "unseal.csv", "--json", "--pump-off", "4"}).out);
+    EXPECT_TRUE(unseal["sealing_time_constant_s"].is_null());
+    EXPECT_NEAR(unseal["unsealing_time_constant_s"]["value"].get<double>(), 0.40, 0.005);
+    EXPECT_THAT(unseal["notes"].dump(), HasSubstr("no sealing"));
+}
+
+/// One clear line, exit code 2, nothing written.
+void expect_refused(const std::string& log, const std::vector<std::string>& texts,
+                    std::vector<std::string> options = {}) {
+    const Bench bench;
+    (void)bench.write("log.csv", log);
+    options.insert(options.begin(), {"identify", "log.csv"});
+    const Finished finished = bench.run(options);
+    EXPECT_EQ(finished.exit_code, 2) << finished.err;
+    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+    EXPECT_EQ(finished.out, "");
+    for (const std::string& text : texts) {
+        EXPECT_THAT(finished.err, HasSubstr(text));
+    }
+    EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
+}
+
+TEST(Identify, RefusesBadInputInOneLine) {
+    const std::string header = "t_s,pressure_Pa\n0,101325\n";
+    expect_refused("", {"log.csv", "empty"});
+    expect_refused("t_s,pressure_Pa\n", {"log.csv", "no samples"});
+    expect_refused("time,p\n0,1\n", {"log.csv:1", "t_s", "\"time\", \"p\""});
+    expect_refused(header + "0.1,much\n", {"log.csv:3", "pressure_Pa", "much"});
+    expect_refused(header + "nan,101325\n", {"log.csv:3", "t_s", "nan"});
+    expect_refused(header + "0.1,inf\n", {"log.csv:3", "inf"});
+    expect_refused(header + "-0.1,101325\n", {"log.csv:3", "times must rise"});
+    expect_refused(header + "0,101325\n", {"log.csv:3", "times must rise"});
+    expect_refused(header + "0.1,-4\n", {"log.csv:3", "below zero"});
+    expect_refused(header + "0.1,101325\n", {"log.csv", "2 samples are too few"});
+    expect_refused(concrete_log(0.0, 0.9), {"log.csv", "no change of pressure"});
+    expect_refused(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16), {"log.csv:"});
+}
+
+TEST(Identify, RefusesBadOptionsInOneLine) {
+    expect_refused(concrete_log(), {"pump on at 70 s", "outside"}, {"--pump-on", "70"});
+    expect_refused(concrete_log(), {"finite"}, {"--pump-off", "nan"});
+    expect_refused(concrete_log(), {"on before it goes off"},
+                   {"--pump-on", "4", "--pump-off", "1"});
+    expect_refused(concrete_log(), {"too few"}, {"--from", "6.95"});
+    expect_refused(concrete_log(), {"too few"}, {"--from", "5", "--to", "2"});
+    expect_refused(concrete_log(), {"--atmosphere"}, {"--atmosphere", "5"});
+    expect_refused(concrete_log(), {"atmosphere"}, {"--atmosphere", "nan"});
+    expect_refused(concrete_log(), {"log.csv"}, {"--out", "log.csv"});
+    const Finished missing = Bench{}.run({"identify", "nowhere.csv"});
+    EXPECT_EQ(missing.exit_code, 2);
+    EXPECT_THAT(missing.err, AllOf(HasSubstr("nowhere.csv"), HasSubstr("No such file")));
+    const Finished folder = Bench{}.run({"identify", "."});
+    EXPECT_EQ(folder.exit_code, 2);
+    EXPECT_THAT(folder.err, HasSubstr("is a folder"));
+}
+
+}  // namespace
+}  // namespace limpet
