@@ -163,6 +163,7 @@ private:
         std::sort(names.begin(), names.end(),
                   [](const Name& a, const Name& b) { return a.y_px < b.y_px; });
         std::vector<double> wanted;
+        wanted.reserve(names.size());
         for (const Name& name : names) {
             wanted.push_back(name.y_px);
         }
@@ -186,6 +187,7 @@ private:
         std::stable_sort(inside.begin(), inside.end(),
                          [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
         std::vector<double> wanted;
+        wanted.reserve(inside.size());
         for (const ChartLine& moment : inside) {
             wanted.push_back(x_px(moment.at));
         }
