@@ -59,7 +59,9 @@ bool has_number(const ChartPanel& panel) {
 }
 
 /// Rows of `x y low high`, an empty line where a line breaks.
-int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, double shift) {
+/// @param foot  where an interval ends that reaches below a logarithmic axis
+int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, double shift,
+              double foot) {
     bool gap = true;  // also keeps empty lines from the start of a block
     for (std::size_t i = 0; i < s.x.size(); ++i) {
         if (!drawable(s.x[i], panel.log_x) || !drawable(s.y[i], panel.log_y)) {
@@ -68,7 +70,11 @@ int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, do
             continue;
         }
         data.text += fmt::format("{:.10g} {:.10g}", s.x[i] + shift, s.y[i]);
-        data.text += s.low.empty() ? "\n" : fmt::format(" {:.10g} {:.10g}\n", s.low[i], s.high[i]);
+        if (!s.low.empty()) {
+            const double low = panel.log_y && s.low[i] <= 0.0 ? foot : s.low[i];
+            data.text += fmt::format(" {:.10g} {:.10g}", low, s.high[i]);
+        }
+        data.text += "\n";
         gap = false;
     }
     if (gap) {
@@ -300,7 +306,7 @@ private:
         const std::string colour = colour_of(panel_, index);
         const double shift = s.mark == Mark::bars ? bar_shift(index) : 0.0;
         const std::string block =
-            fmt::format("DATA index {} using ", put_block(data_, panel_, s, shift));
+            fmt::format("DATA index {} using ", put_block(data_, panel_, s, shift, y_.low));
         const bool errors = !s.low.empty() && !s.band;
         switch (s.mark) {
             case Mark::line:
