@@ -112,25 +112,24 @@ std::vector<double> ticks(const Range& range, double count) {
     std::vector<double> found;
     const double first = std::ceil(range.low / step - 1e-9);
     const double last = std::floor(range.high / step + 1e-9);
-    for (double i = first; i <= last; i += 1.0) {
-        found.push_back(i * step + 0.0);  // no negative zero
+    for (auto i = static_cast<long>(first); i <= static_cast<long>(last); ++i) {
+        found.push_back(static_cast<double>(i) * step);
     }
     return found;
 }
 
 std::vector<double> log_ticks(const Range& range, double count) {
     const double decades = std::log10(range.high / range.low);
-    const double every = std::max(1.0, std::round(decades / std::max(1.0, count)));
-    std::vector<double> found;
+    const int every = std::max(1, static_cast<int>(std::round(decades / std::max(1.0, count))));
     const std::vector<double> within =
         decades > 0.5 * count ? std::vector<double>{1.0} : std::vector<double>{1.0, 2.0, 5.0};
-    for (double e = std::floor(std::log10(range.low)); e <= std::log10(range.high); e += 1.0) {
-        if (std::fmod(e, every) != 0.0) {
-            continue;
-        }
+    std::vector<double> found;
+    const int last = static_cast<int>(std::floor(std::log10(range.high)));
+    for (int e = static_cast<int>(std::floor(std::log10(range.low))); e <= last; ++e) {
         for (const double digit : within) {
             const double tick = digit * std::pow(10.0, e);
-            if (tick >= range.low * (1.0 - 1e-9) && tick <= range.high * (1.0 + 1e-9)) {
+            if (e % every == 0 && tick >= range.low * (1.0 - 1e-9) &&
+                tick <= range.high * (1.0 + 1e-9)) {
                 found.push_back(tick);
             }
         }
@@ -139,7 +138,7 @@ std::vector<double> log_ticks(const Range& range, double count) {
 }
 
 std::string tick_label(double value) {
-    const std::string plain = fmt::format("{:.6g}", value);
+    std::string plain = fmt::format("{:.6g}", value);
     const std::size_t e = plain.find('e');
     if (e == plain.npos) {
         return plain;

@@ -59,7 +59,9 @@ bool has_number(const ChartPanel& panel) {
 }
 
 /// Rows of `x y low high`, an empty line where a line breaks.
-int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, double shift) {
+/// @param foot  where an interval ends that reaches below a logarithmic axis
+int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, double shift,
+              double foot) {
     bool gap = true;  // also keeps empty lines from the start of a block
     for (std::size_t i = 0; i < s.x.size(); ++i) {
         if (!drawable(s.x[i], panel.log_x) || !drawable(s.y[i], panel.log_y)) {
@@ -68,7 +70,11 @@ int put_block(ChartData& data, const ChartPanel& panel, const ChartSeries& s, do
             continue;
         }
         data.text += fmt::format("{:.10g} {:.10g}", s.x[i] + shift, s.y[i]);
-        data.text += s.low.empty() ? "\n" : fmt::format(" {:.10g} {:.10g}\n", s.low[i], s.high[i]);
+        if (!s.low.empty()) {
+            const double low = panel.log_y && s.low[i] <= 0.0 ? foot : s.low[i];
+            data.text += fmt::format(" {:.10g} {:.10g}", low, s.high[i]);
+        }
+        data.text += "\n";
         gap = false;
     }
     if (gap) {
@@ -163,6 +169,7 @@ private:
         std::sort(names.begin(), names.end(),
                   [](const Name& a, const Name& b) { return a.y_px < b.y_px; });
         std::vector<double> wanted;
+        wanted.reserve(names.size());
         for (const Name& name : names) {
             wanted.push_back(name.y_px);
         }
@@ -186,6 +193,7 @@ private:
         std::stable_sort(inside.begin(), inside.end(),
                          [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
         std::vector<double> wanted;
+        wanted.reserve(inside.size());
         for (const ChartLine& moment : inside) {
             wanted.push_back(x_px(moment.at));
         }
@@ -298,7 +306,7 @@ private:
         const std::string colour = colour_of(panel_, index);
         const double shift = s.mark == Mark::bars ? bar_shift(index) : 0.0;
         const std::string block =
-            fmt::format("DATA index {} using ", put_block(data_, panel_, s, shift));
+            fmt::format("DATA index {} using ", put_block(data_, panel_, s, shift, y_.low));
         const bool errors = !s.low.empty() && !s.band;
         switch (s.mark) {
             case Mark::line:

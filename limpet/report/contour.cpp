@@ -15,7 +15,10 @@ namespace {
 struct Edge {
     std::size_t point = 0;
     bool up = false;
-    auto operator<=>(const Edge&) const = default;
+    bool operator==(const Edge& other) const { return point == other.point && up == other.up; }
+    bool operator<(const Edge& other) const {
+        return point != other.point ? point < other.point : up < other.up;
+    }
 };
 
 /// Crossings of the level, and which of them a cell joins: each has one or two neighbours.
@@ -43,8 +46,6 @@ public:
     }
 
 private:
-    [[nodiscard]] bool above(std::size_t i, std::size_t j) const { return grid_.at(i, j) > level_; }
-
     void cell(std::size_t i, std::size_t j) {
         const std::array<double, 4> corners = {grid_.at(i, j), grid_.at(i + 1, j),
                                                grid_.at(i + 1, j + 1), grid_.at(i, j + 1)};

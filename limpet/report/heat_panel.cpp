@@ -95,8 +95,8 @@ public:
         : sketch_(sketch), data_(data), panel_(panel), box_(box), range_(value_range(panel)) {}
 
     void draw() {
-        double y = box_.top_px - head_px(panel_, box_.width_px());
-        y = draw_title(sketch_, panel_.title, box_.left_px, y, box_.width_px());
+        draw_title(sketch_, panel_.title, box_.left_px,
+                   box_.top_px - head_px(panel_, box_.width_px()), box_.width_px());
         sketch_.label(box_.left_px, box_.top_px - 16.0, panel_.y_label, kChartSmall_px,
                       colours::kFaint);
         sketch_.label(box_.right_px + kBarGap_px + kBar_px, box_.top_px - 16.0, panel_.z_label,

@@ -126,6 +126,7 @@ dt { color: var(--soft); } dd { margin: 0; }
   thead { display: table-header-group; }
   figure img { max-height: 92mm; width: auto; }
   .tall img { max-height: 205mm; }
+  .wide img { max-height: 165mm; }
   .scroll, .frame { overflow: visible; }
   .badge { border: 1px solid currentColor; }
   .files { display: none; }

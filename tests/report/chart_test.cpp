@@ -130,6 +130,23 @@ TEST(Chart, draws_bars_below_zero_from_zero) {
     EXPECT_NEAR(up / static_cast<double>(chart.pixels("#FF0000", 0.5, 1.0)), 1.0, 0.03);
 }
 
+TEST(Chart, cuts_an_interval_off_where_a_logarithmic_axis_ends) {
+    const auto red = [](double low) {
+        return drawn({.series = {{.mark = Mark::points,
+                                  .x = {0},
+                                  .y = {10},
+                                  .low = {low},
+                                  .high = {100},
+                                  .colour = "#FF0000"}},
+                      .y_range = Range{1.0, 1000.0},
+                      .log_y = true})
+            .pixels("#FF0000");
+    };
+    // Two of three decades of 280 px, about; the one that ends on the axis lacks a foot at most.
+    EXPECT_GT(red(0.0), 150u);
+    EXPECT_NEAR(static_cast<double>(red(0.0)), static_cast<double>(red(1.0)), 15.0);
+}
+
 TEST(Chart, shows_hostile_text_as_text) {
     const std::string nasty = "'\"; system('touch hurt') `x` <script>&\\ {a}_b \n ü";
     const Drawn chart = drawn(Chart{
