@@ -145,7 +145,10 @@ bool add_ripple(const PressureTrace& trace, Guess& guess) {
         variance += rest * rest / static_cast<double>(rest_Pa.size());
     }
     double best_power = 0.0;
-    for (double f_Hz = 3.0 / duration_s; f_Hz < 0.48 / mean_step_s; f_Hz += 0.25 / duration_s) {
+    // From three periods in the log to just below Nyquist's frequency, four steps a line's width.
+    const int lines = static_cast<int>(1.92 * duration_s / mean_step_s);
+    for (int line = 12; line < lines; ++line) {
+        const double f_Hz = 0.25 * line / duration_s;
         double c = 0.0;
         double s = 0.0;
         for (std::size_t i = 0; i < t_s.size(); ++i) {

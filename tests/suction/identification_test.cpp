@@ -50,7 +50,9 @@ PressureTrace log_of(const Bench& b, std::uint32_t run) {
     RandomStream random(7, run, Stream::test);
     const double phase = 2.0 * kPi * random.uniform();
     PressureTrace trace;
-    for (double t_s = b.begin_s; t_s < b.end_s; t_s += b.step_s) {
+    const int samples = static_cast<int>(std::ceil((b.end_s - b.begin_s) / b.step_s - 1e-9));
+    for (int k = 0; k < samples; ++k) {
+        const double t_s = b.begin_s + k * b.step_s;
         const double at_s = t_s + (b.gaps ? 0.4 * b.step_s * random.uniform() : 0.0);
         const bool lost = b.gaps && (random.uniform() < 0.1 || (t_s > 2.4 && t_s < 2.7));
         const double noise_Pa = b.noise_Pa * random.normal();
