@@ -163,6 +163,19 @@ TEST(Identification, OnlyAnUnsealing) {
     EXPECT_THAT(fit.notes, testing::Contains(HasSubstr("no sealing")));
 }
 
+TEST(Identification, ALogThatBeginsInTheMiddleOfTheUnsealing) {
+    Bench metal{.vacuum_Pa = 27500.0, .tau_1_s = 0.25, .tau_2_s = 16.0, .end_s = 30.0};
+    metal.begin_s = 5.5;
+    metal.atmosphere_Pa = kAtmosphere_Pa;
+    const PressureFit fit = identify_pressure(log_of(metal, 1));
+    EXPECT_FALSE(fit.unsealing_begins_s);
+    EXPECT_NEAR(fit.unsealing_time_s->value, 16.0, 2.0 * fit.unsealing_time_s->half_width);
+    EXPECT_LT(fit.unsealing_time_s->half_width, 0.2);
+    EXPECT_FALSE(fit.vacuum_Pa);
+    EXPECT_THAT(fit.notes, testing::Contains(HasSubstr("P_vac is not fitted")));
+    EXPECT_THAT(fit.notes, testing::Contains(HasSubstr("taken as given")));
+}
+
 TEST(Identification, ALogThatBeginsInTheMiddleOfTheSealing) {
     Bench bench;
     bench.begin_s = 1.1;
