@@ -20,6 +20,7 @@ using P = CurveParameter;
 constexpr std::size_t kFewestSamples = 20;
 constexpr std::size_t kFewestOfAStage = 8;
 constexpr std::size_t kFewestOfBaseline = 3;
+constexpr double kPriceOfAKink = 25.0;  ///< in variances: the best of many chances gains some ten
 constexpr double kRippleStandsOut = 15.0;  ///< exp(-15) of white noise's frequencies do
 
 std::size_t sample_at(const PressureTrace& trace, double t_s) {
@@ -97,9 +98,34 @@ Guess guess_of(const PressureTrace& trace, const Stages& stages,
     return guess;
 }
 
+/// Whether a kink that was fitted lies in the log's first samples: then there is none, the log
+/// begins after it.
+bool begins_later(const Guess& guess, const PressureTrace& trace) {
+    const auto is_free = [&](P parameter) {
+        return std::find(guess.free.begin(), guess.free.end(), parameter) != guess.free.end();
+    };
+    const double first_s = trace.t_s[kFewestOfBaseline];
+    return (is_free(P::on) && guess.curve.on_s < first_s) ||
+           (!guess.curve.sealing && is_free(P::off) && guess.curve.off_s < first_s);
+}
+
+/// Every so many samples, enough to choose a start by.
+PressureTrace thinned(const PressureTrace& trace) {
+    constexpr std::size_t kEnough = 2000;
+    const std::size_t stride = trace.t_s.size() / kEnough + 1;
+    PressureTrace thin;
+    for (std::size_t i = 0; i < trace.t_s.size(); i += stride) {
+        thin.t_s.push_back(trace.t_s[i]);
+        thin.pressure_Pa.push_back(trace.pressure_Pa[i]);
+    }
+    return thin;
+}
+
 /// The best of all starts: a kink between two samples makes hollows of its own.
 Guess best_guess(const PressureTrace& trace, const Stages& stages,
                  const IdentificationOptions& options, bool see_atmosphere) {
+    const PressureTrace thin = thinned(trace);
+    const double one_more = 1.0 + kPriceOfAKink / static_cast<double>(thin.t_s.size());
     Guess best;
     double least = std::numeric_limits<double>::infinity();
     const std::vector<std::size_t> none = {0};
@@ -107,20 +133,20 @@ Guess best_guess(const PressureTrace& trace, const Stages& stages,
         for (const std::size_t off : stages.unsealing ? stages.off : none) {
             Guess guess = guess_of(trace, stages, options, on, off, see_atmosphere);
             double squares = 0.0;
-            guess.curve = improved_curve(trace, guess.curve, guess.free, squares);
-            if (guess.curve.baseline) {
-                if (guess.curve.on_s < trace.t_s[kFewestOfBaseline] && !options.pump_on_s) {
-                    continue;  // what looked like the air was the pump's beginning
-                }
-                squares *= 1.0 + 10.0 / static_cast<double>(trace.t_s.size());
+            guess.curve = improved_curve(thin, guess.curve, guess.free, squares);
+            if (begins_later(guess, thin)) {
+                continue;
             }
+            squares *= std::pow(one_more, static_cast<double>(guess.free.size()));
             if (squares < least) {
                 least = squares;
                 best = std::move(guess);
             }
         }
     }
-    require(!best.free.empty(), "one start of a fit is better than none");
+    if (best.free.empty()) {
+        throw InputError("the log is too short or too coarse to tell its time constants");
+    }
     return best;
 }
 
@@ -145,7 +171,10 @@ bool add_ripple(const PressureTrace& trace, Guess& guess) {
         variance += rest * rest / static_cast<double>(rest_Pa.size());
     }
     double best_power = 0.0;
-    for (double f_Hz = 3.0 / duration_s; f_Hz < 0.48 / mean_step_s; f_Hz += 0.25 / duration_s) {
+    // From three periods in the log to just below Nyquist's frequency, four steps a line's width.
+    const int lines = static_cast<int>(1.92 * duration_s / mean_step_s);
+    for (int line = 12; line < lines; ++line) {
+        const double f_Hz = 0.25 * line / duration_s;
         double c = 0.0;
         double s = 0.0;
         for (std::size_t i = 0; i < t_s.size(); ++i) {
@@ -270,6 +299,10 @@ PressureFit result_of(const CurveFit& fit, const IdentificationOptions& options)
         result.notes.emplace_back("no sealing in the log: tau_1 is not fitted");
     } else if (!curve.baseline) {
         result.notes.emplace_back("the log begins after the pump went on: when is not fitted");
+    }
+    if (!curve.sealing && !result.unsealing_begins_s && !options.pump_off_s) {
+        result.vacuum_Pa.reset();  // it is the pressure of the first sample
+        result.notes.emplace_back("the log begins after the pump went off: P_vac is not fitted");
     }
     if (!curve.unsealing) {
         result.notes.emplace_back("no unsealing in the log: tau_2 is not fitted");

@@ -132,9 +132,8 @@ std::optional<Stages> find_stages(const PressureTrace& trace) {
                  }));
         }
     }
-    if (stages.sealing) {
-        keep(stages.on, 0);
-    }
+    // Or the log begins after that.
+    keep(stages.sealing ? stages.on : stages.off, 0);
     if (stages.unsealing) {
         for (const double share : {0.02, 0.05, 0.12, 0.25}) {
             keep(stages.off, last_of(fallen, stages.used, [&](size_t i) {
