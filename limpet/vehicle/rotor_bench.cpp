@@ -10,7 +10,7 @@ namespace limpet {
 namespace {
 
 constexpr double kDt_s = 1e-3;
-constexpr double kSpinUp_s = 5.0;  ///< long for any motor's time constants and dead time
+constexpr int kSpinUpSteps = 5000;  ///< 5 s: long for any motor's time constants and dead time
 
 /// One rotor at the centre of the bench; the others stand still.
 Airframe bench_of(const RotorParameters& rotor) {
@@ -24,7 +24,7 @@ RotorsState spun_up(const RotorParameters& rotor, double speed_rpm) {
     const double speed_rad_s = speed_rpm * 2.0 * kPi / 60.0;
     const double command = (speed_rad_s - rotor.speed_offset_rad_s) / rotor.speed_scale_rad_s;
     RotorsState state;
-    for (double t_s = 0.0; t_s < kSpinUp_s; t_s += kDt_s) {
+    for (int k = 0; k < kSpinUpSteps; ++k) {
         step(rotor, state, {.command = {command}, .armed = true}, kDt_s);
         for (std::size_t i = 1; i < kRotors; ++i) {
             state.speed_rad_s[i] = 0.0;

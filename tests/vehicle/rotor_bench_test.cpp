@@ -27,6 +27,7 @@ TEST(ThrustStand, MeasuresTheRotorsOwnConstantsByEquationsThreeAndFour) {
     EXPECT_NEAR(rows[1].thrust_N, 1.7e-5 * std::pow(4000.0 * kPi / 30.0, 2), 1e-9);
     EXPECT_NEAR(rows[1].torque_N_m, 2.3e-2 * rows[1].thrust_N, 1e-12);
     std::vector<PropellerRow> file;
+    file.reserve(rows.size());
     for (const ThrustStandRow& row : rows) {
         file.push_back(row.coefficients);
     }

@@ -61,7 +61,7 @@ TEST(WallAir, GoesWithTheSquareOfTheSpeedAndEndsAtFourRadii) {
                 4.0 * at(model, {}, 1.5).force_N.x(), 1e-12);
     EXPECT_EQ(at(model, {}, 1.5, 0.0).force_N, Vector3::Zero());
     double before = 1e9;
-    for (double radii = 1.0; radii < 4.0; radii += 0.25) {
+    for (const double radii : {1.0, 1.2, 1.5, 1.9, 2.0, 2.5, 2.9, 3.0, 3.5, 3.9}) {
         const double force_N = at(model, {}, radii).force_N.x();
         EXPECT_LT(force_N, before) << radii;
         EXPECT_GT(force_N, 0.0) << radii;
