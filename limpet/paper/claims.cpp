@@ -22,20 +22,26 @@ Quantity shown(double value, const std::string& unit) {
     return value;
 }
 
+/// Less the noise of the last digits: six figures of what is compared.
+double rounded(double difference, double scale) {
+    const double unit = 1e-6 * std::abs(scale);
+    return unit > 0.0 ? unit * std::round(difference / unit) : difference;
+}
+
 /// Simulated less paper, where that means something.
 Quantity difference(const Statement& statement, double value, bool holds) {
     if (!std::isfinite(value)) {
         return std::string("no value");
     }
     if (const double* paper = std::get_if<double>(&statement.paper)) {
-        return value - *paper;
+        return rounded(value - *paper, *paper);
     }
     if (const Range* range = std::get_if<Range>(&statement.paper)) {
         const double below = value - range->low, above = value - range->high;
         if (below >= 0.0 && above <= 0.0) {
             return std::string("inside");
         }
-        return below < 0.0 ? below : above;
+        return below < 0.0 ? rounded(below, range->low) : rounded(above, range->high);
     }
     return std::string(holds ? "as said" : "not as said");
 }

@@ -212,4 +212,19 @@ SwingMissions swing_missions(const std::string& scenario, const Overrides& overr
     return missions;
 }
 
+double hover_tilt_deg(const std::string& scenario) {
+    constexpr double kSettle_s = 5.0;
+    Flight flight(build_model(load_scenario(scenario, {.overrides = {"mission=hover"}})));
+    double worst_rad = 0.0;
+    while (!flight.ended()) {
+        flight.tick();
+        if (seconds(flight.state().tick) > kSettle_s) {
+            const Vector3 z_B_W = flight.state().truth.base.q_WF * Vector3::UnitZ();
+            worst_rad = std::max(worst_rad, std::acos(std::min(1.0, z_B_W.z())));
+        }
+    }
+    require(flight.state().ending->outcome == Outcome::released, "a hover that ends as asked");
+    return degrees(worst_rad);
+}
+
 }  // namespace limpet

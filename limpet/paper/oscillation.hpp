@@ -65,4 +65,8 @@ struct SwingMissions {
 [[nodiscard]] SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
                                            std::uint32_t runs, int jobs);
 
+/// How the same vehicle hovers in free air, with its sensors' noise.
+/// @return largest tilt after the first seconds [deg]
+[[nodiscard]] double hover_tilt_deg(const std::string& scenario);
+
 }  // namespace limpet

@@ -357,6 +357,10 @@ void study_oscillation(Study& study) {
     section.blocks.emplace_back(candidate_text());
     section.blocks.emplace_back(mission_figure(cases, study));
     section.blocks.emplace_back(mission_table(cases));
+    section.blocks.emplace_back(fmt::format(
+        "In free flight the slow vehicle is sound: hovering with its sensors' noise it tilts by "
+        "{:.1f} deg at most, the other by {:.1f} deg.",
+        hover_tilt_deg(kSlow), hover_tilt_deg(kGazebo)));
     for (PageFigure& figure : slow_flights(study)) {
         section.blocks.emplace_back(std::move(figure));
     }

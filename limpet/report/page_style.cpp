@@ -67,15 +67,15 @@ tbody th { font-weight: 400; }
 .number-cell { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .caption { color: var(--soft); font-size: .9rem; }
 .claims { width: 100%; table-layout: fixed; }
-.claims col.id { width: 6.5%; } .claims col.where { width: 8%; } .claims col.value { width: 12%; }
-.claims col.difference { width: 11%; } .claims col.verdict { width: 14.5%; } .claims col.see { width: 9%; }
+.claims col.id { width: 9%; } .claims col.where { width: 8.5%; } .claims col.value { width: 12%; }
+.claims col.difference { width: 10.5%; } .claims col.verdict { width: 13.5%; } .claims col.see { width: 8.5%; }
 .claims th, .claims td { padding: .55rem .45rem; }
 .claims .badge { font-size: .76rem; }
 .claims .id { color: var(--soft); font-size: .74rem; }
 .claims .note { display: block; margin-top: .3rem; color: var(--soft); font-size: .78rem; }
 .claims td a { display: block; }
 .claims tr:target > * { background: var(--band); }
-.unit { color: var(--soft); white-space: nowrap; }
+.unit { color: var(--soft); }
 figure { margin: 1.8rem 0 2.4rem; }
 figure img {
   display: block; max-width: 100%; height: auto; background: #ffffff; border-radius: .2rem;

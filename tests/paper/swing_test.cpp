@@ -95,5 +95,9 @@ TEST(SwingMissions, BothOutcomesOfThePaper) {
     }
 }
 
+TEST(SlowMotors, FreeFlightIsSound) {
+    EXPECT_LT(hover_tilt_deg("slow_motors_metal"), 3.0);
+}
+
 }  // namespace
 }  // namespace limpet
