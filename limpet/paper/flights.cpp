@@ -230,6 +230,9 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
         take.set("is_" + std::string(to_string(outcome)),
                  flight.result.outcome == outcome ? 1.0 : 0.0);
     }
+    take.set("cup_sensors",
+             (find_table(flight.recording, "/sensors/cup_pressure") != nullptr ? 1.0 : 0.0) +
+                 (find_table(flight.recording, "/sensors/force") != nullptr ? 1.0 : 0.0));
     take.approach();
     take.touch("first_", first_event(flight.recording, "impact"));
     take.touch("", last_event(flight.recording, "impact"));

@@ -132,6 +132,7 @@ void measure_vehicle(Evidence& evidence) {
     evidence.set("vehicle.battery_cells", airframe.battery.cells);
     evidence.set("vehicle.battery_capacity_Ah", airframe.battery.capacity_Ah);
     evidence.set("vehicle.pump_x_m", airframe.pump_B_m.x());
+    evidence.set("vehicle.lidar_rate_Hz", scenario.sensors.lidar_rate_Hz);
     evidence.set("vehicle.lidar_x_m", airframe.lidar_x_m);
     const std::vector<Link> links = make_links(airframe);
     evidence.set("vehicle.cup_joint_freedoms",
