@@ -155,7 +155,9 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
     ChartSeries data{.name = "measured", .mark = mark};
     ChartSeries rest{.mark = mark};
     const Range times{trace.t_s.front(), trace.t_s.back()};
-    for (std::size_t i = 0; i < trace.t_s.size(); ++i) {
+    constexpr std::size_t kMostDrawn = 10'000;
+    const std::size_t stride = trace.t_s.size() / kMostDrawn + 1;
+    for (std::size_t i = 0; i < trace.t_s.size(); i += stride) {
         const double curve_Pa = point_of(fit.curve, trace.t_s[i]).pressure_Pa;
         data.x.push_back(trace.t_s[i]);
         data.y.push_back(trace.pressure_Pa[i] / 100.0);

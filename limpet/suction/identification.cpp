@@ -32,6 +32,7 @@ std::size_t sample_at(const PressureTrace& trace, double t_s) {
 struct Guess {
     PressureCurve curve;
     std::vector<CurveParameter> free;
+    double squares_Pa2 = 0.0;  ///< that it leaves, on a thinned copy
 };
 
 double time_of_63(const PressureTrace& trace, std::size_t from, double from_Pa, double to_Pa) {
@@ -140,6 +141,7 @@ Guess best_guess(const PressureTrace& trace, const Stages& stages,
             squares *= std::pow(one_more, static_cast<double>(guess.free.size()));
             if (squares < least) {
                 least = squares;
+                guess.squares_Pa2 = squares;
                 best = std::move(guess);
             }
         }
@@ -326,9 +328,17 @@ void drop_short_stages(const PressureTrace& trace, Stages& stages) {
 }
 
 /// From a mean curve to one with ripple, and its covariance.
-CurveFit fitted_curve(const PressureTrace& trace, const Stages& stages,
+CurveFit fitted_curve(const PressureTrace& trace, Stages stages,
                       const IdentificationOptions& options) {
     Guess guess = best_guess(trace, stages, options, false);
+    if (stages.may_unseal && !stages.unsealing) {
+        stages.unsealing = true;
+        Guess risen = best_guess(trace, stages, options, false);
+        // A pump that comes and goes also rises at times, but that leaves as much as before.
+        if (risen.squares_Pa2 < 0.5 * guess.squares_Pa2) {
+            guess = std::move(risen);
+        }
+    }
     const bool sees_atmosphere = guess.curve.unsealing && !guess.curve.baseline &&
                                  trace.t_s.back() - guess.curve.off_s > 2.0 * guess.curve.tau_2_s;
     if (sees_atmosphere) {

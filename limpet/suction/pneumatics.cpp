@@ -63,6 +63,11 @@ Balance balance(const Pump& pump, std::span<const CupAir> cups, std::span<const 
     return sum;
 }
 
+double clamped_leak_m3_s(double at_100_N_m3_s, double exponent, double clamping_N) {
+    return at_100_N_m3_s *
+           std::pow((kLeakReference_N + kLipPreload_N) / (clamping_N + kLipPreload_N), exponent);
+}
+
 /// dP/dt of one cup but for the hose, times its volume, and the slope of it by P.
 struct Inflow {
     double flow_Pa_m3_s;
@@ -71,9 +76,7 @@ struct Inflow {
 Inflow inflow(const CupAir& cup, double pressure_Pa) {
     const double vacuum_Pa = kAtmosphere_Pa - pressure_Pa;
     const double clamping_N = std::max(0.0, vacuum_Pa * cup.area_m2 + cup.press_N);
-    const double leak_m3_s = cup.leak_100_m3_s * std::pow((kLeakReference_N + kLipPreload_N) /
-                                                              (clamping_N + kLipPreload_N),
-                                                          cup.leak_exponent);
+    const double leak_m3_s = clamped_leak_m3_s(cup.leak_100_m3_s, cup.leak_exponent, clamping_N);
     const double loosening = clamping_N > 0.0 ? cup.leak_exponent * cup.area_m2 * vacuum_Pa /
                                                     (clamping_N + kLipPreload_N)
                                               : 0.0;
@@ -198,10 +201,8 @@ const ParameterTable<PneumaticParameters>& pneumatic_table() {
 }
 
 double leak_conductance_m3_s(const Surface& surface, double clamping_N) {
-    return 1e-6 * surface.leak_conductance_cm3_s *
-           std::pow(
-               (kLeakReference_N + kLipPreload_N) / (std::max(0.0, clamping_N) + kLipPreload_N),
-               surface.leak_clamping_exponent);
+    return clamped_leak_m3_s(1e-6 * surface.leak_conductance_cm3_s, surface.leak_clamping_exponent,
+                             std::max(0.0, clamping_N));
 }
 
 double orifice_flow_Pa_m3_s(double area_m2, double upstream_Pa, double downstream_Pa) {

@@ -120,6 +120,8 @@ std::optional<Stages> find_stages(const PressureTrace& trace) {
     const double after_Pa = *std::max_element(low, smooth_Pa.end());
     stages.sealing = before_Pa > stages.low_Pa + 0.3 * span_Pa;
     stages.unsealing = after_Pa > stages.low_Pa + std::max(0.08 * span_Pa, 5.0 * noise);
+    stages.may_unseal = !stages.unsealing &&
+                        smooth_Pa.back() > stages.low_Pa + std::max(0.02 * span_Pa, 5.0 * noise);
 
     size_t fallen = 0;
     if (stages.sealing) {
@@ -134,7 +136,7 @@ std::optional<Stages> find_stages(const PressureTrace& trace) {
     }
     // Or the log begins after that.
     keep(stages.sealing ? stages.on : stages.off, 0);
-    if (stages.unsealing) {
+    if (stages.unsealing || stages.may_unseal) {
         for (const double share : {0.02, 0.05, 0.12, 0.25}) {
             keep(stages.off, last_of(fallen, stages.used, [&](size_t i) {
                      return smooth_Pa[i] < stages.low_Pa + share * span_Pa;

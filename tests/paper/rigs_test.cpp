@@ -12,9 +12,7 @@ namespace {
 
 TEST(BreakOff, IsThatOfTheClosedForms) {
     constexpr double kRadius_m = 0.04;
-    const auto surface = [](const std::string& name) {
-        return load_surface(name, data_root());
-    };
+    const auto surface = [](const std::string& name) { return load_surface(name, data_root()); };
     const std::vector<std::pair<std::string, double>> frictions = {
         {"porous concrete", surface("porous_concrete").friction},
         {"cinder block", surface("cinder_block").friction},
@@ -23,8 +21,7 @@ TEST(BreakOff, IsThatOfTheClosedForms) {
     const std::vector<BreakOff> loads = break_off_loads();
     ASSERT_EQ(loads.size(), 8U);
     for (const BreakOff& load : loads) {
-        const double vacuum_N =
-            (kAtmosphere_Pa - load.pressure_Pa) * kPi * kRadius_m * kRadius_m;
+        const double vacuum_N = (kAtmosphere_Pa - load.pressure_Pa) * kPi * kRadius_m * kRadius_m;
         EXPECT_NEAR(load.pull_N, vacuum_N, 0.01 * vacuum_N) << load.surface;
         for (const auto& [name, mu] : frictions) {
             if (name == load.surface) {

@@ -30,6 +30,16 @@ TEST(SteadyState, NorDoesATrialOnAMount) {
     }
 }
 
+TEST(SteadyState, NorDoesThePneumaticCup) {
+    Flight flight(model_of("perch_concrete", {"suction.pneumatic=1"}));
+    flight.tick();
+    const long before = allocations();
+    while (!flight.ended()) {
+        flight.tick();
+    }
+    EXPECT_EQ(allocations() - before, 0);
+}
+
 TEST(SteadyState, NorDoesTheRecorder) {
     const auto model = model_of("perch_concrete");
     const std::filesystem::path path =

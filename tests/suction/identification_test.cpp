@@ -153,6 +153,15 @@ TEST(Identification, OnlyASealing) {
     EXPECT_THAT(fit.notes, testing::Contains(HasSubstr("no unsealing")));
 }
 
+TEST(Identification, AnUnsealingThatHasOnlyBegun) {
+    const Bench metal{
+        .vacuum_Pa = 27500.0, .tau_1_s = 0.25, .tau_2_s = 16.0, .end_s = 5.5, .ripple_Pa = 400.0};
+    const PressureFit fit = identify_pressure(log_of(metal, 1));  // a rise by 6 %
+    ASSERT_TRUE(fit.unsealing_time_s);
+    EXPECT_NEAR(fit.unsealing_time_s->value, 16.0, 2.0 * fit.unsealing_time_s->half_width);
+    EXPECT_LT(fit.unsealing_time_s->half_width, 1.0);
+}
+
 TEST(Identification, OnlyAnUnsealing) {
     Bench bench;
     bench.begin_s = 3.5;
