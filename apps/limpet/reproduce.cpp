@@ -72,20 +72,23 @@ void add_reproduce(CLI::App& app) {
     CLI::App* verb = app.add_subcommand(
         "reproduce",
         "Fly the paper's experiments and write its tables, figures and claims as a page");
+    std::vector<std::string> names;
+    std::string footer = "Parts:\n";
+    for (const auto& [name, title] : part_titles()) {
+        names.push_back(name);
+        footer += fmt::format("  {:<12} {}\n", name, title);
+    }
     verb->add_option("--out", options->out, "folder (default: out/reproduce)")->type_name("DIR");
-    verb->add_option("--only", options->only, "one part, named below")->type_name("NAME");
+    verb->add_option("--only", options->only, "one part, named below")
+        ->type_name("NAME")
+        ->check(CLI::IsMember(names));
     verb->add_flag("--quick", options->quick, "fewer missions, coarser maps; under two minutes");
     verb->add_option("--jobs,-j", options->jobs, "threads (default: one a processor)")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
-    std::string footer = "Parts:\n";
-    for (const auto& [name, title] : part_titles()) {
-        footer += fmt::format("  {:<12} {}\n", name, title);
-    }
-    verb->footer(
-        footer +
-        "Writes index.html (opens offline), results.json, figures/, and the recordings and "
-        "campaigns behind them.\n");
+    verb->footer(footer +
+                 "\nWrites index.html (opens offline), results.json, figures/, and the recordings\n"
+                 "and campaigns behind them.\n");
     verb->callback([options] { run(*options); });
 }
 
