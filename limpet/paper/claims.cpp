@@ -29,7 +29,7 @@ double rounded(double difference, double scale) {
 }
 
 /// Simulated less paper, where that means something.
-Quantity difference(const Statement& statement, double value, bool holds) {
+Quantity difference(const PaperStatement& statement, double value, bool holds) {
     if (!std::isfinite(value)) {
         return std::string("no value");
     }
@@ -48,7 +48,7 @@ Quantity difference(const Statement& statement, double value, bool holds) {
 
 }  // namespace
 
-Claim judge(const Statement& statement, const Evidence& evidence) {
+Claim judge(const PaperStatement& statement, const Evidence& evidence) {
     Claim claim{.id = statement.id,
                 .section = statement.section,
                 .statement = statement.text,

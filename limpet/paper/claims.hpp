@@ -10,7 +10,7 @@
 namespace limpet {
 
 /// A statement of the paper and what would bear it out. The verdict is not in it: judge() finds it.
-struct Statement {
+struct PaperStatement {
     std::string id = {};
     std::string section = {};
     std::string text = {};
@@ -26,10 +26,10 @@ struct Statement {
 /// Every number and qualitative statement of the paper's text, in its order.
 /// Source: paper.txt; bounds: the paper's tolerances, else facts.md section 7, else named in a
 /// note.
-[[nodiscard]] const std::vector<Statement>& statements();
+[[nodiscard]] const std::vector<PaperStatement>& statements();
 
 /// reproduced: the evidence lies within the accepted range; differs: it does not, or did not come
 /// to pass; not modelled: there is no evidence to look for.
-[[nodiscard]] Claim judge(const Statement& statement, const Evidence& evidence);
+[[nodiscard]] Claim judge(const PaperStatement& statement, const Evidence& evidence);
 
 }  // namespace limpet

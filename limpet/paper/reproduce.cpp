@@ -14,10 +14,10 @@
 namespace limpet {
 namespace {
 
-std::vector<Part> wanted(const std::string& only) {
-    std::vector<Part> chosen;
+std::vector<StudyPart> wanted(const std::string& only) {
+    std::vector<StudyPart> chosen;
     std::string names;
-    for (const Part& part : parts()) {
+    for (const StudyPart& part : parts()) {
         if (only.empty() || only == part.name) {
             chosen.push_back(part);
         }
@@ -45,7 +45,7 @@ std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
 std::vector<Claim> judged(const Study& study, bool all) {
     const std::set<std::string> figures = figure_ids(study.sections);
     std::vector<Claim> claims;
-    for (const Statement& statement : statements()) {
+    for (const PaperStatement& statement : statements()) {
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
@@ -86,14 +86,14 @@ std::size_t Reproduction::count(Verdict verdict) const {
 
 std::vector<std::pair<std::string, std::string>> part_titles() {
     std::vector<std::pair<std::string, std::string>> titles;
-    for (const Part& part : parts()) {
+    for (const StudyPart& part : parts()) {
         titles.emplace_back(part.name, part.title);
     }
     return titles;
 }
 
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
-    const std::vector<Part> chosen = wanted(options.only);
+    const std::vector<StudyPart> chosen = wanted(options.only);
     Study study;
     study.folder = options.folder;
     study.quick = options.quick;

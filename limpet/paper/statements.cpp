@@ -4,8 +4,8 @@
 
 #include "limpet/paper/claims.hpp"
 
-// The paper, line by line. A Statement: id, section, what it says, its number or words, unit, name
-// of the evidence, accepted range, note, figure, flight.
+// The paper, line by line. A PaperStatement: id, section, what it says, its number or words, unit,
+// name of the evidence, accepted range, note, figure, flight.
 
 namespace limpet {
 namespace {
@@ -17,7 +17,7 @@ Quantity words(const char* text) {
     return std::string(text);
 }
 
-void add_vehicle(std::vector<Statement>& all) {
+void add_vehicle(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"equations-1-2", "II-A", "Free rigid-body motion obeys eqs. (1) and (2)",
@@ -56,7 +56,7 @@ void add_vehicle(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_rotor(std::vector<Statement>& all) {
+void add_rotor(std::vector<PaperStatement>& all) {
     const char* recovered =
         "Recovered from the simulation's own static thrust stand (eqs. (3), (4)) or wind tunnel; "
         "accepted within 2 %.";
@@ -91,7 +91,7 @@ constexpr std::array<TableTwo, 4> kTableTwo = {{
     {"metal", "metallic surface", 275.0, 0.25, 0.03, 16.0, 1.0},
 }};
 
-void add_table_two(std::vector<Statement>& all) {
+void add_table_two(std::vector<PaperStatement>& all) {
     constexpr double kVacuumTolerance_hPa = 10.0;
     for (const TableTwo& row : kTableTwo) {
         const std::string key = std::string("press_") + row.surface;
@@ -130,7 +130,7 @@ void add_table_two(std::vector<Statement>& all) {
     }
 }
 
-void add_cup(std::vector<Statement>& all) {
+void add_cup(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"equations-5-6", "II-D", "Eqs. (5) and (6) approximate the measured pressure",
@@ -173,7 +173,7 @@ void add_cup(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_architecture(std::vector<Statement>& all) {
+void add_architecture(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"px4", "II-E, Fig. 4", "A Pixhawk with PX4 and a Raspberry Pi fly the vehicle",
@@ -200,7 +200,7 @@ void add_architecture(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_method(std::vector<Statement>& all) {
+void add_method(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"equation-7", "IV", "Eq. (7) gives the angle to the wall from two LiDARs",
@@ -247,7 +247,7 @@ void add_method(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_concrete(std::vector<Statement>& all) {
+void add_concrete(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"whole", "V, Figs. 9, 10", "Autonomous perching and take-off were achieved in simulation",
@@ -309,7 +309,7 @@ void add_concrete(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_metal(std::vector<Statement>& all) {
+void add_metal(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"metal-vacuum", "V-B, Fig. 13", "On metal the pressure drops as low as 275 hPa", 275.0,
@@ -358,7 +358,7 @@ void add_metal(std::vector<Statement>& all) {
     // clang-format on
 }
 
-void add_failure(std::vector<Statement>& all) {
+void add_failure(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
         {"failed-spike", "V-C, Fig. 15", "Failed perching: a peak of force", words("peak"), "N",
@@ -383,9 +383,9 @@ void add_failure(std::vector<Statement>& all) {
 
 }  // namespace
 
-const std::vector<Statement>& statements() {
-    static const std::vector<Statement> all = [] {
-        std::vector<Statement> list;
+const std::vector<PaperStatement>& statements() {
+    static const std::vector<PaperStatement> all = [] {
+        std::vector<PaperStatement> list;
         add_vehicle(list);
         add_rotor(list);
         add_table_two(list);

@@ -14,8 +14,8 @@ PageFigure Study::figure(const Chart& chart, const std::string& id, const std::s
             .svg = std::filesystem::path("figures") / (id + ".svg")};
 }
 
-const std::vector<Part>& parts() {
-    static const std::vector<Part> all = {
+const std::vector<StudyPart>& parts() {
+    static const std::vector<StudyPart> all = {
         {"rotors", "Rotors: Table I", study_rotors},
         {"suction", "Suction cup: Table II and Fig. 2", study_suction},
         {"trials", "Attachment against impact speed: Fig. 3", study_trials},

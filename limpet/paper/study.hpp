@@ -34,7 +34,7 @@ struct Study {
 };
 
 /// A part of the paper that can be reproduced by itself: `limpet reproduce --only NAME`.
-struct Part {
+struct StudyPart {
     std::string name;   ///< "rotors"
     std::string title;  ///< of its section
     void (*run)(Study& study);
@@ -47,6 +47,6 @@ void study_trials(Study& study);       ///< Fig. 3
 void study_flights(Study& study);      ///< Figs. 9 to 15
 void study_oscillation(Study& study);  ///< the open question
 void study_beyond(Study& study);       ///< valve, energy, break-off loads
-[[nodiscard]] const std::vector<Part>& parts();
+[[nodiscard]] const std::vector<StudyPart>& parts();
 
 }  // namespace limpet

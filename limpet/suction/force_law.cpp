@@ -60,7 +60,8 @@ const ParameterTable<LipParameters>& lip_table() {
          "of the lip about the cup's axis", "assumed: as against tilting"},
         {"twist_damping_N_m_s_rad", "N m s/rad", 0.0, 1e3,
          [](L& l) -> double& { return l.twist_damping_N_m_s_rad; },
-         "of the lip about the cup's axis", "assumed"},
+         "of the lip about the cup's axis",
+         "assumed: a loss factor of rubber of 0.2 at the 3 Hz at which the vehicle rolls on it"},
     };
     return table;
 }

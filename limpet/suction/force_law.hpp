@@ -34,7 +34,7 @@ struct LipParameters {
     double tilt_stiffness_N_m_rad = 20.0;
     double tilt_damping_N_m_s_rad = 0.02;
     double twist_stiffness_N_m_rad = 20.0;
-    double twist_damping_N_m_s_rad = 0.05;
+    double twist_damping_N_m_s_rad = 0.2;
 };
 
 [[nodiscard]] const ParameterTable<LipParameters>& lip_table();

@@ -9,7 +9,7 @@
 namespace limpet {
 namespace {
 
-Statement number(double paper, Range accepted) {
+PaperStatement number(double paper, Range accepted) {
     return {.id = "x",
             .section = "I",
             .text = "x is so much",
@@ -26,7 +26,7 @@ Evidence with(double value) {
 }
 
 TEST(Judge, TheEvidenceDecidesTheVerdict) {
-    const Statement statement = number(1.0, {0.8, 1.4});
+    const PaperStatement statement = number(1.0, {0.8, 1.4});
     for (const double inside : {0.8, 1.0, 1.4}) {
         EXPECT_EQ(judge(statement, with(inside)).verdict, Verdict::reproduced) << inside;
     }
@@ -45,7 +45,7 @@ TEST(Judge, WhatDidNotComeToPassDiffers) {
 }
 
 TEST(Judge, WithoutEvidenceToLookForItIsNotModelled) {
-    Statement statement = number(1.0, {});
+    PaperStatement statement = number(1.0, {});
     statement.evidence.clear();
     EXPECT_EQ(judge(statement, with(1.0)).verdict, Verdict::not_modelled);
 }
@@ -54,7 +54,7 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
     EXPECT_DOUBLE_EQ(std::get<double>(judge(number(1.0, {0, 2}), with(1.25)).difference), 0.25);
     EXPECT_EQ(std::get<double>(judge(number(12.0, {0, 20}), with(12.0 + 2e-15)).difference), 0.0)
         << "noise of the last digit";
-    Statement range = number(0.0, {1.0, 1.2});
+    PaperStatement range = number(0.0, {1.0, 1.2});
     range.paper = Range{1.0, 1.2};
     EXPECT_EQ(std::get<std::string>(judge(range, with(1.1)).difference), "inside");
     EXPECT_NEAR(std::get<double>(judge(range, with(1.5)).difference), 0.3, 1e-6);
@@ -63,7 +63,7 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
 
 TEST(Statements, AreCompleteAndAppearOnce) {
     std::set<std::string> ids;
-    for (const Statement& statement : statements()) {
+    for (const PaperStatement& statement : statements()) {
         EXPECT_TRUE(ids.insert(statement.id).second) << statement.id;
         EXPECT_FALSE(statement.section.empty()) << statement.id;
         EXPECT_FALSE(statement.text.empty()) << statement.id;
@@ -77,7 +77,7 @@ TEST(Statements, AreCompleteAndAppearOnce) {
 
 /// A paper's own number outside of what is accepted as it would be a slip of ours.
 TEST(Statements, AcceptThePapersOwnNumbers) {
-    for (const Statement& statement : statements()) {
+    for (const PaperStatement& statement : statements()) {
         if (const double* paper = std::get_if<double>(&statement.paper)) {
             EXPECT_GE(*paper, statement.accepted.low) << statement.id;
             EXPECT_LE(*paper, statement.accepted.high) << statement.id;
@@ -87,7 +87,7 @@ TEST(Statements, AcceptThePapersOwnNumbers) {
 
 TEST(Statements, HoldTableTwo) {
     int rows = 0;
-    for (const Statement& statement : statements()) {
+    for (const PaperStatement& statement : statements()) {
         rows += statement.section == "II-D, Table II" ? 1 : 0;
     }
     EXPECT_EQ(rows, 12);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <ostream>
 
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -23,6 +24,10 @@ struct Case {
     double rate_i;
     double attitude_p;
 };
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
 
 /// The pitch loop written by hand: an inertia on a pivot, motors as a lag behind a dead time, PX4's
 /// rate controller with its filters. Zero at a mode.
@@ -100,6 +105,16 @@ TEST(LevelOnCup, GazebosMotorsDecayAndSlowOnesGrow) {
     const Mode slow = linear_swing("slow_motors_metal", {});
     // From 0.5 to 5 deg within 16 s takes ln(10) / 16.
     EXPECT_NEAR(slow.growth_1_s, std::log(10.0) / 16.0, 0.05);
+}
+
+/// The paper tells of pitch: nothing else may grow.
+TEST(LevelOnCup, SlowMotorsSwingInPitchAlone) {
+    LevelOnCup loop(build_model(load_scenario("slow_motors_metal")));
+    for (const Mode& mode : loop.modes()) {
+        if (mode.pitch_share < 0.5) {
+            EXPECT_LT(mode.growth_1_s, 0.0) << mode.frequency_Hz << " Hz";
+        }
+    }
 }
 
 }  // namespace
