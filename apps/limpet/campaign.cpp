@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -14,6 +12,7 @@
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "output.hpp"
+#include "signals.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -33,18 +32,6 @@ struct CampaignOptions {
     bool resume = false;
     bool quiet = false;
 };
-
-/// A signal handler can reach nothing else.
-std::atomic<bool> interrupted = false;
-
-/// The first Ctrl-C lets the flights in the air end; the second ends the program as ever.
-void stop_on_signals() {
-    struct sigaction action = {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
 
 std::string time_text(double time_s) {
     const auto whole = static_cast<long long>(std::ceil(time_s));
@@ -78,7 +65,7 @@ CampaignWatch watch(Terminal& terminal) {
                         next = Clock::now() + kLineEvery;
                     }
                 },
-            .stop = &interrupted};
+            .stop = stop_on_signals()};
 }
 
 void conclude(const Progress& progress, Results& results, const CampaignOptions& options,
@@ -119,7 +106,6 @@ void fly_campaign(const CampaignOptions& options, ExitCode& code) {
                               campaign.scenario_name, campaign.seed, options.jobs,
                               options.jobs == 1 ? "" : "s",
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
-    stop_on_signals();
     const Progress progress = run_campaign(results, options.jobs, watch(terminal));
     conclude(progress, results, options, folder, terminal, code);
 }

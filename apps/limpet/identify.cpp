@@ -44,22 +44,26 @@ struct Row {
     std::optional<double> table_two = {};
 };
 
-/// The surface of Table II whose numbers are nearest, each as a ratio.
+/// The surface of Table II whose numbers are nearest, each as a ratio; none where one is off by
+/// more than half.
 std::optional<Surface> nearest_surface(const PressureFit& fit) {
     std::optional<Surface> nearest;
     double least = 0.0;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
         const Surface surface = load_surface(name, data_root());
         double distance = 0.0;
+        bool near = true;
         const auto add = [&](const std::optional<Fitted>& fitted, double value) {
-            if (fitted && fitted->value > 0.0) {
-                distance += std::pow(std::log(fitted->value / value), 2);
+            if (fitted) {
+                const double ratio = fitted->value > 0.0 ? fitted->value / value : 1e9;
+                distance += std::pow(std::log(ratio), 2);
+                near = near && std::abs(std::log(ratio)) < std::log(1.5);
             }
         };
         add(fit.vacuum_Pa, surface.vacuum_pressure_Pa);
         add(fit.sealing_time_s, surface.sealing_time_constant_s);
         add(fit.unsealing_time_s, surface.unsealing_time_constant_s);
-        if (!nearest || distance < least) {
+        if (near && (!nearest || distance < least)) {
             nearest = surface;
             least = distance;
         }
@@ -194,7 +198,24 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
                                   .height_px = 140.0}}};
 }
 
+void require_sense(const IdentifyOptions& options) {
+    const auto check = [](const char* name, const std::optional<double>& value) {
+        if (value && !std::isfinite(*value)) {
+            throw InputError(fmt::format("{} {}: must be a time in s", name, *value));
+        }
+    };
+    check("--pump-on", options.pump_on_s);
+    check("--pump-off", options.pump_off_s);
+    check("--from", options.from_s);
+    check("--to", options.to_s);
+    if (options.from_s && options.to_s && *options.from_s >= *options.to_s) {
+        throw InputError(
+            fmt::format("--from {}: must be before --to {}", *options.from_s, *options.to_s));
+    }
+}
+
 void identify(const IdentifyOptions& options) {
+    require_sense(options);
     const PressureTrace trace = read_pressure_log(fs::path(options.log));
     PressureFit fit;
     try {
@@ -254,6 +275,9 @@ void add_identify(CLI::App& app) {
         ->type_name("DIR");
     verb->add_flag("--json", options->json, "one JSON object, in SI; the figure only with --out");
     verb->footer(
+        "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
+        "recording:\n"
+        "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
         "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals are "
         "for\n"
         "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");

@@ -36,7 +36,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_campaign(app, code);
     add_replay(app);
     add_summary(app);
-    add_reproduce(app);
+    add_reproduce(app, code);
     add_identify(app);
     add_check(app);
     add_list(app);

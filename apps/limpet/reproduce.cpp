@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "output.hpp"
+#include "signals.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -26,8 +27,9 @@ struct Options {
 };
 
 std::string command_of(const Options& options) {
-    return std::string("limpet reproduce") + (options.quick ? " --quick" : "") +
-           (options.only.empty() ? "" : " --only " + options.only);
+    return fmt::format("limpet reproduce --out {} --jobs {}{}{}", options.out, options.jobs,
+                       options.quick ? " --quick" : "",
+                       options.only.empty() ? "" : " --only " + options.only);
 }
 
 void run(const Options& options) {
@@ -42,7 +44,14 @@ void run(const Options& options) {
                 terminal.line(fmt::format("{:5.0f} s  {}", past_s, part));
             },
         .on_work =
-            [&](const std::string& what) { terminal.progress(part + ": " + what + " ..."); }};
+            [&](const std::string& what) {
+                if (terminal.live()) {
+                    terminal.progress(part + ": " + what + " ...");
+                } else {
+                    terminal.line("            " + what);
+                }
+            },
+        .stop = stop_on_signals()};
     const Reproduction result = reproduce({.folder = make_folder(options.out),
                                            .only = options.only,
                                            .quick = options.quick,
@@ -67,7 +76,7 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_reproduce(CLI::App& app) {
+void add_reproduce(CLI::App& app, ExitCode& code) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand(
         "reproduce",
@@ -89,7 +98,14 @@ void add_reproduce(CLI::App& app) {
     verb->footer(footer +
                  "\nWrites index.html (opens offline), results.json, figures/, and the recordings\n"
                  "and campaigns behind them.\n");
-    verb->callback([options] { run(*options); });
+    verb->callback([options, &code] {
+        try {
+            run(*options);
+        } catch (const Interrupted&) {
+            fmt::print(stderr, "limpet: stopped; no page was written\n");
+            code = ExitCode::interrupted;
+        }
+    });
 }
 
 }  // namespace limpet::app

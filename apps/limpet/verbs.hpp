@@ -25,7 +25,7 @@ void add_csv(CLI::App& app);
 void add_export(CLI::App& app);
 void add_campaign(CLI::App& app, ExitCode& code);
 void add_replay(CLI::App& app);
-void add_reproduce(CLI::App& app);
+void add_reproduce(CLI::App& app, ExitCode& code);
 void add_summary(CLI::App& app);
 void add_rotor(CLI::App& app);
 void add_identify(CLI::App& app);

@@ -117,6 +117,34 @@ void require_ours(Database& database) {
     }
 }
 
+void require_tables(Database& database) {
+    for (const char* table : {"campaign", "scenarios", "runs"}) {
+        if (database.integer(fmt::format(
+                "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '{}'",
+                table)) != 1) {
+            throw InputError(
+                fmt::format("{}: is damaged: there is no table {}", database.name(), table));
+        }
+    }
+    if (database.integer("SELECT count(*) FROM campaign") != 1) {
+        throw InputError(database.name() + ": is damaged: table campaign does not have one row");
+    }
+}
+
+/// Values that no run of ours was given: somebody else wrote them.
+void require_values(Database& database, const Campaign& campaign) {
+    for (const VariedKey& key : campaign.keys) {
+        const std::string column = sql_name(key.key);
+        const std::string good =
+            is_named(key) ? fmt::format("typeof({}) = 'text'", column)
+                          : fmt::format("typeof({0}) = 'real' AND abs({0}) < 1e300", column);
+        if (database.integer(fmt::format("SELECT count(*) FROM runs WHERE NOT ({})", good)) > 0) {
+            throw InputError(fmt::format("{}: is damaged: column {} holds what no run was given",
+                                         database.name(), column));
+        }
+    }
+}
+
 Campaign read_campaign(Database& database) {
     std::vector<std::string> scenarios;
     Statement scenario = database.prepare("SELECT yaml FROM scenarios ORDER BY variant");
@@ -154,6 +182,7 @@ void Results::create(const fs::path& path, const Campaign& campaign) {
 
 Results::Results(const fs::path& path, Database::Access access) : database_(path, access) {
     require_ours(database_);
+    require_tables(database_);
     campaign_ = read_campaign(database_);
     version_ = database_.text("SELECT limpet FROM campaign");
     campaign_hash_ = database_.text("SELECT campaign_hash FROM campaign");
@@ -165,6 +194,12 @@ Results::Results(const fs::path& path, Database::Access access) : database_(path
                         "begun by {}",
                         database_.name(), kVersion, version_));
     }
+    if (campaign_hash_ != campaign_hash(campaign_) || scenario_hash_ != scenario_hash(campaign_)) {
+        throw InputError(
+            database_.name() +
+            ": is damaged: campaign or scenarios are not those that it was begun with");
+    }
+    require_values(database_, campaign_);
 }
 
 void Results::require_same(const Campaign& campaign) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -105,6 +106,9 @@ KeySummary summarise_key(Database& database, const VariedKey& key, const std::st
     const bool few = !key.values.empty() && trials.size() <= kMostValues;
     summary.groups = few ? groups_by_value(trials) : groups_by_bin(trials);
     summary.fit = fit_logistic(trials);
+    if (summary.fit && std::abs(summary.fit->slope) < kNormal95 * summary.fit->slope_error) {
+        summary.fit.reset();  // no trend: a curve would draw noise
+    }
     return summary;
 }
 

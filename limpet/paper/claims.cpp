@@ -19,7 +19,21 @@ Quantity shown(double value, const std::string& unit) {
     if (unit == kYesNo) {
         return std::string(value > 0.5 ? "yes" : "no");
     }
-    return value;
+    // Six figures: what is behind them is the noise of the arithmetic.
+    return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// "0.8 … 1.4", "at least 2", "2"
+std::string accepted_text(const PaperStatement& statement) {
+    const Range& range = statement.accepted;
+    if (statement.unit == kYesNo) {
+        return "yes";
+    }
+    if (!std::isfinite(range.high)) {
+        return fmt::format("at least {:.4g}", range.low);
+    }
+    return range.low == range.high ? fmt::format("{:.4g}", range.low)
+                                   : fmt::format("{:.4g} … {:.4g}", range.low, range.high);
 }
 
 /// Less the noise of the last digits: six figures of what is compared.
@@ -57,6 +71,7 @@ Claim judge(const PaperStatement& statement, const Evidence& evidence) {
                 .unit = statement.unit == kYesNo ? "" : statement.unit,
                 .difference = std::string("not compared"),
                 .verdict = Verdict::not_modelled,
+                .basis = statement.basis,
                 .note = statement.note,
                 .figure = statement.figure};
     if (!statement.flight.empty()) {
@@ -65,6 +80,7 @@ Claim judge(const PaperStatement& statement, const Evidence& evidence) {
     if (statement.evidence.empty()) {
         return claim;
     }
+    claim.accepted = accepted_text(statement);
     const double value = evidence.get(statement.evidence);
     const bool holds = value >= statement.accepted.low && value <= statement.accepted.high;
     claim.simulated = shown(value, statement.unit);

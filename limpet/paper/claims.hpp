@@ -21,6 +21,9 @@ struct PaperStatement {
     std::string note = {};      ///< where the bounds come from, what is assumed
     std::string figure = {};
     std::string flight = {};  ///< whose recording shows it
+    /// "as set" (read from the configuration), "recovered" (measured, from what was set), "by the
+    /// method" (its own limits and orders), "measured"; empty when not modelled
+    std::string basis = {};
 };
 
 /// Every number and qualitative statement of the paper's text, in its order.

@@ -84,8 +84,6 @@ public:
     void approach() {
         const RecordedEvent* first = first_event(recording_, "approach_started");
         set("distance_before_approach_m", value_of(first, "distance_m"));
-        set("approach_after_pre_position_s",
-            time_of(first) - time_of(first_event(recording_, "pre_positioned")));
         // The walls of the paper's flights face south: the true angle is the yaw.
         const auto yaw = within(recording_, "/truth/vehicle", "yaw_rad",
                                 {time_of(first) - 0.005, time_of(first) + 0.005});
@@ -99,7 +97,6 @@ public:
         const std::vector<double> speeds =
             within(recording_, "/truth/vehicle", "velocity_north_m_s",
                    {time_of(impact) - 0.25, time_of(impact) - 0.05});
-        set("approach_speed_m_s", mean(speeds));
         set("approach_speed_change_m_s", most(speeds) - least(speeds));
     }
 
@@ -142,7 +139,6 @@ public:
         set("landing_force_rise_N", value_of(end, "force_N") - value_of(start, "force_N"));
         set("landing_s", land.to_s - land.from_s);
         const auto thrust = within(recording_, "/truth/vehicle", "thrust_N", land);
-        set("landing_thrust_setback", setback(thrust));
         set("thrust_when_perched_N", thrust.empty() ? kNone : thrust.back());
     }
 
@@ -150,8 +146,6 @@ public:
         const double off_s = time_of(first_event(recording_, "motors_off"));
         const RecordedEvent* on = first_event(recording_, "motors_on", off_s);
         const Stretch end{std::max(off_s, time_of(on) - kSteady_s), time_of(on)};
-        auto measured = within(recording_, "/sensors/cup_pressure", "fluid_pressure", end);
-        set("rest_pressure_hPa", 0.01 * mean(measured));
         // The pump's own part: true pressure, so that the sensor's noise does not count.
         const auto ripple = within(recording_, "/cup", "pressure_Pa", end);
         set("rest_ripple_hPa", 0.01 * (most(ripple) - least(ripple)));
@@ -164,7 +158,6 @@ public:
         const RecordedEvent* off = first_event(recording_, "pump_off", time_of(on));
         const Stretch up{time_of(on), time_of(level)};
         set("take_off_pressure_hPa", 0.01 * value_of(on, "pressure_Pa"));
-        set("take_off_pitch_deg", value_of(on, "pitch_deg"));
         const auto thrust = within(recording_, "/truth/vehicle", "thrust_N", up);
         set("take_off_thrust_rise_N", thrust.empty() ? kNone : thrust.back() - thrust.front());
         set("take_off_pitch_setback",
@@ -184,8 +177,6 @@ public:
     void first_failure() {
         const RecordedEvent* retreat = first_event(recording_, "retreat_started");
         const RecordedEvent* again = first_event(recording_, "pre_positioned", time_of(retreat));
-        set("retreat_after_hold_s",
-            time_of(retreat) - time_of(first_event(recording_, "hold_over")));
         set("retreated_to_m", value_of(again, "distance_m"));
         set("second_attempt_after_s",
             time_of(first_event(recording_, "approach_started", time_of(retreat))) -

@@ -60,9 +60,13 @@ double pitch_deg(const Flight& flight) {
     return degrees(euler_from_quaternion(flight.state().truth.base.q_WF).pitch_rad);
 }
 
+bool waits(const Flight& flight) {
+    return !flight.ended() && flight.state().guidance.state == PerchingState::releasing;
+}
+
 /// Flies to the moment at which the vehicle begins to wait for the release.
 void fly_to_release(Flight& flight) {
-    while (flight.state().guidance.state != PerchingState::releasing) {
+    while (!waits(flight)) {
         require(!flight.ended(), "a flight that comes to its release");
         flight.tick();
     }
@@ -139,46 +143,49 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     Scenario quiet = load_scenario(scenario, {.overrides = joined(patient, overrides)});
     silence(quiet);
     const auto model = build_model(quiet);
-    const double frequency_Hz = [&] {
-        LevelOnCup loop(model);
-        return std::max(0.3, pitch_mode(loop.modes()).frequency_Hz);
-    }();
-    Flight flight(model);
-    fly_to_release(flight);
-
-    Snapshot snapshot = flight.save();
+    constexpr double kLeast_Hz = 0.3;  // where the loop hardly swings at all
+    const double frequency_Hz =
+        std::max(kLeast_Hz, pitch_mode(LevelOnCup(model).modes()).frequency_Hz);
+    Flight twin(model);
+    fly_to_release(twin);
+    Flight kicked(model);
+    Snapshot snapshot = twin.save();
     MujocoPlant plant(model->plant);
     plant.restore(snapshot.plant);
     turn_about_joint(plant, quiet.airframe, radians(kick_deg) * 2.0 * kPi * frequency_Hz);
     snapshot.plant = plant.save();
     see_motion(*model, snapshot.state.truth, plant);
-    flight.restore(snapshot);
+    kicked.restore(snapshot);
 
-    std::vector<double> time_s, pitches_deg;
+    std::vector<double> time_s, difference_deg;
     const double start_s = seconds(snapshot.state.tick);
-    while (!flight.ended() && flight.state().guidance.state == PerchingState::releasing) {
-        const double since_s = seconds(flight.state().tick) - start_s;
-        if (since_s > kWatch_s || std::abs(pitch_deg(flight)) > kTooFar_deg) {
+    while (waits(twin) && waits(kicked)) {
+        const double since_s = seconds(kicked.state().tick) - start_s;
+        if (since_s > kWatch_s || std::abs(pitch_deg(kicked)) > kTooFar_deg) {
             break;
         }
         if (since_s >= kSample_s * static_cast<double>(time_s.size())) {
             time_s.push_back(since_s);
-            pitches_deg.push_back(pitch_deg(flight));
+            difference_deg.push_back(pitch_deg(kicked) - pitch_deg(twin));
         }
-        flight.tick();
+        twin.tick();
+        kicked.tick();
     }
-    return measure_swing(std::move(time_s), std::move(pitches_deg));
+    return measure_swing(std::move(time_s), std::move(difference_deg));
+}
+
+Overrides motors_and_pivot(double lag_s, double pivot_m) {
+    return {fmt::format("vehicle.rotor.time_constant_up_s={}", lag_s),
+            fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
+            fmt::format("vehicle.cup.joint_x_m={}", pivot_m)};
 }
 
 void fill(StabilityMap& map, int jobs) {
     map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
     PlantCache plants;
     for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
-        const double lag_s = map.lag_s[i % map.lag_s.size()];
-        const double pivot_m = map.pivot_m[i / map.lag_s.size()];
-        const Overrides point = {fmt::format("vehicle.rotor.time_constant_up_s={}", lag_s),
-                                 fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
-                                 fmt::format("vehicle.cup.joint_x_m={}", pivot_m)};
+        const Overrides point =
+            motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
         const Scenario scenario =
             load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
         LevelOnCup loop(
@@ -190,6 +197,11 @@ void fill(StabilityMap& map, int jobs) {
 double SwingMissions::quantile(double share) const {
     return pitch_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
                              : limpet::quantile(pitch_deg, share);
+}
+
+double SwingMissions::median_swing_deg() const {
+    return swing_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
+                             : limpet::quantile(swing_deg, 0.5);
 }
 
 SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
@@ -206,9 +218,11 @@ SwingMissions swing_missions(const std::string& scenario, const Overrides& overr
         missions.crashed += result.outcome == Outcome::crashed ? 1U : 0U;
         if (std::isfinite(result.metrics.pitch_oscillation_max_deg)) {
             missions.pitch_deg.push_back(result.metrics.pitch_oscillation_max_deg);
+            missions.swing_deg.push_back(result.metrics.pitch_swing_deg);
         }
     }
     std::sort(missions.pitch_deg.begin(), missions.pitch_deg.end());
+    std::sort(missions.swing_deg.begin(), missions.swing_deg.end());
     return missions;
 }
 

@@ -21,12 +21,13 @@ using Overrides = std::vector<std::string>;
 /// @throws InputError when the overrides do not make a scenario
 [[nodiscard]] Mode linear_swing(const std::string& scenario, const Overrides& overrides);
 
-/// The same by a whole flight without noise, kicked while it waits for the release.
+/// The same by a whole flight without noise, kicked as it begins to wait for the release, less a
+/// twin that was not: what the take-off left does not count.
 struct KickedSwing {
-    double growth_1_s = 0.0;     ///< NaN when fewer than four extremes stand out
-    double frequency_Hz = 0.0;   ///< likewise
-    std::vector<double> time_s;  ///< since the kick
-    std::vector<double> pitch_deg;
+    double growth_1_s = 0.0;        ///< NaN when fewer than four extremes stand out
+    double frequency_Hz = 0.0;      ///< likewise
+    std::vector<double> time_s;     ///< since the kick
+    std::vector<double> pitch_deg;  ///< of the kicked flight less its twin's
 };
 /// @param kick_deg  amplitude that an undamped swing would have
 [[nodiscard]] KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides,
@@ -37,6 +38,9 @@ struct KickedSwing {
 /// @param floor  smaller differences are noise
 [[nodiscard]] KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
                                         double floor_deg = 0.02);
+
+/// A vehicle with these motors, up and down alike, and this distance from centre of mass to joint.
+[[nodiscard]] Overrides motors_and_pivot(double lag_s, double pivot_m);
 
 /// Growth over motor lag and pivot distance, row by row of the pivot.
 struct StabilityMap {
@@ -57,10 +61,12 @@ void fill(StabilityMap& map, int jobs);
 /// Whole missions: the largest pitch while waiting for the release, over runs with noise and gusts.
 struct SwingMissions {
     std::vector<double> pitch_deg;  ///< of the missions that came to wait, sorted
+    std::vector<double> swing_deg;  ///< half of the span of their pitch, sorted
     std::uint32_t runs = 0;
     std::uint32_t attached = 0;  ///< perched before
     std::uint32_t crashed = 0;
-    [[nodiscard]] double quantile(double share) const;
+    [[nodiscard]] double quantile(double share) const;  ///< of pitch_deg
+    [[nodiscard]] double median_swing_deg() const;
 };
 [[nodiscard]] SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
                                            std::uint32_t runs, int jobs);

@@ -39,16 +39,15 @@ struct PaperFigure {
     const char* title;
     const char* caption;
     const char* alt;
-    bool film = false;
 };
 
 constexpr std::array<PaperFigure, 7> kFigures = {{
     {"fig9", "perch_concrete", "perching_film", "Fig. 9: perching on porous concrete",
      "Rendered from the recording of `perch_concrete`.",
-     "Eight pictures of the vehicle from the approach to the rest on the wall", true},
+     "Eight pictures of the vehicle from the approach to the rest on the wall"},
     {"fig10", "perch_concrete", "take_off_film", "Fig. 10: take-off from porous concrete",
      "Rendered from the recording of `perch_concrete`.",
-     "Pictures of the vehicle from the rest on the wall back to the pre-position", true},
+     "Pictures of the vehicle from the rest on the wall back to the pre-position"},
     {"fig11", "perch_concrete", "perching", "Fig. 11: perching on concrete",
      "The impact is the negative spike of the force; the pressure falls below P_land within the "
      "hold; then the pitch rises while the thrust falls and the force on the cup grows.",
@@ -57,7 +56,9 @@ constexpr std::array<PaperFigure, 7> kFigures = {{
      "Pump off once level; the air that leaks in releases the cup in about a second.",
      "The same five curves from the rest on the wall back to the pre-position"},
     {"fig13", "perch_metal", "perching", "Fig. 13: perching on metal",
-     "A tighter seal: 275 hPa, and a pump that can rest, so that the ripple is gone.",
+     "A tighter seal and a pump that can rest: the strokes of Fig. 11 give way to a slow "
+     "saw-tooth, "
+     "since by Table II even metal lets the pressure rise once the pump is off.",
      "The same five curves on metal, from approach to rest"},
     {"fig14", "perch_metal", "take_off", "Fig. 14: take-off attempt on metal",
      "After 16 s the cup still holds and the release is given up, as in the paper. The pitch stays "
@@ -75,28 +76,6 @@ const PaperFlight& find(const std::vector<PaperFlight>& flights, const std::stri
         }
     }
     throw InternalError("no flight " + name);
-}
-
-/// Copies one of a flight's pictures to the page's figures.
-PageFigure page_figure(const PaperFigure& figure, const Study& study) {
-    const fs::path from = study.folder / "flights" / figure.flight;
-    const auto copy = [&](const char* ending) {
-        const fs::path to = fs::path("figures") / (std::string(figure.id) + ending);
-        fs::create_directories(study.folder / "figures");
-        fs::copy_file(from / (std::string(figure.picture) + ending), study.folder / to,
-                      fs::copy_options::overwrite_existing);
-        return to;
-    };
-    PageFigure page{.id = figure.id,
-                    .title = figure.title,
-                    .caption = figure.caption,
-                    .alt = figure.alt,
-                    .png = copy(".png"),
-                    .wide = true};
-    if (!figure.film) {
-        page.svg = copy(".svg");
-    }
-    return page;
 }
 
 /// Values of one flight that need another.
@@ -162,11 +141,16 @@ void study_flights(Study& study) {
 
     PageSection section{.id = "part-flights"};
     section.blocks.emplace_back(
-        "The paper's flights, flown by the same method (its Fig. 7) on the simulated vehicle. Blue "
-        "is what the sensors said, as in the paper's plots; events are those of the method.");
+        "The paper's flights, flown by the same method (its Fig. 7) on the simulated vehicle. Dark "
+        "lines are the truth, light ones under them what the sensors said; events are those of the "
+        "method.");
     section.blocks.emplace_back(flight_table(flights));
     for (const PaperFigure& figure : kFigures) {
-        section.blocks.emplace_back(page_figure(figure, study));
+        section.blocks.emplace_back(study.flight_figure(figure.flight, figure.picture,
+                                                        {.id = figure.id,
+                                                         .title = figure.title,
+                                                         .caption = figure.caption,
+                                                         .alt = figure.alt}));
     }
     study.sections.push_back(std::move(section));
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
@@ -11,10 +12,9 @@
 namespace limpet {
 namespace {
 
-/// A column of Table I.
+/// A vehicle's rotor, measured.
 struct Bench {
-    const char* vehicle;
-    double paper_k_mot_kg_m, paper_k_mom_m, paper_lambda_1_kg;  ///< paper, Table I
+    TableOne paper = {};
     RotorParameters used = {};
     std::vector<ThrustStandRow> stand = {};
     RotorConstants constants = {};
@@ -25,7 +25,7 @@ constexpr double kAir_kg_m3 = 1.225;  ///< sea level; it cancels out of eqs. (3)
 
 /// Weighs a rotor as the paper's source did, and takes eqs. (3), (4) of it.
 void weigh(Bench& bench) {
-    bench.used = load_vehicle(bench.vehicle, data_root()).rotor;
+    bench.used = load_vehicle(bench.paper.vehicle, data_root()).rotor;
     const double highest_rpm = bench.used.speed_max_rad_s * 60.0 / (2.0 * kPi);
     std::vector<double> speeds_rpm;
     constexpr int kSpeeds = 12;
@@ -44,9 +44,9 @@ void weigh(Bench& bench) {
 PageFigure thrust_figure(const std::array<Bench, 2>& benches, const Study& study) {
     ChartPanel thrust{.x_label = "rotor speed  [rad/s]", .y_label = "thrust of one rotor  [N]"};
     for (const Bench& bench : benches) {
-        ChartSeries points{.name = std::string(bench.vehicle) + ", weighed",
+        ChartSeries points{.name = std::string(bench.paper.vehicle) + ", weighed",
                            .mark = ChartSeries::Mark::points};
-        ChartSeries curve{.name = std::string(bench.vehicle) + ", paper's k_mot w²"};
+        ChartSeries curve{.name = std::string(bench.paper.vehicle) + ", paper's k_mot w²"};
         for (const ThrustStandRow& row : bench.stand) {
             points.x.push_back(row.speed_rad_s);
             points.y.push_back(row.thrust_N);
@@ -55,7 +55,7 @@ PageFigure thrust_figure(const std::array<Bench, 2>& benches, const Study& study
         for (int i = 0; i <= kPoints; ++i) {
             const double w = bench.used.speed_max_rad_s * i / kPoints;
             curve.x.push_back(w);
-            curve.y.push_back(bench.paper_k_mot_kg_m * w * w);
+            curve.y.push_back(bench.paper.motor_constant_kg_m * w * w);
         }
         thrust.series.push_back(std::move(points));
         thrust.series.push_back(std::move(curve));
@@ -76,15 +76,15 @@ PageTable table_one(const std::array<Bench, 2>& benches) {
                         "drag in a cross wind."};
     const auto text = [](double value) { return fmt::format("{:.3g}", value); };
     for (const Bench& bench : benches) {
-        const std::string vehicle = bench.vehicle;
-        table.rows.push_back({std::string("k_mot, kg m"), vehicle, text(bench.paper_k_mot_kg_m),
-                              text(bench.used.motor_constant_kg_m),
-                              text(bench.constants.motor_constant_kg_m)});
-        table.rows.push_back({std::string("k_mom, m"), vehicle, text(bench.paper_k_mom_m),
+        const std::string vehicle = bench.paper.vehicle;
+        table.rows.push_back(
+            {std::string("k_mot, kg m"), vehicle, text(bench.paper.motor_constant_kg_m),
+             text(bench.used.motor_constant_kg_m), text(bench.constants.motor_constant_kg_m)});
+        table.rows.push_back({std::string("k_mom, m"), vehicle, text(bench.paper.moment_constant_m),
                               text(bench.used.moment_constant_m),
                               text(bench.constants.moment_constant_m)});
-        table.rows.push_back({std::string("lambda_1, kg"), vehicle, text(bench.paper_lambda_1_kg),
-                              text(bench.used.drag_constant_kg),
+        table.rows.push_back({std::string("lambda_1, kg"), vehicle,
+                              text(bench.paper.drag_constant_kg), text(bench.used.drag_constant_kg),
                               text(bench.tunnel.drag_constant_kg)});
     }
     return table;
@@ -93,11 +93,12 @@ PageTable table_one(const std::array<Bench, 2>& benches) {
 }  // namespace
 
 void study_rotors(Study& study) {
-    std::array<Bench, 2> benches = {
-        {{"perching_uav", 2.5e-5, 1.9e-2, 8e-4}, {"iris", 5.84e-6, 6e-2, 1.75e-4}}};
-    for (Bench& bench : benches) {
+    std::array<Bench, 2> benches;
+    for (std::size_t i = 0; i < benches.size(); ++i) {
+        Bench& bench = benches[i];
+        bench.paper = kTableOne[i];
         weigh(bench);
-        const std::string key = std::string("rotor.") + bench.vehicle;
+        const std::string key = std::string("rotor.") + bench.paper.vehicle;
         study.evidence.set(key + ".motor_constant_kg_m", bench.constants.motor_constant_kg_m);
         study.evidence.set(key + ".moment_constant_m", bench.constants.moment_constant_m);
         study.evidence.set(key + ".drag_constant_kg", bench.tunnel.drag_constant_kg);

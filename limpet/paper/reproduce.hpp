@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "limpet/paper/interrupted.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet {
@@ -23,6 +25,8 @@ struct ReproduceWatch {
     /// @param part  from 1
     std::function<void(std::size_t part, std::size_t of, const std::string& title)> on_part;
     std::function<void(const std::string& what)> on_work;
+    const std::atomic<bool>* stop =
+        nullptr;  ///< set: it ends with Interrupted before the next step
 };
 
 struct Reproduction {

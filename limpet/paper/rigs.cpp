@@ -117,7 +117,11 @@ double battery_Wh(const Airframe& airframe) {
 EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
                     const Airframe& airframe) {
     const double power_W = energy_Wh * 3600.0 / time_s;
-    return {.what = what, .power_W = power_W, .endurance_h = battery_Wh(airframe) / power_W};
+    EnergyUse use;
+    use.what = what;
+    use.power_W = power_W;
+    use.endurance_h = battery_Wh(airframe) / power_W;
+    return use;
 }
 
 }  // namespace
@@ -172,6 +176,7 @@ std::vector<EnergyUse> energy_use(Evidence& evidence) {
         const FlightResult rested = fly(build_model(scenario));
         uses.push_back(energy_of(std::string("perched on ") + wall.surface,
                                  rested.metrics.energy_perched_Wh, kRest_s, scenario.airframe));
+        uses.back().getting_there_Wh = rested.metrics.energy_flying_Wh;
     }
     evidence.set("energy.perched_share", uses[1].power_W / uses[0].power_W);
     return uses;

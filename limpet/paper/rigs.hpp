@@ -29,7 +29,8 @@ struct BreakOff {
 struct EnergyUse {
     std::string what;
     double power_W = 0.0;
-    double endurance_h = 0.0;  ///< on a full battery
+    double endurance_h = 0.0;       ///< on a full battery
+    double getting_there_Wh = 0.0;  ///< approach and landing
 };
 /// Hovering, and perched on each surface with the motors off; "energy.perched_share" is the power
 /// perched on concrete over that of hovering.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <string_view>
 
 #include "limpet/paper/claims.hpp"
+#include "limpet/paper/paper_tables.hpp"
 
 // The paper, line by line. A PaperStatement: id, section, what it says, its number or words, unit,
 // name of the evidence, accepted range, note, figure, flight.
@@ -50,83 +53,64 @@ void add_vehicle(std::vector<PaperStatement>& all) {
          "deg from where the legs stand", "perch_concrete.pitch_off_legs_deg", {0.0, 1.0},
          "Perched pitch against the angle at which both leg tips and the cup meet the wall.",
          "fig11", "perch_concrete"},
+        {"motors", "II-B", "Brushless motors of type 3508-380KV", words("3508-380KV"), "", "", {},
+         "Motors are a speed limit and a lag, both assumed (`vehicles/perching_uav.yaml`)."},
         {"cad", "II-B", "The model is made in SolidWorks and exported as URDF, then SDF",
          words("CAD model"), "", "", {},
          "Here one YAML file describes the vehicle; MJCF, SDF and URDF are generated from it."}});
     // clang-format on
 }
 
-void add_rotor(std::vector<PaperStatement>& all) {
-    const char* recovered =
-        "Recovered from the simulation's own static thrust stand (eqs. (3), (4)) or wind tunnel; "
-        "accepted within 2 %.";
-    // clang-format off
-    all.insert(all.end(), {
-        {"k-mot", "II-C, Table I", "Motor constant of the perching UAV", 2.5e-5, "kg m",
-         "rotor.perching_uav.motor_constant_kg_m", {2.45e-5, 2.55e-5}, recovered, "fig-thrust"},
-        {"k-mom", "II-C, Table I", "Moment constant of the perching UAV", 1.9e-2, "m",
-         "rotor.perching_uav.moment_constant_m", {1.86e-2, 1.94e-2}, recovered, "fig-thrust"},
-        {"lambda-1", "II-C, Table I", "Drag constant of the perching UAV", 8e-4, "kg",
-         "rotor.perching_uav.drag_constant_kg", {7.84e-4, 8.16e-4}, recovered},
-        {"iris-k-mot", "II-C, Table I", "Motor constant of the Iris", 5.84e-6, "kg m",
-         "rotor.iris.motor_constant_kg_m", {5.72e-6, 5.96e-6}, recovered},
-        {"iris-k-mom", "II-C, Table I", "Moment constant of the Iris", 6e-2, "m",
-         "rotor.iris.moment_constant_m", {5.88e-2, 6.12e-2}, recovered},
-        {"iris-lambda-1", "II-C, Table I", "Drag constant of the Iris", 1.75e-4, "kg",
-         "rotor.iris.drag_constant_kg", {1.71e-4, 1.79e-4}, recovered}});
-    // clang-format on
+void add_table_one(std::vector<PaperStatement>& all) {
+    constexpr double kShare = 0.02;
+    const std::string note =
+        "From the simulation's own static thrust stand (eqs. (3), (4)) and cross wind; accepted "
+        "within 2 % (assumed).";
+    for (const TableOne& column : kTableOne) {
+        const auto row = [&](const char* id, const char* what, const char* unit, const char* key,
+                             double paper) {
+            all.push_back({std::string(column.vehicle) + id,
+                           "II-C, Table I",
+                           std::string(what) + " of " + column.name,
+                           paper,
+                           unit,
+                           std::string("rotor.") + column.vehicle + key,
+                           {(1.0 - kShare) * paper, (1.0 + kShare) * paper},
+                           note,
+                           "fig-thrust"});
+        };
+        row("-k-mot", "Motor constant k_mot", "kg m", ".motor_constant_kg_m",
+            column.motor_constant_kg_m);
+        row("-k-mom", "Moment constant k_mom", "m", ".moment_constant_m", column.moment_constant_m);
+        row("-lambda-1", "Drag constant lambda_1", "kg", ".drag_constant_kg",
+            column.drag_constant_kg);
+    }
 }
 
-struct TableTwo {
-    const char* surface;
-    const char* name;
-    double vacuum_hPa, tau_1_s, tau_1_tolerance_s, tau_2_s, tau_2_tolerance_s;
-};
-/// Source: paper, Table II; it gives no tolerance for P_vac: 10 hPa assumed, a percent of an
-/// atmosphere.
-constexpr std::array<TableTwo, 4> kTableTwo = {{
-    {"concrete", "porous concrete", 650.0, 0.33, 0.03, 0.40, 0.03},
-    {"cinder_block", "painted cinder block", 275.0, 0.35, 0.03, 7.5, 0.5},
-    {"turbine_blade", "wind turbine blade", 265.0, 0.25, 0.03, 8.0, 0.5},
-    {"metal", "metallic surface", 275.0, 0.25, 0.03, 16.0, 1.0},
-}};
-
 void add_table_two(std::vector<PaperStatement>& all) {
-    constexpr double kVacuumTolerance_hPa = 10.0;
-    for (const TableTwo& row : kTableTwo) {
-        const std::string key = std::string("press_") + row.surface;
-        const std::string on = std::string(" on ") + row.name;
-        all.push_back(
-            {std::string("vacuum-") + row.surface,
-             "II-D, Table II",
-             "Steady pressure P_vac" + on,
-             row.vacuum_hPa,
-             "hPa",
-             key + ".vacuum_hPa",
-             {row.vacuum_hPa - kVacuumTolerance_hPa, row.vacuum_hPa + kVacuumTolerance_hPa},
-             "Identified from the simulated press rig; accepted within 10 hPa (assumed).",
-             "fig2",
-             key});
-        all.push_back({std::string("tau-1-") + row.surface,
-                       "II-D, Table II",
-                       "Sealing time constant tau_1" + on,
-                       row.tau_1_s,
-                       "s",
-                       key + ".tau_1_s",
-                       {row.tau_1_s - row.tau_1_tolerance_s, row.tau_1_s + row.tau_1_tolerance_s},
-                       "Accepted within the paper's own tolerance.",
-                       "fig2",
-                       key});
-        all.push_back({std::string("tau-2-") + row.surface,
-                       "II-D, Table II",
-                       "Unsealing time constant tau_2" + on,
-                       row.tau_2_s,
-                       "s",
-                       key + ".tau_2_s",
-                       {row.tau_2_s - row.tau_2_tolerance_s, row.tau_2_s + row.tau_2_tolerance_s},
-                       "Accepted within the paper's own tolerance.",
-                       "fig2",
-                       key});
+    constexpr double kVacuum_hPa = 10.0;
+    for (const TableTwo& column : kTableTwo) {
+        const std::string key = column.scenario;
+        const auto row = [&](const char* id, const char* what, const char* unit, const char* value,
+                             double paper, double tolerance, const char* note) {
+            all.push_back({id + key.substr(key.find('_')),
+                           "II-D, Table II",
+                           std::string(what) + " on " + column.name,
+                           paper,
+                           unit,
+                           key + value,
+                           {paper - tolerance, paper + tolerance},
+                           note,
+                           "fig2",
+                           key});
+        };
+        row("vacuum", "Steady pressure P_vac", "hPa", ".vacuum_hPa", column.vacuum_hPa, kVacuum_hPa,
+            "Accepted within 10 hPa: the paper gives no tolerance (assumed).");
+        const char* own = "Accepted within the paper's own tolerance.";
+        row("tau-1", "Sealing time constant tau_1", "s", ".tau_1_s", column.tau_1_s,
+            column.tau_1_tolerance_s, own);
+        row("tau-2", "Unsealing time constant tau_2", "s", ".tau_2_s", column.tau_2_s,
+            column.tau_2_tolerance_s, own);
     }
 }
 
@@ -144,32 +128,37 @@ void add_cup(std::vector<PaperStatement>& all) {
          "itself, see the next row.", "fig2", "press_concrete"},
         {"slowest-by-tau", "Table II",
          "The paper contradicts itself: by its own tau_1 the cinder block is slower than concrete",
-         0.35 - 0.33, "s", "press.tau_1_cinder_less_concrete_s", {1e-4, 0.08},
+         kTableTwo[1].tau_1_s - kTableTwo[0].tau_1_s, "s", "press.tau_1_cinder_less_concrete_s",
+         {1e-4, 0.08},
          "Table II: 0.35 s against 0.33 s; the difference is within the tolerances of 0.03 s.",
          "fig2", "press_cinder_block"},
         {"weakest", "II-D, Fig. 2", "The vacuum reached is worst on concrete",
          words("lowest vacuum"), "hPa above the next", "press.weakest_margin_hPa", {0.0, kAny}, "",
          "fig2", "press_concrete"},
         {"needs-force", "II-D",
-         "On rough and porous surfaces the cup must be pressed hard enough to seal",
-         words("enough force"), "N between press and threshold", "perch_concrete.seal_margin_N",
-         {0.0, kAny}, "Largest press of the flight less the threshold drawn for its touch.",
-         "fig11", "perch_concrete"},
+         "On rough and porous surfaces the cup must be pressed with enough force",
+         words("enough force"), "of the failed trials pressed too little",
+         "fig3.failed_for_force_share", {0.5, 1.0},
+         "Trials whose press stayed below what their spot asks for; thresholds are assumed.",
+         "fig3"},
         {"trials", "II-D, Fig. 3", "253 experiments with a pendulum of 5 m", 253.0, "trials",
          "fig3.runs", {253.0, 253.0}, "With --quick a share of them.", "fig3"},
         {"too-slow", "II-D, Fig. 3", "Below 0.4 m/s the impact does not apply enough force", 0.0,
          "share that attach", "fig3.success_below_0_4", {0.0, 0.05},
-         "Trials slower than 0.4 m/s. The spreads of roughness and misalignment are assumed.",
+         "The thresholds' median is chosen so (facts.md section 4); their spread and that of the "
+         "misalignment are assumed.",
          "fig3"},
-        {"best-speed", "II-D, Fig. 3", "Best results between 1 and 1.2 m/s", Range{1.0, 1.2},
-         "m/s", "fig3.best_speed_m_s", {1.0, 1.2},
-         "Speed with the largest share that attaches, by a mean over neighbouring speeds.", "fig3"},
+        {"best-speed", "II-D, Fig. 3", "Best results between 1 and 1.2 m/s", words("best"),
+         "more of the trials than the best three slower speeds", "fig3.best_margin", {0.0, 1.0},
+         "Share that attaches at 1.0, 1.1 and 1.2 m/s less that of the best three neighbouring "
+         "speeds below 1 m/s. Nothing faster was flown, as in the paper.",
+         "fig3"},
         {"randomness", "II-D", "Roughness and misalignment make the success random",
          words("some of the randomness"), "speeds with mixed outcomes, less than without spread",
          "fig3.mixed_speeds_less", {1.0, kAny},
-         "The same trials flown without the spread of threshold and misalignment.", "fig3"},
+         "The same speeds flown with one threshold for all and no misalignment.", "fig3"},
         {"dangerous", "II-D", "Over 1.2 m/s the manoeuvre is deemed too dangerous",
-         words("too dangerous"), "", "", {}, "A judgement; loads at 1.2 m/s are in the figures."}});
+         words("too dangerous"), "", "", {}, "A judgement, not a measurement."}});
     // clang-format on
 }
 
@@ -179,16 +168,20 @@ void add_architecture(std::vector<PaperStatement>& all) {
         {"px4", "II-E, Fig. 4", "A Pixhawk with PX4 and a Raspberry Pi fly the vehicle",
          words("PX4 on a Pixhawk"), "", "", {},
          "Here a built-in autopilot with PX4's cascade and parameter names."},
-        {"mocap", "II-E", "Motion capture alone feeds the position of the state estimator",
-         words("OptiTrack to the EKF"), "yes/no", "estimator.motion_capture_only", kYes, "",
-         "fig11", "perch_concrete"},
+        {"mocap", "II-E", "Motion capture feeds position and orientation to the state estimator",
+         words("OptiTrack to the EKF"), "yes/no", "estimator.motion_capture_only", kYes,
+         "No other position is used in these flights.", "fig11", "perch_concrete"},
+        {"offboard", "II-E", "Flown in offboard mode from a ROS script", words("offboard, ROS"), "",
+         "", {}, "Guidance speaks to the autopilot by the same kinds of set-points, without ROS."},
         {"gazebo", "III-A, Fig. 5", "Gazebo 11, ROS and PX4 hardware in the loop",
          words("Gazebo 11, ROS, PX4"), "", "", {},
          "Here MuJoCo and one program; the loop has the same stations."},
         {"joint-made", "III-B, Fig. 6",
          "The joint is made when the impact force is above the sealing threshold",
          words("above the threshold"), "N between press and threshold",
-         "perch_concrete.seal_margin_N", {0.0, kAny}, "", "fig11", "perch_concrete"},
+         "perch_concrete.seal_margin_N", {0.0, kAny},
+         "Largest press of the flight less the threshold drawn for its touch.", "fig11",
+         "perch_concrete"},
         {"joint-waits", "III-B, Fig. 6",
          "and the contact lasts until the pressure is below the attachment threshold",
          words("for the time required"), "s from touch to 880 hPa",
@@ -225,9 +218,9 @@ void add_method(std::vector<PaperStatement>& all) {
         {"p-land", "IV", "The manoeuvre is successful below P_land = 880 hPa", Range{0.0, 880.0},
          "hPa", "perch_concrete.pressure_at_landing_hPa", {0.0, 880.0}, "", "fig11",
          "perch_concrete"},
-        {"gradual", "IV", "Then it decreases its thrust gradually", words("gradually"),
-         "of the fall is ever regained", "perch_concrete.landing_thrust_setback", {0.0, 0.1}, "",
-         "fig11", "perch_concrete"},
+        {"gradual", "IV, V-A", "Then it decreases its thrust gradually", words("gradually"),
+         "s until it is perched", "perch_concrete.landing_s", {2.0, 60.0}, "", "fig11",
+         "perch_concrete"},
         {"goes-back", "IV", "Otherwise it goes back to where it was before the attempt", 1.5, "m",
          "failed_perch.retreated_to_m", {1.45, 1.55}, "", "fig15", "failed_perch"},
         {"retries", "IV", "and will retry", words("will retry"), "s until the next approach",
@@ -264,11 +257,17 @@ void add_concrete(std::vector<PaperStatement>& all) {
         {"fig11-start", "V-A, Fig. 11", "The simulated vehicle accelerates at 0.5 s", 0.5, "s",
          "fig11.approach_at_s", {0.49, 0.51}, "The figure's window begins so.", "fig11",
          "perch_concrete"},
+        {"fig11-experiment", "V-A, Fig. 11",
+         "The experiment accelerates at 2 s and closer to the wall, its approach is shorter",
+         words("2 s"), "", "", {}, "Of the real flight alone."},
         {"spike-later", "V-A, Fig. 11", "The force spike comes a few seconds later",
          words("a few seconds"), "s after the approach began", "perch_concrete.spike_after_s",
          {1.0, 4.0}, "", "fig11", "perch_concrete"},
-        {"spike", "V-A, Fig. 11", "Negative force spike at the impact", words("negative spike"),
-         "N", "perch_concrete.spike_N", {-100.0, -20.0}, "", "fig11", "perch_concrete"},
+        {"spike", "V-A, Fig. 11", "Negative force spike at the impact", words("negative spike"), "N",
+         "perch_concrete.spike_N", {-100.0, -20.0}, "", "fig11", "perch_concrete"},
+        {"dips", "V-C, Figs. 11, 13", "immediately followed by a downward pitch", words("downward"),
+         "deg", "perch_concrete.pitch_drop_deg", {-20.0, -0.5}, "Lowest pitch of the next 0.5 s.",
+         "fig11", "perch_concrete"},
         {"impact-speed", "V-A, II-D", "It reaches the desired impact speed", Range{1.0, 1.2},
          "m/s", "perch_concrete.impact_speed_m_s", {1.0, 1.2}, "", "fig11", "perch_concrete"},
         {"attaches", "V-A, Fig. 11", "The pressure drops below 880 hPa", Range{0.0, 0.5},
@@ -280,10 +279,12 @@ void add_concrete(std::vector<PaperStatement>& all) {
         {"force-rises", "V-A, Fig. 11", "The force on the cup increases as lift drops",
          words("increases"), "N", "perch_concrete.landing_force_rise_N", {5.0, 100.0}, "", "fig11",
          "perch_concrete"},
-        {"stabilises", "V-A, Fig. 11",
-         "Thrust decreases until the pitch stabilises and the motors can be shut down",
+        {"stabilises", "V-A, Fig. 11", "Thrust decreases until the pitch stabilises",
          words("stabilizes"), "deg of change at rest", "perch_concrete.perched_pitch_spread_deg",
          {0.0, 0.5}, "Over the last 5 s of the rest, motors off.", "fig11", "perch_concrete"},
+        {"shut-down", "V-A, Fig. 11", "and the motors can be shut down", words("shut down"),
+         "N of thrust left when perched", "perch_concrete.thrust_when_perched_N", {0.0, 3.0},
+         "A tenth of the weight.", "fig11", "perch_concrete"},
         {"take-off-pressure", "V-A, Fig. 12",
          "Take-off begins with the pressure below the threshold", Range{0.0, 880.0}, "hPa",
          "perch_concrete.take_off_pressure_hPa", {0.0, 880.0}, "", "fig12", "perch_concrete"},
@@ -303,8 +304,10 @@ void add_concrete(std::vector<PaperStatement>& all) {
          words("remains stable"), "deg at most", "perch_concrete.pitch_oscillation_max_deg",
          {0.0, 1.0}, "Stable: within 1 deg.", "fig12", "perch_concrete"},
         {"real-swings", "V-A, Fig. 12", "The pitch of the real vehicle oscillates meanwhile",
-         words("oscillates"), "deg, 95th percentile", "swing.concrete_p95_deg", {0.8, 2.0},
-         "Candidate: motor lag and gusts, see the open question. Growth in one second is small.",
+         words("oscillates"), "times the swing with Gazebo's motors", "swing.concrete_ratio",
+         {1.5, kAny},
+         "Median over missions of half the span of the pitch while waiting on concrete, slow motors "
+         "and unsteady air at the wall over Gazebo's motors in still air. A candidate.",
          "fig12-slow", "slow_concrete"}});
     // clang-format on
 }
@@ -312,6 +315,9 @@ void add_concrete(std::vector<PaperStatement>& all) {
 void add_metal(std::vector<PaperStatement>& all) {
     // clang-format off
     all.insert(all.end(), {
+        {"metal-perches", "V-B, Fig. 13", "The same manoeuvre perches on metal", words("perches"),
+         "deg of pitch at rest", "perch_metal.perched_pitch_deg", {60.0, 75.0}, "", "fig13",
+         "perch_metal"},
         {"metal-vacuum", "V-B, Fig. 13", "On metal the pressure drops as low as 275 hPa", 275.0,
          "hPa", "perch_metal.pressure_lowest_hPa", {265.0, 285.0}, "Accepted within 10 hPa.",
          "fig13", "perch_metal"},
@@ -332,29 +338,41 @@ void add_metal(std::vector<PaperStatement>& all) {
          words("very slowly"), "hPa after 16 s", "perch_metal.pressure_at_release_end_hPa",
          {730.0, 755.0}, "Eq. (6) with Table II gives 742 hPa.", "fig14", "perch_metal"},
         {"waits-long", "V-B, Fig. 14", "The vehicle waits for 16 s", 16.0, "s",
-         "perch_metal.waited_s", {15.9, 16.1}, "", "fig14", "perch_metal"},
+         "perch_metal.waited_s", {15.9, 16.1}, "The paper gave up because of the swing, ours by "
+         "this limit.", "fig14", "perch_metal"},
         {"interrupted", "V-B, Fig. 14", "The detachment is interrupted", words("interrupted"),
          "yes/no", "perch_metal.is_release_aborted", kYes, "It lands on the wall again.", "fig14",
          "perch_metal"},
         {"five-degrees", "V-B, Fig. 14",
-         "The pitch oscillations of the real vehicle exceed 5 deg after 16 s", Range{5.0, 15.0},
-         "deg, median of the missions", "swing.metal_median_deg", {5.0, 15.0},
-         "Candidate: motors of 65 ms behind 16 ms and gusts of 0.03 N m. Missions end at 10 deg.",
+         "The pitch oscillations of the real vehicle exceed 5 deg after 16 s", words("> 5 deg"),
+         "deg, median of the missions", "swing.metal_median_deg", {5.0, 45.0},
+         "Candidate: motors of 65 ms behind 16 ms, and 0.03 N m of unsteady air at the wall; the "
+         "limit of 10 deg lifted.",
          "fig-swing", "slow_metal"},
+        {"grow-larger", "V-B, Fig. 14", "On metal they last longer and their amplitudes grow larger",
+         words("grow larger"), "times that on concrete", "swing.metal_over_concrete", {2.0, kAny},
+         "Medians of the same missions.", "fig-swing", "slow_metal"},
         {"simulation-flat", "V-B, Fig. 14", "The simulation does not predict these oscillations",
          words("does not predict"), "deg, 95th percentile", "swing.gazebo_metal_p95_deg",
          {0.0, 1.0}, "Gazebo's motors, still air: stays within 1 deg.", "fig-swing", "perch_metal"},
         {"aerodynamics", "V-B",
-         "Most likely aerodynamic effects that are not well captured cause them", Range{5.0, 15.0},
-         "deg, median of the missions", "swing.gazebo_air_metal_median_deg", {5.0, 15.0},
-         "Gazebo's motors with the published steady wall air and gusts of 0.03 N m: such forces "
-         "alone do not make the swing grow, motor lag does.", "fig-swing"},
+         "Most likely aerodynamic effects that are not well captured cause them",
+         words("> 5 deg"), "deg, median of the missions", "swing.gazebo_air_metal_median_deg",
+         {5.0, 45.0},
+         "Gazebo's motors with the published steady air at a wall and 0.1 N m of unsteady moment, "
+         "the most that facts.md section 5 allows: they push the pitch about, but it does not "
+         "grow.",
+         "fig-swing"},
         {"tuning", "V-B", "Tuning the controller could alleviate the issue", words("could"),
-         "1/s, growth with rate P 0.20", "swing.cure_rate_p_growth_1_s", {-10.0, 0.0},
+         "1/s, growth with rate P 0.20", "swing.rate_p_growth_1_s", {-10.0, 0.0},
          "Slow motors; with the default gains it grows.", "fig-cures"},
         {"valve", "V-B", "A solenoid valve breaks the vacuum instantly", words("instantly"),
          "s from pump off to detached", "perch_metal_valve.release_s", {0.0, 0.5},
-         "Orifice of 2 mm (assumed).", "fig-valve", "perch_metal_valve"}});
+         "Orifice of 2 mm (assumed).", "fig-valve", "perch_metal_valve"},
+        {"quicker", "V-B", "The detachment would be quicker and much more predictable",
+         words("quicker"), "times quicker on metal", "release.valve_gain_metal", {10.0, kAny},
+         "Without a valve the surfaces differ by a factor of forty, with it they are alike.",
+         "fig-valve", "perch_metal_valve"}});
     // clang-format on
 }
 
@@ -376,9 +394,32 @@ void add_failure(std::vector<PaperStatement>& all) {
          "failed_perch"},
         {"energy", "I", "Turning off the motors significantly reduces the energy consumption",
          words("significantly"), "of the power of hovering", "energy.perched_share", {0.0, 0.2},
-         "Perched on concrete with the pump running, avionics included.", "fig-energy",
-         "perch_concrete"}});
+         "Perched on concrete with the pump running, avionics included; a fifth counts as "
+         "significant (assumed).",
+         "fig-energy"}});
     // clang-format on
+}
+
+/// Rows that the method makes true, whatever happens around it: its own limits and orders.
+constexpr std::array<std::string_view, 7> kByTheMethod = {
+    "hold", "p-land", "pump-off", "detaches", "waits-long", "interrupted", "after-half"};
+
+std::string basis_of(const PaperStatement& statement) {
+    const auto begins = [&](std::string_view part) {
+        return statement.evidence.compare(0, part.size(), part) == 0;
+    };
+    if (statement.evidence.empty()) {
+        return "";
+    }
+    if (begins("vehicle.") || begins("estimator.")) {
+        return "as set";
+    }
+    if (begins("rotor.") || begins("press")) {
+        return "recovered";
+    }
+    return std::find(kByTheMethod.begin(), kByTheMethod.end(), statement.id) != kByTheMethod.end()
+               ? "by the method"
+               : "measured";
 }
 
 }  // namespace
@@ -387,7 +428,7 @@ const std::vector<PaperStatement>& statements() {
     static const std::vector<PaperStatement> all = [] {
         std::vector<PaperStatement> list;
         add_vehicle(list);
-        add_rotor(list);
+        add_table_one(list);
         add_table_two(list);
         add_cup(list);
         add_architecture(list);
@@ -395,6 +436,9 @@ const std::vector<PaperStatement>& statements() {
         add_concrete(list);
         add_metal(list);
         add_failure(list);
+        for (PaperStatement& statement : list) {
+            statement.basis = basis_of(statement);
+        }
         return list;
     }();
     return all;

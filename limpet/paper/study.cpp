@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/study.hpp"
 
+#include "limpet/paper/interrupted.hpp"
+
 namespace limpet {
 
 PageFigure Study::figure(const Chart& chart, const std::string& id, const std::string& caption,
@@ -12,6 +14,31 @@ PageFigure Study::figure(const Chart& chart, const std::string& id, const std::s
             .alt = alt,
             .png = std::filesystem::path("figures") / (id + ".png"),
             .svg = std::filesystem::path("figures") / (id + ".svg")};
+}
+
+void Study::say(const std::string& what) const {
+    if (stop != nullptr && *stop) {
+        throw Interrupted();
+    }
+    if (tell && !what.empty()) {
+        tell(what);
+    }
+}
+
+PageFigure Study::flight_figure(const std::string& flight, const std::string& picture,
+                                PageFigure page_figure) const {
+    namespace fs = std::filesystem;
+    fs::create_directories(folder / "figures");
+    for (const std::string ending : {".png", ".svg"}) {
+        const fs::path from = folder / "flights" / flight / (picture + ending);
+        const fs::path to = fs::path("figures") / (page_figure.id + ending);
+        if (fs::exists(from)) {
+            fs::copy_file(from, folder / to, fs::copy_options::overwrite_existing);
+            (ending == ".png" ? page_figure.png : page_figure.svg) = to;
+        }
+    }
+    page_figure.wide = true;
+    return page_figure;
 }
 
 const std::vector<StudyPart>& parts() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -19,6 +20,7 @@ struct Study {
     bool quick = false;            ///< fewer runs and coarser maps, the same experiments
     int jobs = 1;
     std::function<void(const std::string& what)> tell = {};  ///< long work, as it goes
+    const std::atomic<bool>* stop = nullptr;
 
     Evidence evidence;
     std::vector<PageSection> sections;
@@ -26,11 +28,13 @@ struct Study {
     /// Draws a chart into figures/ and gives it back as a figure of the page.
     [[nodiscard]] PageFigure figure(const Chart& chart, const std::string& id,
                                     const std::string& caption, const std::string& alt) const;
-    void say(const std::string& what) const {
-        if (tell) {
-            tell(what);
-        }
-    }
+    /// Copies a picture of a flight, FOLDER/flights/FLIGHT/PICTURE.png and .svg if there is one,
+    /// into figures/.
+    [[nodiscard]] PageFigure flight_figure(const std::string& flight, const std::string& picture,
+                                           PageFigure figure) const;
+    /// Tells what comes next; before that it stops where it was asked to.
+    /// @throws Interrupted
+    void say(const std::string& what) const;
 };
 
 /// A part of the paper that can be reproduced by itself: `limpet reproduce --only NAME`.

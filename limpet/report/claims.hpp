@@ -30,8 +30,10 @@ struct Claim {
     std::string unit = {};     ///< of paper, simulated and a number as difference; empty: none
     Quantity difference = {};  ///< simulated less paper, or words
     Verdict verdict = Verdict::not_modelled;
-    std::string note = {};       ///< why it differs, what is assumed; may be empty
-    std::string figure = {};     ///< id of a figure of the page; may be empty
+    std::string accepted = {};  ///< of the simulated value: "0.8 … 1.4", "at least 2"; may be empty
+    std::string basis = {};     ///< what the simulated value rests on: "measured"; may be empty
+    std::string note = {};      ///< why it differs, what is assumed; may be empty
+    std::string figure = {};    ///< id of a figure of the page; may be empty
     std::string recording = {};  ///< path relative to the page; may be empty
 };
 

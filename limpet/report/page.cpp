@@ -242,7 +242,15 @@ private:
         cell("paper", with_unit(claim.paper, claim.unit));
         cell("simulated", with_unit(claim.simulated, claim.unit));
         cell("difference", with_unit(claim.difference, claim.unit, true));
-        cell("verdict", badge(claim.verdict, to_text(claim.verdict)), false);
+        cell("verdict",
+             badge(claim.verdict, to_text(claim.verdict)) +
+                 (claim.basis.empty()
+                      ? ""
+                      : fmt::format("<span class=\"basis\">{}</span>", escaped(claim.basis))) +
+                 (claim.accepted.empty() ? ""
+                                         : fmt::format("<span class=\"basis\">accepted {}</span>",
+                                                       escaped(claim.accepted))),
+             false);
         std::string links;
         if (!claim.figure.empty()) {
             links += fmt::format("<a href=\"#{}\">figure</a>", claim.figure);

@@ -73,6 +73,7 @@ tbody th { font-weight: 400; }
 .claims .badge { font-size: .76rem; }
 .claims .id { color: var(--soft); font-size: .74rem; }
 .claims .note { display: block; margin-top: .3rem; color: var(--soft); font-size: .78rem; }
+.claims .basis { display: block; margin-top: .25rem; color: var(--soft); font-size: .74rem; }
 .claims td a { display: block; }
 .claims tr:target > * { background: var(--band); }
 .unit { color: var(--soft); }

@@ -37,6 +37,8 @@ Json json_of(const Claim& claim) {
             {"unit", or_null(claim.unit)},
             {"difference", json_of(claim.difference)},
             {"verdict", to_text(claim.verdict)},
+            {"accepted", or_null(claim.accepted)},
+            {"basis", or_null(claim.basis)},
             {"note", or_null(claim.note)},
             {"figure", or_null(claim.figure)},
             {"recording", or_null(claim.recording)}};

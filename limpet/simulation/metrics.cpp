@@ -81,6 +81,7 @@ std::span<const MetricInfo> metric_table() {
         {"release_s", &Metrics::release_s},
         {"pressure_at_release_end_Pa", &Metrics::pressure_at_release_end_Pa},
         {"pitch_oscillation_max_deg", &Metrics::pitch_oscillation_max_deg},
+        {"pitch_swing_deg", &Metrics::pitch_swing_deg},
         {"cup_margin_min_N", &Metrics::cup_margin_min_N},
         {"energy_flying_Wh", &Metrics::energy_flying_Wh},
         {"energy_perched_Wh", &Metrics::energy_perched_Wh},
@@ -132,6 +133,10 @@ void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, dou
     }
     if (state == PerchingState::releasing) {
         raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg(truth)));
+        lower(metrics.waiting_pitch_min_deg, pitch_deg(truth));
+        raise(metrics.waiting_pitch_max_deg, pitch_deg(truth));
+        metrics.pitch_swing_deg =
+            0.5 * (metrics.waiting_pitch_max_deg - metrics.waiting_pitch_min_deg);
         metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
     }
     if (state == PerchingState::resting) {

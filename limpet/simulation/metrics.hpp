@@ -56,6 +56,7 @@ struct Metrics {
     double release_s = kNone;                   ///< from pump_off to detached
     double pressure_at_release_end_Pa = kNone;  ///< when the release was done or given up
     double pitch_oscillation_max_deg = kNone;   ///< while waiting for the release
+    double pitch_swing_deg = kNone;             ///< half of its span, lowest to highest, meanwhile
     double cup_margin_min_N = kNone;
     double energy_flying_Wh = 0.0;
     double energy_perched_Wh = 0.0;
@@ -65,6 +66,8 @@ struct Metrics {
     double touch_s = kNone;
     double pump_off_s = kNone;
     bool awaits_touch = false;
+    double waiting_pitch_min_deg = kNone;
+    double waiting_pitch_max_deg = kNone;
     double rest_pitch_min_deg = kNone;
     double rest_pitch_max_deg = kNone;
 };

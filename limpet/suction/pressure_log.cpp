@@ -87,7 +87,15 @@ size_t column_of(const std::vector<std::string_view>& header, std::string_view c
             break;
         }
     }
-    fail(name, line, "no column \"" + std::string(column) + "\"; there are " + there);
+    std::string hint;
+    if (there.find("MCAP") != std::string::npos) {
+        hint = " (a recording? `limpet csv` makes CSV of it)";
+    } else if (header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos) {
+        hint = " (columns are parted by commas)";
+    }
+    fail(name, line,
+         "no column \"" + std::string(column) + "\" or \"" + std::string(recorded) +
+             "\"; there are " + there + hint);
 }
 
 double number_of(std::string_view field, std::string_view column, const std::string& name,

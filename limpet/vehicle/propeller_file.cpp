@@ -54,10 +54,11 @@ std::vector<std::string> words_of(const std::string& line) {
 struct Column {
     std::string_view name;
     double PropellerRow::*field;
+    double most;  ///< no propeller is beyond
 };
-constexpr std::array<Column, 3> kColumns = {{{"RPM", &PropellerRow::speed_rpm},
-                                             {"CT", &PropellerRow::thrust_coefficient},
-                                             {"CP", &PropellerRow::power_coefficient}}};
+constexpr std::array<Column, 3> kColumns = {{{"RPM", &PropellerRow::speed_rpm, 1e6},
+                                             {"CT", &PropellerRow::thrust_coefficient, 2.0},
+                                             {"CP", &PropellerRow::power_coefficient, 2.0}}};
 
 /// Where in a line each of kColumns stands.
 using Places = std::array<std::size_t, kColumns.size()>;
@@ -91,9 +92,9 @@ PropellerRow read_row(const std::vector<std::string>& words, const Places& place
         }
         const std::string& word = words[places[k]];
         const auto value = number(word);
-        if (!value || *value <= 0.0) {
-            throw InputError(fmt::format("{}: {}: must be a number above 0, is {}", place, name,
-                                         in_quotes(word)));
+        if (!value || *value <= 0.0 || *value > kColumns[k].most) {
+            throw InputError(fmt::format("{}: {}: must be a number above 0, at most {:g}, is {}",
+                                         place, name, kColumns[k].most, in_quotes(word)));
         }
         row.*kColumns[k].field = *value;
     }

@@ -118,11 +118,11 @@ TEST(Identify, RefusesBadInputInOneLine) {
 
 TEST(Identify, RefusesBadOptionsInOneLine) {
     expect_refused(concrete_log(), {"pump on at 70 s", "outside"}, {"--pump-on", "70"});
-    expect_refused(concrete_log(), {"finite"}, {"--pump-off", "nan"});
+    expect_refused(concrete_log(), {"must be a time"}, {"--pump-off", "nan"});
     expect_refused(concrete_log(), {"on before it goes off"},
                    {"--pump-on", "4", "--pump-off", "1"});
     expect_refused(concrete_log(), {"too few"}, {"--from", "6.95"});
-    expect_refused(concrete_log(), {"too few"}, {"--from", "5", "--to", "2"});
+    expect_refused(concrete_log(), {"must be before"}, {"--from", "5", "--to", "2"});
     expect_refused(concrete_log(), {"--atmosphere"}, {"--atmosphere", "5"});
     expect_refused(concrete_log(), {"atmosphere"}, {"--atmosphere", "nan"});
     expect_refused(concrete_log(), {"log.csv"}, {"--out", "log.csv"});

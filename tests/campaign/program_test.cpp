@@ -156,6 +156,23 @@ TEST_F(Flown, AnotherSchemaIsRefused) {
     expect_no_reader("schema 7");
 }
 
+TEST_F(Flown, ADatabaseThatSomebodyElseChangedIsRefused) {
+    const std::string whole = text_of(file());
+    const std::pair<std::string, std::string> changes[] = {
+        {"DELETE FROM scenarios", "are not those that it was begun with"},
+        {"UPDATE campaign SET yaml = yaml || ' '", "are not those that it was begun with"},
+        {"DROP TABLE campaign", "there is no table campaign"},
+        {"DELETE FROM campaign", "table campaign does not have one row"},
+        {"UPDATE runs SET \"sensors.lidar_noise_m\" = NULL WHERE run = 0", "no run was given"},
+        {"UPDATE runs SET \"sensors.lidar_noise_m\" = 9e999 WHERE run = 0", "no run was given"},
+    };
+    for (const auto& [sql, message] : changes) {
+        (void)bench_.write("results.sqlite", whole);
+        tamper(sql);
+        expect_no_reader(message);
+    }
+}
+
 TEST_F(Flown, ATruncatedDatabaseIsRefused) {
     const auto size = fs::file_size(file());
     for (const auto left : {size / 2, size - 1, std::uintmax_t{50}, std::uintmax_t{0}}) {

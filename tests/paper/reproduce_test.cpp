@@ -30,7 +30,7 @@ void expect_no_blanks(const Json& claims, const fs::path& page) {
         reproduced += claim["verdict"] == "reproduced" ? 1 : 0;
         EXPECT_TRUE(claim["recording"].is_null() || fs::exists(page / claim["recording"])) << claim;
     }
-    EXPECT_GT(claims.size(), 90U);
+    EXPECT_GT(claims.size(), 100U);
     EXPECT_GT(reproduced, 80);
 }
 

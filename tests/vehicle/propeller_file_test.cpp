@@ -88,12 +88,16 @@ TEST(PropellerFile, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(complaint("RPM CT CP\n1500 0.09 0.03\n2000 0.09\n"),
               ":3: CP is missing, the row has 2 of the columns");
     EXPECT_EQ(complaint("RPM CT CP\n1500 high 0.03\n"),
-              ":2: CT: must be a number above 0, is \"high\"");
+              ":2: CT: must be a number above 0, at most 2, is \"high\"");
     for (const char* bad : {"0", "-1500", "nan", "inf", "0x10", "1.2.3", "1e999", "1500,0"}) {
-        EXPECT_EQ(complaint(std::string("RPM CT CP\n") + bad + " 0.09 0.03\n"),
-                  std::string(":2: RPM: must be a number above 0, is \"") + bad + "\"");
+        EXPECT_EQ(
+            complaint(std::string("RPM CT CP\n") + bad + " 0.09 0.03\n"),
+            std::string(":2: RPM: must be a number above 0, at most 1e+06, is \"") + bad + "\"");
     }
-    EXPECT_EQ(complaint("RPM CT CP\n1500 0 0.03\n"), ":2: CT: must be a number above 0, is \"0\"");
+    EXPECT_EQ(complaint("RPM CT CP\n1500 1e300 0.03\n"),
+              ":2: CT: must be a number above 0, at most 2, is \"1e300\"");
+    EXPECT_EQ(complaint("RPM CT CP\n1500 0 0.03\n"),
+              ":2: CT: must be a number above 0, at most 2, is \"0\"");
     EXPECT_THAT(complaint("RPM CT CP\n1500 " + std::string(500, 'x') + " 1\n"), EndsWith("...\""));
     EXPECT_THAT(complaint(std::string("\x7f"
                                       "ELF\0\1\2\n",
