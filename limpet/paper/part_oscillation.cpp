@@ -331,12 +331,11 @@ std::string candidate_text() {
     const double free_kg_m2 = airframe.inertia_kg_m2.y();
     return fmt::format(
         "**A candidate** from the simulation: level on its cup the vehicle turns about a pivot "
-        "{:.2f} m ahead, with {:.1f} times its free inertia, and PX4's rate integrator with the "
-        "lag "
-        "of the motors leaves hardly any damping. With Gazebo's fast motors the swing decays; with "
+        "{:.2f} m ahead, with {:.1f} times its free inertia, and PX4's rate integrator with "
+        "the lag of the motors leaves hardly any damping. With Gazebo's fast motors the swing "
+        "decays; with "
         "motors of {:.0f} ms behind {:.0f} ms of dead time it grows, and unsteady air at the wall "
-        "starts "
-        "it.",
+        "starts it.",
         arm_m, (free_kg_m2 + airframe.mass_kg * arm_m * arm_m) / free_kg_m2,
         1000.0 * airframe.rotor.time_constant_up_s, 1000.0 * airframe.rotor.command_delay_s);
 }
