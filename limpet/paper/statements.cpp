@@ -206,7 +206,7 @@ void add_method(std::vector<PaperStatement>& all) {
          "Twice the 30 Hz of usual depth cameras or more (assumed)."},
         {"pilot", "IV", "The pilot verifies that the surface is flat and large enough",
          words("looks at the surface"), "", "", {}, "No pilot here; the wall is flat."},
-        {"perpendicular", "IV", "Perpendicular within 2 deg before it approaches", Range{0.0, 2.0},
+        {"within-2-deg", "IV", "Perpendicular within 2 deg before it approaches", Range{0.0, 2.0},
          "deg", "perch_concrete.alignment_at_approach_deg", {0.0, 2.0}, "", "fig11",
          "perch_concrete"},
         {"constant-speed", "IV", "It flies to the wall at a preset constant speed",
@@ -355,7 +355,7 @@ void add_metal(std::vector<PaperStatement>& all) {
         {"simulation-flat", "V-B, Fig. 14", "The simulation does not predict these oscillations",
          words("does not predict"), "deg, 95th percentile", "swing.gazebo_metal_p95_deg",
          {0.0, 1.0}, "Gazebo's motors, still air: stays within 1 deg.", "fig-swing", "perch_metal"},
-        {"aerodynamics", "V-B",
+        {"aerodynamic", "V-B",
          "Most likely aerodynamic effects that are not well captured cause them",
          words("> 5 deg"), "deg, median of the missions", "swing.gazebo_air_metal_median_deg",
          {5.0, 45.0},
@@ -371,7 +371,7 @@ void add_metal(std::vector<PaperStatement>& all) {
          "Orifice of 2 mm (assumed).", "fig-valve", "perch_metal_valve"},
         {"quicker", "V-B", "The detachment would be quicker and much more predictable",
          words("quicker"), "times quicker on metal", "release.valve_gain_metal", {10.0, kAny},
-         "Without a valve the surfaces differ by a factor of forty, with it they are alike.",
+         "Without a valve it depends on the surface, with it hardly.",
          "fig-valve", "perch_metal_valve"}});
     // clang-format on
 }
