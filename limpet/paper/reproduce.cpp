@@ -31,6 +31,16 @@ std::vector<StudyPart> wanted(const std::string& only) {
     return chosen;
 }
 
+/// A page of ours may be written anew, somebody else's may not.
+void require_ours(const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / "index.html") &&
+        !std::filesystem::exists(folder / "results.json")) {
+        throw InputError(fmt::format(
+            "--out {}: holds an index.html that is no page of ours; give another folder",
+            folder.string()));
+    }
+}
+
 std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
     std::set<std::string> ids;
     for (const PageSection& section : sections) {
@@ -109,6 +119,7 @@ std::vector<std::pair<std::string, std::string>> part_titles() {
 
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
     const std::vector<StudyPart> chosen = wanted(options.only);
+    require_ours(options.folder);
     const FolderLock lock(options.folder);
     Study study;
     study.stop = watch.stop;

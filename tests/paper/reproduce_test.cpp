@@ -65,8 +65,7 @@ TEST(Reproduce, QuickWritesAWholePage) {
     expect_no_blanks(json["claims"], page);
     expect_figures(json["figures"], page);
     // What is known to differ; one more is news, one less too.
-    EXPECT_EQ(differing(json["claims"]),
-              (std::vector<std::string>{"metal-ripple", "aerodynamic"}));
+    EXPECT_EQ(differing(json["claims"]), (std::vector<std::string>{"metal-ripple", "aerodynamic"}));
 
     const std::string source = LIMPET_SOURCE_DIR;
     EXPECT_EQ(shell(source + "/tests/support/validate " + source +
@@ -88,15 +87,17 @@ TEST(ReproduceOnly, APartAloneJudgesWhatItBearsOn) {
 TEST(ReproduceBadInput, IsOneLineAndTouchesNothing) {
     const Bench bench;
     (void)bench.write("file", "");
+    (void)bench.write("index.html", "mine");
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"reproduce", "--only", "tables"},
           {"reproduce", "--jobs", "0"},
           {"reproduce", "--out", "file"},
+          {"reproduce", "--out", "."},
           {"reproduce", "--quickly"}}) {
         const Finished done = bench.run(arguments);
         EXPECT_EQ(done.exit_code, 2) << done.err;
         EXPECT_TRUE(done.one_line_of_error()) << done.err;
-        EXPECT_EQ(bench.files(), std::vector<std::string>{"file"});
+        EXPECT_EQ(bench.files(), (std::vector<std::string>{"file", "index.html"}));
     }
 }
 
