@@ -109,7 +109,7 @@ PageFigure trials_figure(const CampaignSummary& summary, const Study& study) {
                      .y_label = "share that attaches",
                      .series = {points},
                      .moments = {{.at = 0.4, .label = "paper: none below"},
-                                 {.at = 1.0, .label = "paper: best"},
+                                 {.at = 1.0, .label = "best"},
                                  {.at = 1.2, .label = ""}},
                      .y_range = Range{0.0, 1.05}};
     if (key.fit) {

@@ -52,7 +52,30 @@ std::vector<LegendEntry> legend(const ChartPanel& panel, double width_px) {
     return entries;
 }
 
-double moments_px(const ChartPanel& panel) {
+bool moments_fit(const ChartPanel& panel, double width_px) {
+    if (panel.log_x) {
+        return false;
+    }
+    const Range x = x_axis(panel);
+    std::vector<ChartLine> sorted = panel.moments;
+    std::sort(sorted.begin(), sorted.end(),
+              [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
+    const auto place_px = [&](double at) { return width_px * (at - x.low) / (x.high - x.low); };
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const double end_px =
+            place_px(sorted[i].at) + 10.0 + text_width_px(sorted[i].label, kChartSmall_px);
+        const bool last = i + 1 == sorted.size();
+        if (!sorted[i].label.empty() && end_px > (last ? width_px : place_px(sorted[i + 1].at))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+double moments_px(const ChartPanel& panel, double width_px) {
+    if (!panel.moments.empty() && moments_fit(panel, width_px)) {
+        return kLine_px;
+    }
     double longest = 0.0;
     for (const ChartLine& moment : panel.moments) {
         longest = std::max(longest, text_width_px(moment.label, kChartSmall_px));
@@ -97,7 +120,7 @@ Sides sides(const ChartPanel& panel) {
 
 double head_px(const ChartPanel& panel, double width_px) {
     return title_px(panel.title, width_px) + legend_px(panel, width_px) +
-           (panel.y_label.empty() ? 0.0 : kLine_px) + moments_px(panel) + 8.0;
+           (panel.y_label.empty() ? 0.0 : kLine_px) + moments_px(panel, width_px) + 8.0;
 }
 
 double foot_px(const ChartPanel& panel, double width_px) {

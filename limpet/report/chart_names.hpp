@@ -22,8 +22,10 @@ struct LegendEntry {
 };
 [[nodiscard]] std::vector<LegendEntry> legend(const ChartPanel& panel, double width_px);
 
-/// Height of the slanted names of moments with their leaders.
-[[nodiscard]] double moments_px(const ChartPanel& panel);
+/// Whether the names of moments fit beside each other, each to the right of its line.
+[[nodiscard]] bool moments_fit(const ChartPanel& panel, double width_px);
+/// Height of the names of moments: a line where they fit, else slanted with their leaders.
+[[nodiscard]] double moments_px(const ChartPanel& panel, double width_px);
 
 /// Names under the axis: each within its share of it, or slanted when one does not fit.
 struct CategoryNames {

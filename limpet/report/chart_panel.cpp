@@ -197,6 +197,16 @@ private:
         for (const ChartLine& moment : inside) {
             wanted.push_back(x_px(moment.at));
         }
+        if (moments_fit(panel_, box_.width_px())) {
+            const double top = box_.top_px - (panel_.y_label.empty() ? 0.0 : kLine_px + 4.0);
+            for (std::size_t i = 0; i < inside.size(); ++i) {
+                sketch_.line(wanted[i], top - 0.8 * kLine_px, wanted[i], box_.bottom_px,
+                             colours::kMoment, 1.2);
+                sketch_.label(wanted[i] + 5.0, top - 0.4 * kLine_px, inside[i].label,
+                              kChartSmall_px, colours::kInk);
+            }
+            return;
+        }
         const auto placed = spread(wanted, kMomentGap_px, box_.left_px, box_.right_px);
         const std::string slanted = fmt::format("left rotate by {}", kSlant_deg);
         for (std::size_t i = 0; i < inside.size(); ++i) {
