@@ -67,6 +67,23 @@ install_packages() {
     step "  installing ..." as_root apt-get install -y --no-install-recommends $missing
 }
 
+# fetch_node_packages: what tests/mavlink/node asks for, into build/node; without npm or network the
+# tests that want it say so and are skipped.
+fetch_node_packages() {
+    local from=$limpet_root/tests/mavlink/node to=$limpet_root/build/node
+    command -v npm >/dev/null || return 0
+    cmp -s "$from/package-lock.json" "$to/fetched.json" && return 0
+    mkdir -p "$to"
+    cp "$from/package.json" "$from/package-lock.json" "$to"
+    say "fetching the packages of tests/mavlink/node ..."
+    if (cd "$to" && timeout 120 npm ci --ignore-scripts --legacy-peer-deps --no-audit --no-fund) \
+        >>"$limpet_log" 2>&1; then
+        cp "$from/package-lock.json" "$to/fetched.json"
+    else
+        say "  not there, the tests against it are skipped"
+    fi
+}
+
 # build PRESET [TARGET...]: configures once, then builds what changed
 build() {
     local preset=$1

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/signing.hpp"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <span>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+/// 2015-01-01 00:00 UTC, of which MAVLink counts [us since 1970].
+constexpr std::uint64_t kEpoch_us = 1'420'070'400'000'000;
+constexpr std::uint64_t kLargestTimestamp = (std::uint64_t{1} << 48U) - 1;
+constexpr std::size_t kTimestamp_bytes = 6;
+constexpr std::size_t kDigest_bytes = 6;
+
+struct FreeContext {
+    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
+};
+
+}  // namespace
+
+/// A context made once: a frame then costs no allocation.
+struct Signing::Hasher {
+    std::unique_ptr<EVP_MD_CTX, FreeContext> context{EVP_MD_CTX_new()};
+};
+
+std::uint64_t signing_time(std::uint64_t unix_us) {
+    return unix_us > kEpoch_us ? (unix_us - kEpoch_us) / 10 : 0;
+}
+
+Signing::Signing(const SigningKey& key, std::uint8_t link_id)
+    : key_(key), link_id_(link_id), hasher_(std::make_unique<Hasher>()) {
+    require(hasher_->context != nullptr &&
+                EVP_DigestInit_ex(hasher_->context.get(), EVP_sha256(), nullptr) == 1,
+            "libcrypto has SHA-256");
+}
+
+Signing::~Signing() = default;
+Signing::Signing(Signing&&) noexcept = default;
+Signing& Signing::operator=(Signing&&) noexcept = default;
+
+Signing::Digest Signing::digest(ByteView up_to_timestamp) {
+    std::array<std::uint8_t, EVP_MAX_MD_SIZE> whole = {};
+    EVP_MD_CTX* context = hasher_->context.get();
+    const bool done =
+        EVP_DigestInit_ex(context, nullptr, nullptr) == 1 &&
+        EVP_DigestUpdate(context, key_.data(), key_.size()) == 1 &&
+        EVP_DigestUpdate(context, up_to_timestamp.data(), up_to_timestamp.size()) == 1 &&
+        EVP_DigestFinal_ex(context, whole.data(), nullptr) == 1;
+    require(done, "libcrypto hashes");
+    Digest first = {};
+    std::copy_n(whole.begin(), first.size(), first.begin());
+    return first;
+}
+
+ByteView Signing::sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now) {
+    require(frame.data() == buffer.data() && frame.size() > kHeader_bytes + kChecksum_bytes &&
+                frame.size() + kSignature_bytes <= buffer.size() && buffer[2] == 0,
+            "an unsigned frame of encode is signed");
+    const std::uint32_t id = static_cast<std::uint32_t>(buffer[7]) |
+                             static_cast<std::uint32_t>(buffer[8]) << 8U |
+                             static_cast<std::uint32_t>(buffer[9]) << 16U;
+    const MessageInfo* info = find_message(id);
+    require(info != nullptr, "encode knows its messages");
+
+    buffer[2] = kSignedFlag;  // which the checksum covers
+    const std::size_t covered = frame.size() - kChecksum_bytes;
+    const std::uint16_t crc = frame_checksum(ByteView(buffer).first(covered), info->crc_extra);
+    buffer[covered] = static_cast<std::uint8_t>(crc & 0xFFU);
+    buffer[covered + 1] = static_cast<std::uint8_t>(crc >> 8U);
+
+    timestamp_ = std::min(std::max(timestamp_ + 1, now), kLargestTimestamp);
+    std::size_t at = frame.size();
+    buffer[at++] = link_id_;
+    for (std::size_t i = 0; i < kTimestamp_bytes; ++i) {
+        buffer[at++] = static_cast<std::uint8_t>(timestamp_ >> (8 * i));
+    }
+    const Digest signature = digest(ByteView(buffer).first(at));
+    std::copy(signature.begin(), signature.end(), buffer.begin() + static_cast<std::ptrdiff_t>(at));
+    return ByteView(buffer).first(at + kDigest_bytes);
+}
+
+Verdict Signing::check(const Frame& frame, std::uint64_t now) {
+    if (!frame.is_signed) {
+        return Verdict::not_signed;
+    }
+    const std::size_t hashed = frame.bytes.size() - kDigest_bytes;
+    const Digest expected = digest(frame.bytes.first(hashed));
+    if (CRYPTO_memcmp(expected.data(), frame.bytes.data() + hashed, kDigest_bytes) != 0) {
+        return Verdict::wrong_signature;
+    }
+    const ByteView trailer = frame.bytes.last(kSignature_bytes);
+    std::uint64_t stamped = 0;
+    for (std::size_t i = 0; i < kTimestamp_bytes; ++i) {
+        stamped |= static_cast<std::uint64_t>(trailer[1 + i]) << (8 * i);
+    }
+    const auto known = std::span(heard_).first(senders_);
+    const auto sender = std::find_if(known.begin(), known.end(), [&](const Heard& heard) {
+        return heard.system == frame.system && heard.component == frame.component &&
+               heard.link_id == trailer[0];
+    });
+    if (sender != known.end()) {
+        if (stamped <= sender->timestamp) {
+            return Verdict::replayed;
+        }
+        sender->timestamp = stamped;
+    } else {
+        if (stamped + kLargestAge < std::max(timestamp_, now)) {
+            return Verdict::too_old;
+        }
+        if (senders_ == kMaxSenders) {
+            return Verdict::too_many_senders;
+        }
+        heard_[senders_++] = {frame.system, frame.component, trailer[0], stamped};
+    }
+    timestamp_ = std::max(timestamp_, stamped);
+    return Verdict::accepted;
+}
+
+}  // namespace limpet::mavlink

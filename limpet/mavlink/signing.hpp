@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "limpet/mavlink/codec.hpp"
+
+/// MAVLink 2 message signing: a frame's origin can be checked, a frame of old cannot be played
+/// again. Frames stay readable.
+///
+///   signed frame: frame with flag 0x01 | link id | timestamp (6) | signature (6)
+///   signature:    first 6 bytes of SHA-256(key | frame | link id | timestamp)
+///
+/// Timestamps count 10 us since 2015-01-01 UTC and rise with every frame. The key is shared
+/// beforehand, by other ways.
+/// Source: MAVLink message signing guide
+namespace limpet::mavlink {
+
+using SigningKey = std::array<std::uint8_t, 32>;
+
+/// @param unix_us  since 1970-01-01 UTC [us]
+/// @return signing timestamp [10 us since 2015-01-01 UTC], 0 for times before
+[[nodiscard]] std::uint64_t signing_time(std::uint64_t unix_us);
+
+enum class Verdict {
+    accepted,
+    not_signed,
+    wrong_signature,
+    replayed,          ///< not after the last frame of its sender on its link
+    too_old,           ///< a new sender, more than a minute behind our clock
+    too_many_senders,  ///< forgetting one would let its frames be played again
+};
+
+/// One end of a signed link. Time is given by the caller.
+class Signing {
+public:
+    /// A sender that is new may be behind our clock by this [10 us]: a minute.
+    static constexpr std::uint64_t kLargestAge = 6'000'000;
+    static constexpr std::size_t kMaxSenders = 16;
+
+    /// @param link_id  0..255, the same sender's links apart
+    Signing(const SigningKey& key, std::uint8_t link_id);
+    ~Signing();
+    Signing(Signing&&) noexcept;
+    Signing& operator=(Signing&&) noexcept;
+
+    /// @param buffer  holds a frame that encode has made
+    /// @param frame   that frame
+    /// @param now     signing time [10 us]; a clock that stands or steps back does no harm
+    /// @return the signed frame, in `buffer`
+    /// @throws InternalError when `frame` is none of encode's, or is signed already
+    [[nodiscard]] ByteView sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now);
+
+    /// Changes what is known of the sender only when it accepts: forgeries cannot lock it out.
+    /// @param now  signing time [10 us]
+    [[nodiscard]] Verdict check(const Frame& frame, std::uint64_t now);
+
+    /// The last time used or seen [10 us]; to be kept where the clock does not survive a restart.
+    [[nodiscard]] std::uint64_t timestamp() const { return timestamp_; }
+    void set_timestamp(std::uint64_t timestamp) { timestamp_ = timestamp; }
+
+private:
+    using Digest = std::array<std::uint8_t, 6>;
+    struct Hasher;
+    struct Heard {
+        std::uint8_t system = 0;
+        std::uint8_t component = 0;
+        std::uint8_t link_id = 0;
+        std::uint64_t timestamp = 0;
+    };
+
+    [[nodiscard]] Digest digest(ByteView up_to_timestamp);
+
+    SigningKey key_;
+    std::uint8_t link_id_;
+    std::uint64_t timestamp_ = 0;
+    std::array<Heard, kMaxSenders> heard_ = {};
+    std::size_t senders_ = 0;
+    std::unique_ptr<Hasher> hasher_;
+};
+
+}  // namespace limpet::mavlink
