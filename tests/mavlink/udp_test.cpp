@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "../support/allocations.hpp"
+#include "wires.hpp"
+
+using namespace limpet;
+using namespace limpet::wires;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+TransportAddress at(std::uint16_t port, Medium medium = Medium::udp,
+                    const char* host = "127.0.0.1") {
+    TransportAddress address;
+    address.medium = medium;
+    address.host = host;
+    address.port = port;
+    return address;
+}
+
+struct UdpPair : testing::Test {
+    std::unique_ptr<Transport> here = open_transport(at(0), Role::listen);
+    std::uint16_t port = here->address().port;
+    std::unique_ptr<Transport> there = open_transport(at(port), Role::connect);
+};
+
+}  // namespace
+
+TEST_F(UdpPair, EchoesAndKeepsDatagramsApart) {
+    EXPECT_EQ(say(*there, "one"), TransferStatus::done);
+    EXPECT_EQ(say(*there, "two"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "one");
+    EXPECT_EQ(heard(*here), "two");
+    EXPECT_EQ(say(*here, "answer"), TransferStatus::done);
+    EXPECT_EQ(heard(*there), "answer");
+    EXPECT_EQ(here->statistics().peers, 1U);
+}
+
+TEST_F(UdpPair, HasNobodyToAnswerBeforeSomebodySpoke) {
+    EXPECT_EQ(say(*here, "anybody?"), TransferStatus::no_peer);
+    EXPECT_THAT(here->describe(), HasSubstr("nobody there"));
+    EXPECT_FALSE(here->wait_for_peer(10ms));
+    EXPECT_EQ(say(*there, "hello"), TransferStatus::done);
+    EXPECT_TRUE(here->wait_for_peer(kLong));
+    EXPECT_EQ(say(*here, "hello yourself"), TransferStatus::done);
+    EXPECT_EQ(heard(*there), "hello yourself");
+    EXPECT_EQ(heard(*here), "hello");  // waiting did not eat it
+}
+
+TEST_F(UdpPair, AnswersWhoSpokeLast) {
+    RawSocket other(SOCK_DGRAM);
+    ASSERT_TRUE(other.connect(port));
+    EXPECT_EQ(say(*there, "first"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "first");
+    other.say("second");
+    EXPECT_EQ(heard(*here), "second");
+    EXPECT_EQ(say(*here, "to the second"), TransferStatus::done);
+    EXPECT_EQ(other.heard(), "to the second");
+    EXPECT_EQ(heard(*there, 10ms), "<timed out>");
+    EXPECT_EQ(here->statistics().peers, 2U);
+}
+
+TEST_F(UdpPair, WhoSpeaksToOneHostHearsItAlone) {
+    EXPECT_EQ(say(*there, "x"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "x");
+    const std::string text = here->describe();
+    const auto theirs = static_cast<std::uint16_t>(std::stoi(
+        text.substr(text.find("peer 127.0.0.1:") + std::string("peer 127.0.0.1:").size())));
+    RawSocket stranger(SOCK_DGRAM);
+    ASSERT_TRUE(stranger.connect(theirs));
+    stranger.say("disarm!");
+    EXPECT_EQ(heard(*there, 20ms), "<timed out>");
+}
+
+TEST_F(UdpPair, CountsWhatDidNotFitTheBuffer) {
+    EXPECT_EQ(there->send(many_bytes(1500), kLong).status, TransferStatus::done);
+    EXPECT_EQ(heard(*here).size(), 1000U);  // the buffer of heard()
+    EXPECT_EQ(here->statistics().datagrams_truncated, 1U);
+    EXPECT_EQ(say(*there, "next"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "next");
+}
+
+TEST_F(UdpPair, PassesOverEmptyDatagrams) {
+    EXPECT_EQ(say(*there, ""), TransferStatus::done);
+    EXPECT_FALSE(here->wait_for_peer(10ms));
+    EXPECT_EQ(say(*there, ""), TransferStatus::done);
+    EXPECT_EQ(say(*there, "full"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "full");
+}
+
+TEST_F(UdpPair, AMessageBeyondADatagramIsAFaultOfOurs) {
+    EXPECT_EQ(there->send(many_bytes(65507), kLong).status, TransferStatus::done);
+    EXPECT_THROW((void)there->send(many_bytes(65508), kLong), InternalError);
+}
+
+TEST_F(UdpPair, APeerThatIsGoneIsNoticedAndTheNextHeard) {
+    here->close();
+    EXPECT_EQ(say(*there, "lost"), TransferStatus::done);
+    EXPECT_EQ(say(*there, "refused"), TransferStatus::no_peer);
+    EXPECT_EQ(there->statistics().last_error, ECONNREFUSED);
+    const auto next = open_transport(at(port), Role::listen);
+    EXPECT_EQ(say(*there, "back"), TransferStatus::done);
+    EXPECT_EQ(heard(*next), "back");
+}
+
+TEST_F(UdpPair, WaitsEndOnTimeThroughSignals) {
+    const Interruptions interruptions;
+    const auto took = time_of([&] { EXPECT_EQ(heard(*here, 60ms), "<timed out>"); });
+    EXPECT_GE(took, 60ms);
+    EXPECT_LT(took, 1s);
+    EXPECT_GE(time_of([&] { EXPECT_FALSE(here->wait_for_peer(60ms)); }), 60ms);
+}
+
+TEST_F(UdpPair, CarriesTenMegabytesADatagramAnAnswer) {
+    const Bytes all = many_bytes(10'000'000);
+    const std::size_t piece = 50'000;
+    Bytes came;
+    Bytes buffer(piece);
+    for (std::size_t at = 0; at < all.size(); at += piece) {
+        const auto part = std::span(all).subspan(at, piece);
+        ASSERT_EQ(there->send(part, kLong).status, TransferStatus::done);
+        ASSERT_EQ(here->receive(buffer, kLong).bytes, piece);
+        came.insert(came.end(), buffer.begin(), buffer.end());
+        ASSERT_EQ(say(*here, "ok"), TransferStatus::done);
+        ASSERT_EQ(heard(*there), "ok");
+    }
+    EXPECT_TRUE(came == all);
+}
+
+TEST_F(UdpPair, SendAndReceiveDoNotAllocate) {
+    const Bytes message = many_bytes(280);
+    Bytes buffer(1000);
+    std::size_t echoed = 0;
+    const long before = allocations();
+    for (int i = 0; i < 100; ++i) {
+        (void)there->send(message, kLong);
+        echoed += here->receive(buffer, kLong).bytes;
+        (void)here->send(message, kLong);
+        echoed += there->receive(buffer, kLong).bytes;
+    }
+    EXPECT_EQ(allocations() - before, 0);
+    EXPECT_EQ(echoed, 2U * 100U * 280U);
+}
+
+TEST_F(UdpPair, APortInUseIsOneClearLine) {
+    const std::string line = refusal([&] { (void)open_transport(at(port), Role::listen); });
+    EXPECT_THAT(line, AllOf(HasSubstr("address 'udp:127.0.0.1:" + std::to_string(port) + "'"),
+                            HasSubstr("is in use"), Not(HasSubstr("\n"))));
+}
+
+TEST_F(UdpPair, ListensOnLoopbackAloneUnlessToldOtherwise) {
+    RawSocket beside(SOCK_DGRAM);
+    ASSERT_TRUE(beside.connect(port, "127.0.0.2"));
+    beside.say("x");
+    EXPECT_EQ(heard(*here, 20ms), "<timed out>");
+    const auto open = open_transport(at(0, Medium::udp, "0.0.0.0"), Role::listen);
+    RawSocket allowed(SOCK_DGRAM);
+    ASSERT_TRUE(allowed.connect(open->address().port, "127.0.0.2"));
+    allowed.say("x");
+    EXPECT_EQ(heard(*open), "x");
+}
+
+TEST_F(UdpPair, ClosedItDoesNothingMore) {
+    here->close();
+    here->close();
+    EXPECT_EQ(heard(*here), "<closed>");
+    EXPECT_EQ(say(*here, "x"), TransferStatus::closed);
+    EXPECT_FALSE(here->wait_for_peer(kLong));
+    EXPECT_THAT(here->describe(), HasSubstr("closed"));
+}
+
+// 127.255.255.255 is the broadcast address of the loopback card.
+TEST(UdpBroadcast, IsSentOnlyWhenAskedForAndAnswered) {
+    const auto here = open_transport(at(0, Medium::udp_broadcast, "127.255.255.255"), Role::listen);
+    const std::uint16_t port = here->address().port;
+    EXPECT_THAT(refusal([&] {
+                    (void)open_transport(at(port, Medium::udp, "127.255.255.255"), Role::connect);
+                }),
+                HasSubstr("ask for it with udp-broadcast:"));
+    const auto there =
+        open_transport(at(port, Medium::udp_broadcast, "127.255.255.255"), Role::connect);
+    EXPECT_EQ(say(*there, "who is there?"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "who is there?");
+    EXPECT_EQ(say(*here, "I am"), TransferStatus::done);
+    EXPECT_EQ(heard(*there), "I am");
+}
+
+TEST(UdpMulticast, ReachesEveryListenerOfTheGroup) {
+    TransportAddress group = at(0, Medium::udp_multicast, "239.255.42.99");
+    group.interface = "127.0.0.1";
+    const auto one = open_transport(group, Role::listen);
+    group.port = one->address().port;
+    const auto two = open_transport(group, Role::listen);
+    const auto speaker = open_transport(group, Role::connect);
+    EXPECT_EQ(say(*speaker, "pose"), TransferStatus::done);
+    EXPECT_EQ(heard(*one), "pose");
+    EXPECT_EQ(heard(*two), "pose");
+    EXPECT_EQ(say(*one, "thanks"), TransferStatus::done);
+    EXPECT_EQ(heard(*speaker), "thanks");
+    RawSocket alone(SOCK_DGRAM);
+    ASSERT_TRUE(alone.connect(group.port));
+    alone.say("not for the group");
+    EXPECT_EQ(heard(*one, 20ms), "<timed out>");
+}
+
+TEST(UdpMulticast, AnInterfaceThatIsNotThereIsOneClearLine) {
+    TransportAddress group = at(0, Medium::udp_multicast, "239.255.42.99");
+    group.interface = "192.0.2.1";
+    EXPECT_THAT(refusal([&] { (void)open_transport(group, Role::listen); }),
+                AllOf(HasSubstr("@192.0.2.1': "), Not(HasSubstr("\n"))));
+}
