@@ -41,8 +41,9 @@ struct TransportStatistics {
 };
 
 /// A wire: bytes to and from one peer. Streams (TCP, serial) deliver in any pieces, UDP whole
-/// datagrams. For one thread; starts none. A signal neither shortens nor lengthens a wait, and a
-/// peer that goes away never raises SIGPIPE. Send and receive do not allocate.
+/// datagrams. For one thread; starts none. A signal neither shortens nor lengthens a wait (who must
+/// hear Ctrl-C waits in slices), and a peer that goes away never raises SIGPIPE. Send and receive
+/// do not allocate.
 class Transport {
 public:
     virtual ~Transport() = default;
@@ -62,7 +63,7 @@ public:
                                            std::chrono::nanoseconds timeout) = 0;
 
     /// Waits until somebody is there to send to: client, server, a first datagram.
-    /// @return is somebody there
+    /// @return is somebody there; one that went unnoticed shows at the next transfer
     [[nodiscard]] virtual bool wait_for_peer(std::chrono::nanoseconds timeout) = 0;
 
     /// Ends it for good; a second call does nothing. The destructor closes too.

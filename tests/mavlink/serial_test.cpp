@@ -49,7 +49,14 @@ public:
         std::string all;
         char buffer[4096];
         pollfd fd{master_, POLLIN, 0};
-        while (all.size() < count && poll(&fd, 1, 10000) > 0) {
+        while (all.size() < count) {
+            const int ready = poll(&fd, 1, 10000);
+            if (ready < 0 && errno == EINTR) {
+                continue;  // a signal for this thread, not the one under test
+            }
+            if (ready <= 0) {
+                break;
+            }
             const ssize_t got = ::read(master_, buffer, sizeof(buffer));
             if (got <= 0) {
                 break;

@@ -76,7 +76,7 @@ TEST_F(TcpServed, RefusesASecondClientAndKeepsTheFirst) {
     RawSocket second(SOCK_STREAM);
     ASSERT_TRUE(second.connect(port));
     EXPECT_EQ(heard(*server, 10ms), "<timed out>");
-    EXPECT_EQ(second.heard(), "");
+    EXPECT_EQ(second.heard(), "<reset>");
     EXPECT_EQ(server->statistics().peers_refused, 1U);
     first.say("still here");
     EXPECT_EQ(heard(*server), "still here");

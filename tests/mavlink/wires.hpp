@@ -7,6 +7,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <string>
@@ -104,11 +105,15 @@ public:
             throw std::runtime_error("the raw end cannot send");
         }
     }
-    /// @return one piece; "" when the other end has closed or reset the connection
+    /// @return one piece; "" when the other end has closed, "<reset>" when it has reset the
+    /// connection
     std::string heard() {
         char buffer[1000];
         const ssize_t count = ::recv(socket_, buffer, sizeof(buffer), 0);
-        return count > 0 ? std::string(buffer, static_cast<std::size_t>(count)) : "";
+        if (count < 0) {
+            return errno == ECONNRESET ? "<reset>" : "<timed out>";
+        }
+        return {buffer, static_cast<std::size_t>(count)};
     }
     void close() {
         if (socket_ >= 0) {
