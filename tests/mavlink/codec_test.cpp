@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,18 +34,28 @@ std::string vector_hex(std::string_view message, int skip = 0) {
     return "no such vector";
 }
 
+void expect_there(bool there, std::string_view name) {
+    EXPECT_TRUE(there) << name;
+}
+
+std::optional<Frame> only_frame(Parser& parser, ByteView bytes, std::string_view name) {
+    auto frame = parser.next(bytes);
+    EXPECT_TRUE(frame.has_value() && bytes.empty()) << "not one whole frame of " << name;
+    return frame;
+}
+
 /// @return the message in a frame; a failure when it is not the only one
 template <class Message>
 Message only(ByteView bytes) {
     Parser parser;
-    const auto frame = parser.next(bytes);
-    if (!frame || !bytes.empty()) {
-        ADD_FAILURE() << "not one whole frame of " << Message::kName;
-        return {};
-    }
-    const auto message = decode<Message>(*frame);
-    EXPECT_TRUE(message.has_value()) << Message::kName;
+    const auto frame = only_frame(parser, bytes, Message::kName);
+    const auto message = frame ? decode<Message>(*frame) : std::nullopt;
+    expect_there(message.has_value(), Message::kName);
     return message.value_or(Message{});
+}
+
+void expect_same(const std::vector<std::string>& different, std::string_view name) {
+    EXPECT_THAT(different, IsEmpty()) << name;
 }
 
 TEST(Vectors, HeartbeatAndCommandsAreEncodedByteForByte) {
@@ -203,8 +214,8 @@ TEST_P(EveryMessage, ComesBackAsItWas) {
         const auto message = filled<Message>(GetParam());
         Sender from{255, 255, 255};
         FrameBuffer buffer = {};
-        EXPECT_THAT(differences(only<Message>(encode(message, from, buffer)), message), IsEmpty())
-            << Message::kName;
+        expect_same(differences(only<Message>(encode(message, from, buffer)), message),
+                    Message::kName);
         EXPECT_EQ(from.sequence, 0) << "goes on from 255";
     });
 }
@@ -222,7 +233,7 @@ TEST(Truncation, LeavesTrailingZerosOutButNotTheFirstByte) {
         const ByteView bytes = encode(Message{}, from, buffer);
         EXPECT_EQ(bytes.size(), kHeader_bytes + 1 + kChecksum_bytes) << Message::kName;
         EXPECT_EQ(bytes[kHeader_bytes], 0) << Message::kName;
-        EXPECT_THAT(differences(only<Message>(bytes), Message{}), IsEmpty()) << Message::kName;
+        expect_same(differences(only<Message>(bytes), Message{}), Message::kName);
     });
 }
 

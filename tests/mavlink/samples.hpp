@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstring>
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <vector>
@@ -65,33 +66,25 @@ template <class Message>
     return message;
 }
 
+/// Out of line: a few hundred fields come here, which compilers need not inline one by one.
+void note_difference(std::vector<std::string>& names, std::string_view name, const void* a,
+                     const void* b, std::size_t bytes);
+
 /// @return names of fields whose bits differ; NaN is like itself
 template <class Message>
 [[nodiscard]] std::vector<std::string> differences(const Message& a, const Message& b) {
     std::vector<std::string> names;
     std::apply(
         [&](const auto&... each) {
-            const auto compare = [&](const auto& field) {
-                const auto& left = a.*field.member;
-                const auto& right = b.*field.member;
-                if (std::memcmp(&left, &right, sizeof(left)) != 0) {
-                    names.emplace_back(field.name);
-                }
-            };
-            (compare(each), ...);
+            (note_difference(names, each.name, &(a.*each.member), &(b.*each.member),
+                             sizeof(a.*each.member)),
+             ...);
         },
         Message::fields());
     return names;
 }
 
 /// @return the frames in `bytes`, each as a copy of its bytes
-[[nodiscard]] inline std::vector<std::vector<std::uint8_t>> frames_in(Parser& parser,
-                                                                      ByteView bytes) {
-    std::vector<std::vector<std::uint8_t>> frames;
-    while (const auto frame = parser.next(bytes)) {
-        frames.emplace_back(frame->bytes.begin(), frame->bytes.end());
-    }
-    return frames;
-}
+[[nodiscard]] std::vector<std::vector<std::uint8_t>> frames_in(Parser& parser, ByteView bytes);
 
 }  // namespace limpet::mavlink
