@@ -18,7 +18,6 @@ public:
         return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
     }
     [[nodiscard]] bool has(const std::string& name) const { return values_.count(name) > 0; }
-    [[nodiscard]] const std::map<std::string, double>& all() const { return values_; }
 
 private:
     std::map<std::string, double> values_;
