@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+
+namespace limpet {
+
+/// An autopilot outside of the simulation's state, behind a wire. The loop calls it where it calls
+/// the built-in one, at the same rate; a run with one can neither be saved nor branched.
+class ExternalAutopilot {
+public:
+    virtual ~ExternalAutopilot() = default;
+
+    /// Before guidance.
+    /// @param time_s  of the flight; becomes the estimate's time when a new one has arrived
+    [[nodiscard]] virtual Estimate estimate(double time_s) = 0;
+    /// After guidance.
+    [[nodiscard]] virtual RotorCommand control(const Readings& readings, const Setpoint& setpoint,
+                                               double time_s) = 0;
+    /// Why it flies no longer (a literal); nothing while it does.
+    [[nodiscard]] virtual std::optional<std::string_view> failure() const = 0;
+};
+
+}  // namespace limpet

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/mavlink/histogram.hpp"
+#include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/translate.hpp"
+
+namespace limpet::mavlink {
+
+/// How the simulator's sensors and the autopilot's motors meet.
+enum class HilTiming {
+    lockstep,   ///< the autopilot's clock is ours: each HIL_SENSOR waits for its answer
+    real_time,  ///< both have clocks: the last answer counts (a flight controller on a serial port)
+};
+
+struct HilOptions {
+    HilTiming timing = HilTiming::lockstep;
+    std::chrono::milliseconds answer_limit{5000};  ///< longest wait, of wall time
+    double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
+    GeographicOrigin origin;
+    const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
+};
+
+enum class HilStatus {
+    waiting,      ///< it has not answered yet: it boots
+    answered,     ///< the motors are for these sensors (real time: fresh)
+    silent,       ///< it answers no longer
+    gone,         ///< it closed the link
+    interrupted,  ///< stop was set
+};
+
+/// What the link cost, in wall time.
+struct HilCount {
+    std::uint64_t sensors_sent = 0;
+    std::uint64_t answers = 0;
+    std::uint64_t unanswered = 0;   ///< sensors without an answer, the first ones left out
+    std::uint64_t strays = 0;       ///< answers to other sensors than the last
+    DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
+    DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
+    double waited_s = 0.0;          ///< for the autopilot, in all
+};
+
+/// The simulator's end of PX4's HIL. In each step GPS and motion capture go first, then HIL_SENSOR,
+/// which sets the autopilot's clock; then its answer of the same time stamp is waited for. The
+/// first answers come late (it boots): until one has come, nothing is waited for long.
+/// Source: px4.md, "Simulator link"
+class Hil {
+public:
+    Hil(Link& link, const HilOptions& options);
+
+    /// @param time_usec  of the HIL_SENSOR: > 0, rising
+    /// @param others     every frame that is no HIL_ACTUATOR_CONTROLS
+    HilStatus exchange(const Readings& readings, std::uint64_t time_usec,
+                       const std::function<void(const Frame&)>& others);
+
+    [[nodiscard]] const RotorCommand& command() const { return command_; }
+    [[nodiscard]] const HilCount& count() const { return count_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void send(const Readings& readings, std::uint64_t time_usec);
+    HilStatus wait(std::uint64_t time_usec, Clock::time_point sent,
+                   const std::function<void(const Frame&)>& others);
+    /// @return whether it answers `time_usec`
+    bool take(const Frame& frame, std::uint64_t time_usec);
+
+    Link& link_;
+    HilOptions options_;
+    Readings last_;  ///< what has been sent
+    RotorCommand command_;
+    bool answered_ever_ = false;
+    std::uint64_t generation_ = 0;
+    std::uint64_t answered_usec_ = 0;
+    HilCount count_;
+};
+
+}  // namespace limpet::mavlink

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/link.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace limpet::mavlink {
+
+Link::Link(std::unique_ptr<Transport> transport, Sender self)
+    : transport_(std::move(transport)), self_(self) {}
+
+void Link::sign(LinkSigning signing) {
+    signing_.emplace(signing.key, signing.link_id);
+    unix_us_ = std::move(signing.unix_us);
+}
+
+std::uint64_t Link::generation() const {
+    const TransportStatistics& seen = transport_->statistics();
+    return seen.peers + seen.peers_lost;
+}
+
+TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout) {
+    if (signing_) {
+        frame = signing_->sign(out_, frame, signing_time(unix_us_()));
+    }
+    const Transfer transfer = transport_->send(std::as_bytes(frame), timeout);
+    ++(transfer.status == TransferStatus::done ? count_.sent : count_.not_sent);
+    return transfer.status;
+}
+
+bool Link::accepts(const Frame& frame) {
+    if (!signing_ || signing_->check(frame, signing_time(unix_us_())) == Verdict::accepted) {
+        return true;
+    }
+    ++count_.unsigned_;
+    return false;
+}
+
+std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + timeout;
+    while (true) {
+        while (const auto frame = parser_.next(unread_)) {
+            if (accepts(*frame)) {
+                ++count_.received;
+                return frame;
+            }
+        }
+        const Transfer transfer = transport_->receive(
+            in_,
+            std::max(std::chrono::nanoseconds(0),
+                     std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now())));
+        if (transfer.status != TransferStatus::done) {
+            return std::nullopt;
+        }
+        if (generation() != heard_generation_) {  // half a frame of the last peer is nobody's
+            before_.lost += parser_.statistics().lost;
+            before_.bad_checksum += parser_.statistics().bad_checksum;
+            before_.discarded_bytes += parser_.statistics().discarded_bytes;
+            parser_ = Parser();
+            heard_generation_ = generation();
+        }
+        unread_ = {reinterpret_cast<const std::uint8_t*>(in_.data()), transfer.bytes};
+    }
+}
+
+LinkCount Link::count() const {
+    LinkCount count = count_;
+    const LinkStatistics& now = parser_.statistics();
+    count.lost = before_.lost + now.lost;
+    count.damaged = before_.bad_checksum + now.bad_checksum;
+    count.discarded_bytes = before_.discarded_bytes + now.discarded_bytes;
+    return count;
+}
+
+}  // namespace limpet::mavlink

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "limpet/mavlink/codec.hpp"
+#include "limpet/mavlink/signing.hpp"
+#include "limpet/mavlink/transport.hpp"
+
+namespace limpet::mavlink {
+
+/// Components of a MAVLink system. Source: common.xml, MAV_COMPONENT
+inline constexpr std::uint8_t kAutopilotComponent = 1;
+inline constexpr std::uint8_t kGroundStationComponent = 190;
+inline constexpr std::uint8_t kCompanionComponent = 191;
+
+/// Signs what goes, refuses what comes without a right signature.
+struct LinkSigning {
+    SigningKey key = {};
+    std::uint8_t link_id = 0;
+    std::function<std::uint64_t()> unix_us;  ///< the clock [us since 1970 UTC]
+};
+
+/// What a link has carried since it was made.
+struct LinkCount {
+    std::uint64_t sent = 0;       ///< messages that went whole
+    std::uint64_t not_sent = 0;   ///< nobody was there, or the peer took too long
+    std::uint64_t received = 0;   ///< frames handed out
+    std::uint64_t lost = 0;       ///< left out by sequence number
+    std::uint64_t damaged = 0;    ///< wrong checksum
+    std::uint64_t unsigned_ = 0;  ///< refused for their signature
+    std::uint64_t discarded_bytes = 0;
+};
+
+/// Messages to and from one peer: a transport, a parser, a sequence number and, when asked for,
+/// signatures. For one thread. Sending and receiving allocate nothing.
+class Link {
+public:
+    /// @param self  system and component that its messages carry
+    Link(std::unique_ptr<Transport> transport, Sender self);
+
+    void sign(LinkSigning signing);
+
+    /// @param timeout  longest wait for room in the wire
+    template <class Message>
+    TransferStatus send(const Message& message,
+                        std::chrono::nanoseconds timeout = std::chrono::milliseconds(100)) {
+        return send_frame(encode(message, self_, out_), timeout);
+    }
+
+    /// Waits for the next frame. A peer that goes shows in generation().
+    /// @param timeout  longest wait; 0: what is there already
+    /// @return valid until the next call
+    [[nodiscard]] std::optional<Frame> receive(std::chrono::nanoseconds timeout = {});
+
+    [[nodiscard]] bool wait_for_peer(std::chrono::nanoseconds timeout) {
+        return transport_->wait_for_peer(timeout);
+    }
+    /// Changes whenever a peer comes or goes: what was agreed upon with it is void.
+    [[nodiscard]] std::uint64_t generation() const;
+
+    [[nodiscard]] LinkCount count() const;
+    [[nodiscard]] const Sender& self() const { return self_; }
+    [[nodiscard]] const Transport& transport() const { return *transport_; }
+
+private:
+    TransferStatus send_frame(ByteView frame, std::chrono::nanoseconds timeout);
+    [[nodiscard]] bool accepts(const Frame& frame);
+
+    std::unique_ptr<Transport> transport_;
+    Sender self_;
+    Parser parser_;
+    std::optional<Signing> signing_;
+    std::function<std::uint64_t()> unix_us_;
+    std::array<std::byte, 4096> in_ = {};
+    ByteView unread_;
+    std::uint64_t heard_generation_ = 0;  ///< that of the bytes in the parser
+    LinkStatistics before_;               ///< of parsers that served earlier peers
+    LinkCount count_;
+    FrameBuffer out_ = {};
+};
+
+}  // namespace limpet::mavlink

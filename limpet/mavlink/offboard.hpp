@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+#include "limpet/mavlink/link.hpp"
+
+namespace limpet::mavlink {
+
+// Who flies. Time is injected: nothing here reads a clock.
+//
+//   silent ── heartbeat ──► unready ── estimate ──► streaming ── mode confirmed ──► engaged
+//     ▲                        ▲                      │ asks for OFFBOARD             │
+//     │                        └──── estimate stale ──┘      the mode was taken away  │
+//     └──────── no heartbeat for silence_limit_s ◄──(any)                             ▼
+//                                                                                 taken_away
+enum class OffboardState {
+    silent,      ///< no autopilot is heard
+    unready,     ///< it is there, but tells no pose or an old one
+    streaming,   ///< set-points go; it does not fly them yet
+    engaged,     ///< it flies our set-points
+    taken_away,  ///< an operator or a fail-safe chose another mode; set-points have stopped
+};
+[[nodiscard]] std::string_view to_string(OffboardState state);
+
+struct OffboardOptions {
+    std::uint8_t target_system = 1;
+    double set_point_rate_Hz = 50.0;  ///< PX4 gives up below 1 Hz (COM_OF_LOSS_T)
+    double heartbeat_rate_Hz = 1.0;
+    double estimate_rate_Hz = 100.0;  ///< asked of it; 0: as it likes
+    double retry_s = 0.3;             ///< commands are said again until it is so
+    double warm_up_s = 1.0;           ///< set-points go so long before the mode is asked for
+    double estimate_limit_s = 0.25;   ///< a pose older than this is stale
+    double silence_limit_s = 3.0;     ///< PX4 beats at 1 Hz
+    /// Asks for OFFBOARD itself; else it waits until an operator chooses it.
+    bool asks_for_mode = true;
+    /// A heartbeat of a ground station, not of a companion: PX4 sends STATUSTEXT to no one else.
+    bool hears_texts = true;
+    /// Gives the local origin a latitude and longitude (altitude 0): without one, PX4's hold and
+    /// landing fly off to (0, 0). Reference: px4.md
+    bool sets_origin = true;
+};
+
+/// What the autopilot said last.
+struct AutopilotReport {
+    bool armed = false;
+    bool offboard = false;  ///< its mode is OFFBOARD
+    std::uint32_t custom_mode = 0;
+    std::uint8_t landed_state = 0;      ///< MAV_LANDED_STATE: 1 ground, 2 air
+    std::string text;                   ///< of its last STATUSTEXT
+    std::uint16_t refused_command = 0;  ///< MAV_CMD that it denied last, 0: none
+    std::uint8_t refused_result = 0;    ///< MAV_RESULT of it
+    std::uint64_t texts = 0;            ///< so many so far
+};
+
+/// The companion's end of offboard control: keeps set-points streaming, asks for mode and arming
+/// until they are so, hears the estimate. The same code flies the simulator's PX4 and a real one.
+/// Set-points keep their meaning on the way: attitude stays attitude (a position set-point would
+/// pry at a cup that holds); disarming is forced, since PX4 denies it off the ground.
+/// Source: px4.md, "Offboard" and "Perched"; PX4 v1.15
+class Offboard {
+public:
+    explicit Offboard(const OffboardOptions& options);
+
+    /// A frame from the autopilot; others' are left alone.
+    void hear(const Frame& frame, double time_s);
+    /// Sends what is due: heartbeat, set-point, command. Often, at least at the set-point rate.
+    /// @param time_s  seconds of a clock that never steps back; simulated in lockstep
+    void update(Link& link, const Setpoint& setpoint, double time_s);
+    /// Stops the set-points and asks for `hold` (AUTO.LOITER): the autopilot is on its own. For
+    /// good; update() then keeps the heartbeat alone.
+    void hand_back(Link& link, double time_s);
+
+    [[nodiscard]] OffboardState state(double time_s) const;
+    /// The vehicle as the autopilot believes it; `valid` says that it is no older than
+    /// estimate_limit_s.
+    [[nodiscard]] Estimate estimate(double time_s) const;
+    [[nodiscard]] const AutopilotReport& report() const { return report_; }
+    /// Why it does not fly yet or no longer, for people; empty while engaged and armed as asked.
+    [[nodiscard]] std::string obstacle(double time_s) const;
+
+private:
+    void hear_heartbeat(const Frame& frame, double time_s);
+    void hear_estimate(const Frame& frame, double time_s);
+    void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
+    void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
+                      float param3 = 0.0F);
+    /// @return whether it is time again, and then remembers
+    [[nodiscard]] static bool again(double& last_s, double interval_s, double time_s);
+
+    OffboardOptions options_;
+    AutopilotReport report_;
+    Estimate estimate_;
+    bool estimate_ever_ = false;
+    double estimate_s_ = 0.0;
+    double heartbeat_s_ = -1.0;  ///< < 0: never heard
+    double streaming_s_ = -1.0;  ///< since when set-points go without a break
+    bool was_engaged_ = false;
+    bool handed_back_ = false;
+    double sent_heartbeat_s_ = -1e9;
+    double sent_set_point_s_ = -1e9;
+    double sent_command_s_ = -1e9;
+    double sent_request_s_ = -1e9;
+};
+
+}  // namespace limpet::mavlink
