@@ -12,7 +12,6 @@
 namespace limpet::app {
 namespace {
 
-using mavlink::DurationHistogram;
 using Json = nlohmann::ordered_json;
 
 /// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.

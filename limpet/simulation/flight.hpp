@@ -53,7 +53,7 @@ struct FlightWatch {
     std::function<void(double time_s, PerchingState state)> on_progress;
     double progress_every_s = 0.5;
     /// After every tick, with its events.
-    std::function<void(Flight& flight, const EventList& events)> on_tick;
+    std::function<void(Flight& flight, const EventList& events)> on_tick = {};
 };
 
 /// How a flight is flown where the defaults do not do.
@@ -62,7 +62,7 @@ struct FlightConduct {
     double speed = 0.0;                       ///< times real time; 0: as fast as it goes
     const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole
     /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).
-    std::function<void(const std::string& obstacle)> on_obstacle;
+    std::function<void(const std::string& obstacle)> on_obstacle = {};
 };
 
 struct FlightPerformance {
