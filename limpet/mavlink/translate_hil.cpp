@@ -32,7 +32,7 @@ Whole whole(double value) {
 
 template <class T>
 bool younger(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.time_s > last.time_s;
+    return sample.ever() && sample.time_s != last.time_s;
 }
 
 /// North and east of the origin [m].
