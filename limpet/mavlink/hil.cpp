@@ -94,7 +94,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
             return HilStatus::gone;
         }
     }
-    count_.waited_s += duration<double>(Clock::now() - begin).count();
+    count_.waited_s += duration<double>(Clock::now() - sent).count();
     if (answered_usec_ == time_usec) {
         answered_ever_ = true;
         return HilStatus::answered;
