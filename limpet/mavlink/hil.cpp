@@ -76,7 +76,6 @@ bool Hil::take(const Frame& frame, const Others& others) {
 }
 
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
-    const Clock::time_point begin = Clock::now();
     const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
     const Clock::time_point end =
         Clock::now() +
