@@ -114,6 +114,9 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
                                                  : std::filesystem::path(options.out);
         recording = make_folder(folder) / "flight.mcap";
     }
+    if (options.px4.record_wire && (options.no_record || options.autopilot != "px4")) {
+        throw InputError("--record-wire needs a recording's folder and --autopilot px4");
+    }
     Terminal terminal(voice(options));
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
@@ -121,7 +124,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     FlightConduct conduct{.speed = speed_of(options.px4.speed, 0.0), .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
-        px4.emplace(options.px4, *model, true, terminal, stop);
+        px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
         conduct.autopilot = &px4->autopilot();
         conduct.speed = px4->speed();
         conduct.on_obstacle = [&terminal](const std::string& obstacle) {
@@ -143,7 +146,10 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
             write_file(recording.parent_path() / "link.json", px4->json(result.performance) + "\n");
         }
     }
-    const auto files = draw(options, result, terminal);
+    auto files = draw(options, result, terminal);
+    if (px4 && options.px4.record_wire) {
+        files.push_back(px4->finish_wire_log());
+    }
     if (!recording.empty()) {
         terminal.line(terminal.bold("written    ") + recording.string());
         for (const auto& file : files) {

@@ -17,9 +17,10 @@ using Json = nlohmann::ordered_json;
 /// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
 constexpr std::uint8_t kSimulatorSystem = 255;
 
-std::unique_ptr<mavlink::Link> open(const std::string& address) {
+std::unique_ptr<mavlink::Link> open(const std::string& address, WireLog* log = nullptr) {
+    auto wire = open_transport(parse_address(address), Role::listen);
     return std::make_unique<mavlink::Link>(
-        open_transport(parse_address(address), Role::listen),
+        log != nullptr ? tapped(std::move(wire), *log) : std::move(wire),
         mavlink::Sender{.system = kSimulatorSystem, .component = mavlink::kCompanionComponent});
 }
 
@@ -103,6 +104,8 @@ void add_options(CLI::App& verb, Px4LinkOptions& options) {
     verb.add_option("--wait", options.wait_s, "longest wait for PX4 [s] (default 60)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.0));
+    verb.add_flag("--record-wire", options.record_wire,
+                  "write every byte of the simulator link as well, into wire.mcap");
 }
 
 double speed_of(const std::string& text, double by_default) {
@@ -122,14 +125,18 @@ double speed_of(const std::string& text, double by_default) {
 }
 
 Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
-                 Terminal& terminal, const std::atomic<bool>* stop)
+                 const std::filesystem::path& folder, Terminal& terminal,
+                 const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
     if (options.serial() && speed_ != 1.0) {
         throw InputError("--speed " + options.speed +
                          ": a board on a serial wire has its own "
                          "clock; there is 1 alone");
     }
-    hil_ = open(options.hil);
+    if (options.record_wire) {
+        wire_log_ = std::make_unique<WireLog>(folder / "wire.mcap");
+    }
+    hil_ = open(options.hil, wire_log_.get());
     if (!options.serial() && flies) {
         offboard_ = open(options.offboard);
     }
@@ -142,10 +149,19 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bo
     px4.control_rate_Hz = model.control_rate_Hz;
     px4.flies = flies;
     px4.on_text = [&terminal](const std::string& text) {
-        terminal.line(terminal.dim("          PX4: " + text));
+        terminal.line(
+            terminal.dim("          PX4: " + text.substr(0, text.find_last_not_of(" \t\n") + 1)));
     };
     autopilot_ =
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
+}
+
+std::filesystem::path Px4Link::finish_wire_log() {
+    if (!wire_log_) {
+        return {};
+    }
+    wire_log_->finish();
+    return wire_log_->path();
 }
 
 std::vector<std::string> Px4Link::report(const FlightPerformance& performance,
