@@ -26,6 +26,7 @@ bool is_new(const Sample<T>& sample, const Sample<T>& last) {
 Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
 
 void Hil::send(const Readings& readings, std::uint64_t time_usec) {
+    link_.cork();
     if (is_new(readings.gps, last_.gps)) {
         (void)link_.send(hil_gps(readings.gps.value, options_.origin, time_usec));
     }
@@ -42,7 +43,8 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec) {
         const double took_s = duration<double>(sent.at - before.at).count();
         count_.send_jitter.add(std::abs(took_s - meant_s));
     }
-    if (link_.send(sensor) == TransferStatus::done) {
+    (void)link_.send(sensor);
+    if (link_.uncork() == TransferStatus::done) {
         ++count_.sensors_sent;
     }
     ++sends_;
@@ -76,9 +78,10 @@ bool Hil::take(const Frame& frame, const Others& others) {
 }
 
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
-    const Clock::time_point begin = Clock::now();
-    const Clock::time_point end = begin + (answered_ever_ ? Clock::duration(options_.answer_limit)
-                                                          : Clock::duration(kBootWait));
+    const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
+    const Clock::time_point end =
+        Clock::now() +
+        (answered_ever_ ? Clock::duration(options_.answer_limit) : Clock::duration(kBootWait));
     while (answered_usec_ != time_usec) {
         const Clock::time_point now = Clock::now();
         if (now >= end) {
@@ -94,7 +97,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
             return HilStatus::gone;
         }
     }
-    count_.waited_s += duration<double>(Clock::now() - begin).count();
+    count_.waited_s += duration<double>(Clock::now() - sent).count();
     if (answered_usec_ == time_usec) {
         answered_ever_ = true;
         return HilStatus::answered;
