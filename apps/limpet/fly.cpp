@@ -16,6 +16,8 @@
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "output.hpp"
+#include "px4_link.hpp"
+#include "signals.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -28,6 +30,8 @@ struct FlyOptions {
     std::string seed;
     std::string out;
     std::string expect;
+    std::string autopilot = "builtin";
+    Px4LinkOptions px4;
     bool seed_given = false;
     bool json = false;
     bool quiet = false;
@@ -113,13 +117,31 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     Terminal terminal(voice(options));
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
+    const std::atomic<bool>* stop = stop_on_signals();
+    FlightConduct conduct{.speed = speed_of(options.px4.speed, 0.0), .stop = stop};
+    std::optional<Px4Link> px4;
+    if (options.autopilot == "px4") {
+        px4.emplace(options.px4, *model, true, terminal, stop);
+        conduct.autopilot = &px4->autopilot();
+        conduct.speed = px4->speed();
+        conduct.on_obstacle = [&terminal](const std::string& obstacle) {
+            terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
+        };
+    }
     terminal.line(terminal.dim(event_head()));
-
-    const FlightResult result = fly(model, recording, watch(terminal));
+    const FlightResult result = fly(model, recording, watch(terminal), 0, conduct);
 
     terminal.line("");
     for (const std::string& line : flight_summary(result, terminal)) {
         terminal.line(line);
+    }
+    if (px4) {
+        for (const std::string& line : px4->report(result.performance, terminal)) {
+            terminal.line(line);
+        }
+        if (!recording.empty()) {
+            write_file(recording.parent_path() / "link.json", px4->json(result.performance) + "\n");
+        }
     }
     const auto files = draw(options, result, terminal);
     if (!recording.empty()) {
@@ -128,10 +150,14 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
             terminal.line("           " + file.string());
         }
     }
+    if (*stop) {
+        code = ExitCode::interrupted;
+        terminal.line("interrupted; the recording is whole up to here");
+    }
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (!options.expect.empty() && expected(options.expect) != result.outcome) {
+    if (!*stop && !options.expect.empty() && expected(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
         code = ExitCode::other_outcome;
@@ -161,6 +187,14 @@ void add_fly(CLI::App& app, ExitCode& code) {
                      "exit with 1 unless the flight ends so: perched, released, failed_to_seal,\n"
                      "release_aborted, crashed, timed_out")
         ->type_name("OUTCOME");
+    verb->add_option("--autopilot", options->autopilot,
+                     "builtin, or px4: a real one in the loop (docs/px4.md)")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"builtin", "px4"}));
+    add_options(*verb, options->px4);
+    verb->add_option("--speed", options->px4.speed,
+                     "times real time, or max (default: as fast as it goes, on a serial wire 1)")
+        ->type_name("FACTOR");
     verb->add_flag("--json", options->json,
                    "one JSON object on standard output, all else on standard error; no figures");
     verb->add_flag("--quiet", options->quiet, "say nothing but errors; no figures");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "limpet/core/signals/estimate.hpp"
@@ -25,6 +26,10 @@ public:
                                                double time_s) = 0;
     /// Why it flies no longer (a literal); nothing while it does.
     [[nodiscard]] virtual std::optional<std::string_view> failure() const = 0;
+    /// Wall time that the simulator has waited for it so far [s].
+    [[nodiscard]] virtual double waited_s() const = 0;
+    /// What keeps it from flying, for people; empty when nothing does.
+    [[nodiscard]] virtual std::string obstacle() const = 0;
 };
 
 }  // namespace limpet

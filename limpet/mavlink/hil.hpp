@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -26,6 +27,7 @@ struct HilOptions {
     std::chrono::milliseconds answer_limit{5000};  ///< longest wait, of wall time
     double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
     GeographicOrigin origin;
+    bool motion_capture = true;               ///< send poses too; false: a companion does
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
 };
 
@@ -54,31 +56,42 @@ struct HilCount {
 /// Source: px4.md, "Simulator link"
 class Hil {
 public:
+    /// Takes frames that are no HIL_ACTUATOR_CONTROLS.
+    using Others = std::function<void(const Frame&)>;
+
     Hil(Link& link, const HilOptions& options);
 
     /// @param time_usec  of the HIL_SENSOR: > 0, rising
     /// @param others     every frame that is no HIL_ACTUATOR_CONTROLS
-    HilStatus exchange(const Readings& readings, std::uint64_t time_usec,
-                       const std::function<void(const Frame&)>& others);
+    [[nodiscard]] HilStatus exchange(const Readings& readings, std::uint64_t time_usec,
+                                     const Others& others);
 
     [[nodiscard]] const RotorCommand& command() const { return command_; }
     [[nodiscard]] const HilCount& count() const { return count_; }
 
 private:
     using Clock = std::chrono::steady_clock;
+    struct Sent {
+        std::uint64_t time_usec = 0;
+        Clock::time_point at;
+    };
+
     void send(const Readings& readings, std::uint64_t time_usec);
-    HilStatus wait(std::uint64_t time_usec, Clock::time_point sent,
-                   const std::function<void(const Frame&)>& others);
-    /// @return whether it answers `time_usec`
-    bool take(const Frame& frame, std::uint64_t time_usec);
+    [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
+    [[nodiscard]] HilStatus in_real_time(const Others& others);
+    /// @return whether it is an answer
+    bool take(const Frame& frame, const Others& others);
 
     Link& link_;
     HilOptions options_;
     Readings last_;  ///< what has been sent
     RotorCommand command_;
     bool answered_ever_ = false;
-    std::uint64_t generation_ = 0;
-    std::uint64_t answered_usec_ = 0;
+    std::uint64_t generation_ = 0;     ///< of the link, at the first message
+    std::uint64_t answered_usec_ = 0;  ///< of the last answer
+    Clock::time_point answered_at_;
+    std::array<Sent, 64> sent_ = {};  ///< a ring of the last ones
+    std::size_t sends_ = 0;
     HilCount count_;
 };
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace limpet {
 
-/// Counts of durations in bins a quarter of an octave wide, 1 us to 67 s; allocates nothing.
+/// Counts of durations in bins a quarter of an octave wide, 1 us to 56 s; allocates nothing. Bin i
+/// holds what is above edge_s(i - 1) and not above edge_s(i); the first one all up to 1 us, the
+/// last one all the rest. Less than nothing counts as nothing, and what is no number not at all.
 class DurationHistogram {
 public:
     static constexpr std::size_t kBins = 4 * 26;

@@ -86,19 +86,17 @@ public:
     [[nodiscard]] std::string obstacle(double time_s) const;
 
 private:
-    void hear_heartbeat(const Frame& frame, double time_s);
-    void hear_estimate(const Frame& frame, double time_s);
+    void hear_command_ack(const CommandAck& ack);
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
+    void request(Link& link, const Setpoint& setpoint, double time_s);
+    void request_rate(Link& link);
     void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
-                      float param3 = 0.0F);
-    /// @return whether it is time again, and then remembers
-    [[nodiscard]] static bool again(double& last_s, double interval_s, double time_s);
+                      float param3 = 0.0F) const;
 
     OffboardOptions options_;
     AutopilotReport report_;
     Estimate estimate_;
-    bool estimate_ever_ = false;
-    double estimate_s_ = 0.0;
+    double estimate_s_ = -1.0;   ///< < 0: never told
     double heartbeat_s_ = -1.0;  ///< < 0: never heard
     double streaming_s_ = -1.0;  ///< since when set-points go without a break
     bool was_engaged_ = false;
@@ -106,7 +104,9 @@ private:
     double sent_heartbeat_s_ = -1e9;
     double sent_set_point_s_ = -1e9;
     double sent_command_s_ = -1e9;
-    double sent_request_s_ = -1e9;
+    double sent_request_s_ = -1e9;  ///< of rates and origin
+    int rate_requests_ = 0;
+    bool asked_armed_ = false;  ///< by the last command to arm or disarm
 };
 
 }  // namespace limpet::mavlink

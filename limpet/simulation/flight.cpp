@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/flight.hpp"
 
-#include <chrono>
 #include <optional>
 
+#include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight_log.hpp"
+#include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "limpet/simulation/step.hpp"
 
 namespace limpet {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 FlightResult result_of(const Flight& flight, double wall_s) {
     const SimulationState& state = flight.state();
@@ -38,16 +33,35 @@ FlightResult result_of(const Flight& flight, double wall_s) {
 Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run)
     : model_(std::move(model)), plant_(model_->plant), state_(start(*model_, plant_, run)) {}
 
+Flight::Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
+               ExternalAutopilot& autopilot)
+    : model_(std::move(model)),
+      plant_(model_->plant),
+      state_(airborne.state),
+      autopilot_(&autopilot) {
+    plant_.restore(airborne.plant);
+}
+
 const EventList& Flight::tick() {
     events_.count = 0;
-    if (!ended()) {
-        step(*model_, state_, plant_, events_);
-        if (!ended() && seconds(state_.tick) >= model_->scenario.simulation.time_limit_s) {
-            state_.ending =
-                Ending{.outcome = Outcome::timed_out, .reason = "the scenario's time is over"};
-        }
+    if (ended()) {
+        return events_;
+    }
+    step(*model_, state_, plant_, events_, autopilot_);
+    if (autopilot_ != nullptr && autopilot_->failure()) {
+        // In the air it falls; on the wall the cup still holds it.
+        stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
+             *autopilot_->failure());
+    } else if (seconds(state_.tick) >= model_->scenario.simulation.time_limit_s) {
+        stop(Outcome::timed_out, "the scenario's time is over");
     }
     return events_;
+}
+
+void Flight::stop(Outcome outcome, std::string_view reason) {
+    if (!ended()) {
+        state_.ending = Ending{.outcome = outcome, .reason = reason};
+    }
 }
 
 void Flight::restore(const Snapshot& snapshot) {
@@ -57,16 +71,25 @@ void Flight::restore(const Snapshot& snapshot) {
 
 FlightResult fly(std::shared_ptr<const SimulationModel> model,
                  const std::filesystem::path& recording, const FlightWatch& watch,
-                 std::uint32_t run) {
-    const Clock::time_point begin = Clock::now();
+                 std::uint32_t run, const FlightConduct& conduct) {
+    Flight flight = conduct.autopilot == nullptr
+                        ? Flight(model, run)
+                        : Flight(model,
+                                 bring_up(*model, *conduct.autopilot,
+                                          {.run = run,
+                                           .speed = conduct.speed,
+                                           .stop = conduct.stop,
+                                           .on_obstacle = conduct.on_obstacle}),
+                                 *conduct.autopilot);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
         log.emplace(recording, *model);
     }
-    Flight flight(model, run);
     std::vector<Event> events;
     events.reserve(64);
     double next_progress_s = 0.0;
+    const double waited_s = conduct.autopilot != nullptr ? conduct.autopilot->waited_s() : 0.0;
+    Pace pace(conduct.speed);
     while (!flight.ended()) {
         const EventList& happened = flight.tick();
         for (std::size_t k = 0; k < happened.count; ++k) {
@@ -78,14 +101,25 @@ FlightResult fly(std::shared_ptr<const SimulationModel> model,
         if (log) {
             log->tick(*model, flight.state(), happened);
         }
-        if (watch.on_progress && seconds(flight.state().tick) >= next_progress_s) {
-            watch.on_progress(seconds(flight.state().tick), flight.state().guidance.state);
+        if (watch.on_tick) {
+            watch.on_tick(flight, happened);
+        }
+        const double time_s = seconds(flight.state().tick);
+        if (watch.on_progress && time_s >= next_progress_s) {
+            watch.on_progress(time_s, flight.state().guidance.state);
             next_progress_s += watch.progress_every_s;
         }
+        if (conduct.stop != nullptr && *conduct.stop) {
+            flight.stop(Outcome::timed_out, "interrupted");
+        }
+        pace.wait_until(time_s);
     }
-    FlightResult result = result_of(flight, seconds_since(begin));
+    FlightResult result = result_of(flight, pace.elapsed_s());
     result.events = std::move(events);
     result.recording = recording;
+    if (conduct.autopilot != nullptr) {
+        result.performance.waited_s = conduct.autopilot->waited_s() - waited_s;
+    }
     if (log) {
         log->finish(summary_json(result));
     }

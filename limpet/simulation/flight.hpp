@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "limpet/autopilot/external.hpp"
 #include "limpet/simulation/model.hpp"
 
 namespace limpet {
@@ -15,10 +17,17 @@ namespace limpet {
 class Flight {
 public:
     explicit Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run = 0);
+    /// The same with another autopilot than the built-in one, which has brought the vehicle to the
+    /// scenario's start (bring_up.hpp).
+    /// @param autopilot  outlives the flight
+    Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
+           ExternalAutopilot& autopilot);
 
     /// One base tick. Does nothing once the flight has ended.
     /// @return what happened in it, valid until the next tick
     const EventList& tick();
+    /// Ends it from outside, with a reason (a literal). Nothing when it has ended already.
+    void stop(Outcome outcome, std::string_view reason);
     [[nodiscard]] bool ended() const { return state_.ending.has_value(); }
 
     [[nodiscard]] const SimulationModel& model() const { return *model_; }
@@ -34,6 +43,7 @@ private:
     MujocoPlant plant_;
     SimulationState state_;
     EventList events_;
+    ExternalAutopilot* autopilot_ = nullptr;
 };
 
 /// How a flight is watched. Empty members watch nothing.
@@ -42,11 +52,23 @@ struct FlightWatch {
     /// Every `progress_every_s` of simulated time.
     std::function<void(double time_s, PerchingState state)> on_progress;
     double progress_every_s = 0.5;
+    /// After every tick, with its events.
+    std::function<void(Flight& flight, const EventList& events)> on_tick = {};
+};
+
+/// How a flight is flown where the defaults do not do.
+struct FlightConduct {
+    ExternalAutopilot* autopilot = nullptr;   ///< nullptr: the built-in one
+    double speed = 0.0;                       ///< times real time; 0: as fast as it goes
+    const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole
+    /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).
+    std::function<void(const std::string& obstacle)> on_obstacle = {};
 };
 
 struct FlightPerformance {
     double simulated_s = 0.0;
     double wall_s = 0.0;
+    double waited_s = 0.0;  ///< of it for an autopilot behind a wire
     long long physics_steps = 0;
     [[nodiscard]] double real_time_factor() const {
         return wall_s > 0.0 ? simulated_s / wall_s : 0.0;
@@ -68,9 +90,11 @@ struct FlightResult {
 
 /// Flies to the end: the mission's, a crash, or the scenario's time limit.
 /// @param recording  file to write; empty: none
-/// @throws InputError when the recording cannot be written
+/// @throws InputError when the recording cannot be written, or the autopilot does not bring the
+///         vehicle to its start
 [[nodiscard]] FlightResult fly(std::shared_ptr<const SimulationModel> model,
                                const std::filesystem::path& recording = {},
-                               const FlightWatch& watch = {}, std::uint32_t run = 0);
+                               const FlightWatch& watch = {}, std::uint32_t run = 0,
+                               const FlightConduct& conduct = {});
 
 }  // namespace limpet

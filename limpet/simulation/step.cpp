@@ -24,9 +24,27 @@ void see_truth(const SimulationModel& model, SimulationState& state, const Plant
     truth.legs_force_W_N = plant.contact_force_W();
 }
 
+/// The built-in autopilot lives in the state; one behind a wire only leaves its estimate there.
+void estimate(const SimulationModel& model, SimulationState& state, ExternalAutopilot* external) {
+    if (external != nullptr) {
+        state.autopilot.estimate = external->estimate(seconds(state.tick));
+    } else {
+        estimate(model.autopilot, state.autopilot, state.sensors.readings);
+    }
+}
+
+RotorCommand control(const SimulationModel& model, SimulationState& state,
+                     ExternalAutopilot* external) {
+    const double time_s = seconds(state.tick);
+    return external != nullptr
+               ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
+               : control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
+}
+
 }  // namespace
 
-void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events) {
+void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+          ExternalAutopilot* external) {
     const Airframe& airframe = model.scenario.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
@@ -35,7 +53,7 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
     sense(model.sensors, state.sensors, state.truth, plant, state.tick);
     const Readings& readings = state.sensors.readings;
     if (controls) {
-        estimate(model.autopilot, state.autopilot, readings);
+        estimate(model, state, external);
     }
     if (model.scenario.mount != Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
@@ -44,7 +62,7 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
                state.autopilot.estimate, time_s, events);
     }
     if (controls) {
-        state.command = control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
+        state.command = control(model, state, external);
     }
     step(airframe.rotor, state.rotors, state.command, kTick_s,
          voltage_share(airframe.battery, state.battery.voltage_V));

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/autopilot/px4.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "terminal.hpp"
+
+namespace limpet::app {
+
+/// Options of the verbs that fly a PX4.
+struct Px4LinkOptions {
+    std::string hil = "tcp:127.0.0.1:4560";
+    std::string offboard = "udp:127.0.0.1:14540";
+    double wait_s = 60.0;
+    std::string speed;  ///< "" as suits the wire, "max", or a factor
+
+    [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
+};
+void add_options(CLI::App& verb, Px4LinkOptions& options);
+
+/// @return times real time, 0 as fast as it goes
+/// @param by_default  when --speed is not given
+/// @throws InputError for anything but "max" or a positive number
+[[nodiscard]] double speed_of(const std::string& text, double by_default);
+
+/// A PX4 on its wires.
+class Px4Link {
+public:
+    /// Opens the wires and waits for a PX4 on them; says what it waits for and how to start it.
+    /// @param flies  guidance is ours; false: a companion's
+    /// @throws InputError when a wire cannot be opened, nobody comes in time, or on `stop`
+    Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
+            Terminal& terminal, const std::atomic<bool>* stop);
+
+    [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
+    [[nodiscard]] double speed() const { return speed_; }
+
+    /// For people: messages, misses, latency; what share of the time was whose.
+    [[nodiscard]] std::vector<std::string> report(const FlightPerformance& performance,
+                                                  const Terminal& terminal) const;
+    /// The same for programs, with the histograms.
+    [[nodiscard]] std::string json(const FlightPerformance& performance) const;
+
+private:
+    std::unique_ptr<mavlink::Link> hil_;
+    std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
+    std::unique_ptr<Px4Autopilot> autopilot_;
+    double speed_ = 0.0;
+};
+
+}  // namespace limpet::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/autopilot/px4.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace limpet {
+
+using mavlink::HilStatus;
+using mavlink::OffboardState;
+
+Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Options options)
+    : hil_link_(hil),
+      offboard_link_(offboard),
+      options_(std::move(options)),
+      hil_(hil, options_.hil),
+      offboard_(options_.offboard) {}
+
+void Px4Autopilot::hear(const mavlink::Frame& frame) {
+    offboard_.hear(frame, clock_s());
+    if (offboard_.report().texts != texts_) {
+        texts_ = offboard_.report().texts;
+        if (options_.on_text) {
+            options_.on_text(offboard_.report().text);
+        }
+    }
+}
+
+Estimate Px4Autopilot::estimate(double time_s) {
+    if (&offboard_link_ != &hil_link_) {
+        while (const auto frame = offboard_link_.receive()) {
+            hear(*frame);
+        }
+    }
+    Estimate estimate = offboard_.estimate(clock_s());
+    estimate.time_s = time_s;
+    return estimate;
+}
+
+RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint, double) {
+    clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
+    if (options_.flies) {
+        offboard_.update(offboard_link_, setpoint, clock_s());
+    }
+    status_ =
+        hil_.exchange(readings, clock_usec_, [this](const mavlink::Frame& frame) { hear(frame); });
+    switch (status_) {
+        case HilStatus::waiting:
+        case HilStatus::answered: break;
+        case HilStatus::silent: failure_ = "the autopilot answers no longer"; break;
+        case HilStatus::gone: failure_ = "the autopilot closed the link"; break;
+        case HilStatus::interrupted: break;  // who set the stop ends the flight
+    }
+    if (options_.flies && !failure_) {
+        if (offboard_.state(clock_s()) == OffboardState::taken_away) {
+            failure_ = "the autopilot left the mode OFFBOARD";
+        }
+    }
+    return hil_.command();
+}
+
+std::string Px4Autopilot::obstacle() const {
+    if (failure_) {
+        return std::string(*failure_);
+    }
+    if (status_ == HilStatus::waiting) {
+        return "the autopilot boots: it has not answered HIL_SENSOR yet";
+    }
+    return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
+}
+
+}  // namespace limpet

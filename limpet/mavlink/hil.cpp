@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/hil.hpp"
+
+#include <cmath>
+
+namespace limpet::mavlink {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::milliseconds;
+
+/// So that Ctrl-C is heard.
+constexpr milliseconds kSlice{100};
+/// Until the first answer: long enough for one to come, short enough to go on booting.
+constexpr milliseconds kBootWait{4};
+
+/// A sample that has not been sent. Stamps start again when a flight begins: not only later ones
+/// are new.
+template <class T>
+bool is_new(const Sample<T>& sample, const Sample<T>& last) {
+    return sample.ever() && sample.time_s != last.time_s;
+}
+
+}  // namespace
+
+Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
+
+void Hil::send(const Readings& readings, std::uint64_t time_usec) {
+    if (is_new(readings.gps, last_.gps)) {
+        (void)link_.send(hil_gps(readings.gps.value, options_.origin, time_usec));
+    }
+    if (options_.motion_capture && is_new(readings.motion_capture, last_.motion_capture)) {
+        (void)link_.send(odometry(readings.motion_capture.value, time_usec));
+    }
+    const HilSensor sensor = hil_sensor(readings, last_, time_usec);
+    last_ = readings;
+    Sent& sent = sent_[sends_ % sent_.size()];
+    const Sent& before = sent_[(sends_ + sent_.size() - 1) % sent_.size()];
+    sent = {.time_usec = time_usec, .at = Clock::now()};
+    if (options_.timing == HilTiming::real_time && sends_ > 0) {
+        const double meant_s = 1e-6 * static_cast<double>(time_usec - before.time_usec);
+        const double took_s = duration<double>(sent.at - before.at).count();
+        count_.send_jitter.add(std::abs(took_s - meant_s));
+    }
+    if (link_.send(sensor) == TransferStatus::done) {
+        ++count_.sensors_sent;
+    }
+    ++sends_;
+}
+
+bool Hil::take(const Frame& frame, const Others& others) {
+    const auto controls = decode<HilActuatorControls>(frame);
+    if (!controls) {
+        others(frame);
+        return false;
+    }
+    const Clock::time_point now = Clock::now();
+    const Sent* question = nullptr;
+    for (const Sent& sent : sent_) {
+        if (sent.time_usec == controls->time_usec && sent.time_usec != 0) {
+            question = &sent;
+        }
+    }
+    if (question == nullptr && options_.timing == HilTiming::lockstep) {
+        ++count_.strays;  // a clock that is not ours
+        return false;
+    }
+    if (question != nullptr) {
+        count_.round_trip.add(duration<double>(now - question->at).count());
+    }
+    command_ = rotor_command(*controls);
+    answered_usec_ = controls->time_usec;
+    answered_at_ = now;
+    ++count_.answers;
+    return true;
+}
+
+HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
+    const Clock::time_point begin = Clock::now();
+    const Clock::time_point end = begin + (answered_ever_ ? Clock::duration(options_.answer_limit)
+                                                          : Clock::duration(kBootWait));
+    while (answered_usec_ != time_usec) {
+        const Clock::time_point now = Clock::now();
+        if (now >= end) {
+            break;
+        }
+        if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, end - now))) {
+            take(*frame, others);
+        }
+        if (options_.stop != nullptr && *options_.stop) {
+            return HilStatus::interrupted;
+        }
+        if (link_.generation() != generation_) {
+            return HilStatus::gone;
+        }
+    }
+    count_.waited_s += duration<double>(Clock::now() - begin).count();
+    if (answered_usec_ == time_usec) {
+        answered_ever_ = true;
+        return HilStatus::answered;
+    }
+    if (!answered_ever_) {
+        return HilStatus::waiting;
+    }
+    ++count_.unanswered;
+    return HilStatus::silent;
+}
+
+HilStatus Hil::in_real_time(const Others& others) {
+    while (const auto frame = link_.receive()) {
+        answered_ever_ = take(*frame, others) || answered_ever_;
+    }
+    if (options_.stop != nullptr && *options_.stop) {
+        return HilStatus::interrupted;
+    }
+    if (link_.generation() != generation_) {
+        return HilStatus::gone;
+    }
+    if (!answered_ever_) {
+        return HilStatus::waiting;
+    }
+    const bool stale =
+        duration<double>(Clock::now() - answered_at_).count() > options_.stale_limit_s;
+    return stale ? HilStatus::silent : HilStatus::answered;
+}
+
+HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const Others& others) {
+    if (sends_ == 0) {
+        generation_ = link_.generation();
+    }
+    send(readings, time_usec);
+    return options_.timing == HilTiming::lockstep ? in_lockstep(time_usec, others)
+                                                  : in_real_time(others);
+}
+
+}  // namespace limpet::mavlink

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/offboard.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <variant>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/mavlink/translate.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+constexpr std::uint8_t kQuadrotor = 2;
+constexpr std::uint8_t kGroundStation = 6;
+constexpr std::uint8_t kOnboardController = 18;
+constexpr std::uint8_t kNoAutopilot = 8;
+constexpr std::uint8_t kStateActive = 4;
+constexpr std::uint8_t kMavlinkVersion = 3;
+constexpr float kCustomMode = 1.0F;  ///< MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+
+/// Whether it is time again, and then remembers.
+bool again(double& last_s, double interval_s, double time_s) {
+    constexpr double kRounding_s = 1e-6;
+    if (time_s - last_s < interval_s - kRounding_s) {
+        return false;
+    }
+    last_s = time_s;
+    return true;
+}
+
+std::uint32_t boot_ms(double time_s) {
+    return static_cast<std::uint32_t>(std::llround(time_s * 1e3));
+}
+
+std::string_view command_name(std::uint16_t command) {
+    switch (command) {
+        case kCommandSetMode: return "the change of mode";
+        case kCommandArm: return "arming or disarming";
+        case kCommandMessageInterval: return "a message's rate";
+        default: return "a command";
+    }
+}
+
+}  // namespace
+
+std::string_view to_string(OffboardState state) {
+    switch (state) {
+        case OffboardState::silent: return "silent";
+        case OffboardState::unready: return "unready";
+        case OffboardState::streaming: return "streaming";
+        case OffboardState::engaged: return "engaged";
+        case OffboardState::taken_away: return "taken_away";
+    }
+    throw InternalError("offboard state out of range");
+}
+
+Offboard::Offboard(const OffboardOptions& options) : options_(options) {}
+
+void Offboard::hear(const Frame& frame, double time_s) {
+    if (frame.system != options_.target_system || frame.component != kAutopilotComponent) {
+        return;
+    }
+    if (const auto beat = decode<Heartbeat>(frame)) {
+        if (beat->type == kQuadrotor || beat->autopilot != kNoAutopilot) {
+            heartbeat_s_ = time_s;
+            report_.armed = (beat->base_mode & kArmedFlag) != 0;
+            report_.custom_mode = beat->custom_mode;
+            report_.offboard = ((beat->custom_mode >> 16U) & 0xFFU) == kMainModeOffboard;
+            was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
+        }
+    } else if (const auto told = decode<Odometry>(frame)) {
+        if (const auto estimate = estimate_from(*told)) {
+            estimate_ = *estimate;
+            estimate_.time_s = time_s;
+            estimate_s_ = time_s;
+        }
+    } else if (const auto system_state = decode<ExtendedSysState>(frame)) {
+        report_.landed_state = system_state->landed_state;
+    } else if (const auto text = decode<StatusText>(frame)) {
+        report_.text = text_of(text->text);
+        ++report_.texts;
+    } else if (const auto ack = decode<CommandAck>(frame)) {
+        hear_command_ack(*ack);
+    }
+}
+
+void Offboard::hear_command_ack(const CommandAck& ack) {
+    constexpr std::uint8_t kAccepted = 0;
+    constexpr std::uint8_t kInProgress = 5;
+    if (ack.result == kAccepted || ack.result == kInProgress) {
+        if (report_.refused_command == ack.command) {
+            report_.refused_command = 0;
+        }
+        if (ack.command == kCommandArm) {  // sooner than the next heartbeat, which comes at 1 Hz
+            report_.armed = asked_armed_;
+        }
+    } else if (ack.command != kCommandMessageInterval) {
+        report_.refused_command = ack.command;
+        report_.refused_result = ack.result;
+    }
+}
+
+OffboardState Offboard::state(double time_s) const {
+    if (heartbeat_s_ < 0.0 || time_s - heartbeat_s_ > options_.silence_limit_s) {
+        return OffboardState::silent;
+    }
+    if (handed_back_ || (was_engaged_ && !report_.offboard)) {
+        return OffboardState::taken_away;
+    }
+    if (estimate_s_ < 0.0 || time_s - estimate_s_ > options_.estimate_limit_s) {
+        return OffboardState::unready;
+    }
+    return report_.offboard ? OffboardState::engaged : OffboardState::streaming;
+}
+
+Estimate Offboard::estimate(double time_s) const {
+    Estimate estimate = estimate_;
+    estimate.valid = estimate_s_ >= 0.0 && time_s - estimate_s_ <= options_.estimate_limit_s;
+    return estimate;
+}
+
+void Offboard::send_command(Link& link, std::uint16_t command, float param1, float param2,
+                            float param3) const {
+    CommandLong message;
+    message.target_system = options_.target_system;
+    message.target_component = kAutopilotComponent;
+    message.command = command;
+    message.param1 = param1;
+    message.param2 = param2;
+    message.param3 = param3;
+    (void)link.send(message);
+}
+
+void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_s) {
+    const auto send_position = [&](const auto& target) {
+        SetPositionTargetLocalNed message = position_target(target, boot_ms(time_s));
+        message.target_system = options_.target_system;
+        message.target_component = kAutopilotComponent;
+        (void)link.send(message);
+    };
+    const auto send_attitude = [&](const AttitudeSetpoint& target) {
+        SetAttitudeTarget message = attitude_target(target, boot_ms(time_s));
+        message.target_system = options_.target_system;
+        message.target_component = kAutopilotComponent;
+        (void)link.send(message);
+    };
+    // Disarmed or idle, it is told what it is: whatever it would do for a position, it must not.
+    const AttitudeSetpoint rest{.q_WB = estimate_.q_WB, .thrust = 0.0};
+    if (!setpoint.armed || std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
+        send_attitude(rest);
+    } else if (const auto* position = std::get_if<PositionSetpoint>(&setpoint.motion)) {
+        send_position(*position);
+    } else if (const auto* velocity = std::get_if<VelocitySetpoint>(&setpoint.motion)) {
+        send_position(*velocity);
+    } else {
+        send_attitude(std::get<AttitudeSetpoint>(setpoint.motion));
+    }
+}
+
+/// What is not yet as it should be is asked for, one thing at a time.
+void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
+    const OffboardState now = state(time_s);
+    const bool warm = streaming_s_ >= 0.0 && time_s - streaming_s_ >= options_.warm_up_s;
+    if (now == OffboardState::streaming && options_.asks_for_mode && warm) {
+        if (again(sent_command_s_, options_.retry_s, time_s)) {
+            send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeOffboard));
+        }
+    } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
+        if (again(sent_command_s_, options_.retry_s, time_s)) {
+            asked_armed_ = setpoint.armed;
+            send_command(link, kCommandArm, setpoint.armed ? 1.0F : 0.0F,
+                         setpoint.armed ? 0.0F : kForce);
+        }
+    }
+}
+
+/// A few times, for one may be lost, and as long as nothing comes.
+void Offboard::request_rate(Link& link) {
+    constexpr int kTimes = 3;
+    if (options_.estimate_rate_Hz > 0.0 && (rate_requests_ < kTimes || estimate_s_ < 0.0)) {
+        ++rate_requests_;
+        send_command(link, kCommandMessageInterval, static_cast<float>(Odometry::kId),
+                     static_cast<float>(1e6 / options_.estimate_rate_Hz));
+    }
+}
+
+void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
+    if (again(sent_heartbeat_s_, 1.0 / options_.heartbeat_rate_Hz, time_s)) {
+        Heartbeat beat;
+        beat.type = options_.hears_texts ? kGroundStation : kOnboardController;
+        beat.autopilot = kNoAutopilot;
+        beat.system_status = kStateActive;
+        beat.mavlink_version = kMavlinkVersion;
+        (void)link.send(beat);
+    }
+    const OffboardState now = state(time_s);
+    if (now == OffboardState::silent || now == OffboardState::taken_away) {
+        streaming_s_ = -1.0;
+        return;
+    }
+    if (again(sent_request_s_, 1.0, time_s)) {
+        if (options_.sets_origin && !report_.armed) {
+            SetGpsGlobalOrigin origin;
+            constexpr GeographicOrigin kOrigin;
+            origin.target_system = options_.target_system;
+            origin.latitude = static_cast<std::int32_t>(std::llround(kOrigin.latitude_deg * 1e7));
+            origin.longitude = static_cast<std::int32_t>(std::llround(kOrigin.longitude_deg * 1e7));
+            (void)link.send(origin);
+        }
+        request_rate(link);
+    }
+    if (now == OffboardState::unready && !was_engaged_) {
+        streaming_s_ = -1.0;
+        return;
+    }
+    if (again(sent_set_point_s_, 1.0 / options_.set_point_rate_Hz, time_s)) {
+        send_set_point(link, setpoint, time_s);
+        streaming_s_ = streaming_s_ < 0.0 ? time_s : streaming_s_;
+    }
+    request(link, setpoint, time_s);
+}
+
+void Offboard::hand_back(Link& link, double time_s) {
+    handed_back_ = true;
+    if (report_.armed && again(sent_command_s_, options_.retry_s, time_s)) {
+        send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeAuto),
+                     static_cast<float>(kSubModeLoiter));
+    }
+}
+
+std::string Offboard::obstacle(double time_s) const {
+    const auto with_reason = [&](std::string text) {
+        if (report_.refused_command != 0) {
+            text += fmt::format("; it refused {} ({})", command_name(report_.refused_command),
+                                report_.refused_result);
+        }
+        return report_.text.empty() ? text : text + "; it said \"" + report_.text + "\"";
+    };
+    switch (state(time_s)) {
+        case OffboardState::silent: return "no heartbeat of the autopilot";
+        case OffboardState::unready: return with_reason("the autopilot tells no fresh pose");
+        case OffboardState::streaming:
+            return with_reason(options_.asks_for_mode ? "the autopilot is not in OFFBOARD mode yet"
+                                                      : "waits for the mode OFFBOARD");
+        case OffboardState::taken_away: return with_reason("another mode was chosen");
+        case OffboardState::engaged: return report_.armed ? "" : with_reason("not armed yet");
+    }
+    throw InternalError("offboard state out of range");
+}
+
+}  // namespace limpet::mavlink

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/bring_up.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/simulation/pace.hpp"
+#include "limpet/simulation/step.hpp"
+
+namespace limpet {
+namespace {
+
+/// Close enough to the start, and slow enough, to begin.
+constexpr double kNear_m = 0.15;
+constexpr double kSlow_m_s = 0.08;
+
+/// The scenario without its mission: hovers at the start for ever.
+SimulationModel hovering(const SimulationModel& model) {
+    SimulationModel waiting = model;
+    waiting.task = {
+        .perch = false, .take_off = false, .hover_s = std::numeric_limits<double>::infinity()};
+    return waiting;
+}
+
+void rest_on_stand(const SimulationModel& model, const Vector3& stand_W_m, MujocoPlant& plant,
+                   Truth& truth) {
+    plant.set_pose(stand_W_m, attitude(model.scenario.start));
+    truth.base = plant.kinematics(Body::base);
+    if (model.scenario.airframe.has_cup) {
+        truth.cup = plant.kinematics(Body::cup);
+    }
+}
+
+bool stands_still(const Scenario& scenario, const Truth& truth) {
+    return (truth.base.p_WF_m - scenario.start.p_WB_m).norm() < kNear_m &&
+           truth.base.v_WF_W_m_s.norm() < kSlow_m_s;
+}
+
+/// A flight's first state with the vehicle, rotors and autopilot as they are.
+Snapshot first_state(const SimulationModel& model, const SimulationState& now,
+                     const MujocoPlant& plant, std::uint32_t run) {
+    MujocoPlant scratch(model.plant);
+    SimulationState state = start(model, scratch, run);
+    state.truth.base = now.truth.base;
+    state.truth.cup = now.truth.cup;
+    state.truth.rotor_speed_rad_s = now.truth.rotor_speed_rad_s;
+    state.rotors = now.rotors;
+    state.command = now.command;
+    state.autopilot.estimate = now.autopilot.estimate;
+    state.autopilot.estimate.time_s = 0.0;
+    state.guidance = start_perching(model.task, state.autopilot.estimate, 0.0);
+    state.sensors = start(model.sensors, state.truth, model.scenario.seed, run);
+    return {.state = state, .plant = plant.save()};
+}
+
+[[noreturn]] void give_up(const std::string& why, const std::string& obstacle) {
+    throw InputError("no flight: " + why + (obstacle.empty() ? "" : ": " + obstacle));
+}
+
+}  // namespace
+
+Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
+                  const BringUp& options) {
+    const Scenario& scenario = model.scenario;
+    const SimulationModel waiting = hovering(model);
+    const Vector3 stand_W_m = scenario.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
+    const double weight_N = scenario.airframe.mass_kg * kGravity_m_s2;
+
+    MujocoPlant plant(model.plant);
+    SimulationState state = start(waiting, plant, options.run);
+    state.rotors = {};
+    state.command = {};
+    rest_on_stand(model, stand_W_m, plant, state.truth);
+    state.sensors = start(model.sensors, state.truth, scenario.seed, options.run);
+
+    EventList events;
+    Pace pace(options.speed);
+    bool on_stand = true;
+    Tick still_since = -1;
+    std::string obstacle;
+    while (seconds(state.tick) < options.limit_s) {
+        step(waiting, state, plant, events, &autopilot);
+        on_stand = on_stand && state.truth.thrust_N < weight_N;
+        if (on_stand) {
+            rest_on_stand(model, stand_W_m, plant, state.truth);
+        }
+        if (due(state.tick, model.control_rate_Hz)) {
+            std::string now = autopilot.obstacle();
+            if (options.on_obstacle && now != obstacle) {
+                options.on_obstacle(now);
+            }
+            obstacle = std::move(now);
+        }
+        if (autopilot.failure()) {
+            give_up("the autopilot failed before the start", obstacle);
+        }
+        if (options.stop != nullptr && *options.stop) {
+            give_up("interrupted while the autopilot was brought up", obstacle);
+        }
+        if (state.ending) {
+            give_up(fmt::format("{} on the way to the start", state.ending->reason), obstacle);
+        }
+        const bool still =
+            !on_stand && stands_still(scenario, state.truth) && state.autopilot.estimate.valid;
+        still_since = !still ? -1 : still_since < 0 ? state.tick : still_since;
+        if (still_since >= 0 && seconds(state.tick - still_since) >= options.steady_s) {
+            return first_state(model, state, plant, options.run);
+        }
+        pace.wait_until(seconds(state.tick));
+    }
+    give_up(fmt::format("the vehicle does not hover at its start after {} s of simulated time",
+                        options.limit_s),
+            obstacle);
+}
+
+}  // namespace limpet
