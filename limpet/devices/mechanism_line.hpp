@@ -10,9 +10,10 @@
 /// The perching mechanism's own wire: a microcontroller that switches pump and valve and reads load
 /// cell and pressure sensor. Text over a serial port, 8N1, 115200 baud unless agreed otherwise.
 ///
-///   line     = field *(" " field) "*" checksum LF      at most 80 characters; CR before LF is let go
-///   field    = letter number                           each letter once; unknown ones are skipped
-///   checksum = two hexadecimal digits, upper case: CRC-8 (polynomial 0x07, start 0) of all before
+///   line     = field *(" " field) "*" checksum LF      at most 80 characters; CR before LF is let
+///   go field    = letter number                           each letter once; unknown ones are
+///   skipped number   = ["-"] digits ["." digits]               up to a million checksum = two
+///   hexadecimal digits, upper case: CRC-8 (polynomial 0x07, start 0) of all before
 ///              the asterisk
 ///
 ///   P  pump   1 on, 0 off                 F  axial force [N], tension positive
@@ -34,10 +35,10 @@ inline constexpr unsigned kMechanismBaud = 115200;
 
 /// One line, either way.
 struct MechanismLine {
-    std::optional<bool> pump_on;
-    std::optional<bool> valve_open;
-    std::optional<double> force_N;
-    std::optional<double> pressure_Pa;
+    std::optional<bool> pump_on = {};
+    std::optional<bool> valve_open = {};
+    std::optional<double> force_N = {};
+    std::optional<double> pressure_Pa = {};
 };
 
 /// CRC-8, polynomial x^8 + x^2 + x + 1, start 0: "123456789" gives 0xF4.

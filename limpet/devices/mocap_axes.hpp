@@ -7,7 +7,10 @@
 namespace limpet::devices {
 
 /// Which axis of the motion-capture frame points up, as chosen in Motive's streaming pane.
-enum class UpAxis { y, z };
+enum class UpAxis {
+    y,
+    z
+};
 
 /// How the motion-capture frame M lies in W, and how the rigid body's frame P (its pivot) lies in
 /// B. Both M and P are right-handed with the same axis up; Motive gives a new rigid body the axes

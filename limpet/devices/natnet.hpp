@@ -24,6 +24,8 @@ struct NatNetVersion {
     friend bool operator==(const NatNetVersion&, const NatNetVersion&) = default;
 };
 [[nodiscard]] bool understood(NatNetVersion version);
+/// From 4.1 on every section of a frame says how long it is.
+[[nodiscard]] bool has_section_sizes(NatNetVersion version);
 
 inline constexpr std::uint16_t kNatNetCommandPort = 1510;
 inline constexpr std::uint16_t kNatNetDataPort = 1511;
@@ -44,7 +46,7 @@ enum class NatNetMessage : std::uint16_t {
 /// A rigid body in one frame.
 struct NatNetBody {
     std::int32_t id = 1;  ///< the streaming id in Motive
-    MocapPose pose;
+    MocapPose pose = {};
     double mean_error_m = 0.0;    ///< of its markers
     bool tracking_valid = false;  ///< false: not seen in this frame, the pose is an old one
 };
@@ -52,23 +54,22 @@ struct NatNetBody {
 /// What Limpet wants to know of a frame of motion-capture data.
 struct NatNetFrame {
     std::int32_t number = 0;
-    double motive_time_s = 0.0;             ///< since Motive's start of streaming
-    std::uint64_t mid_exposure_ticks = 0;   ///< of the server's clock, see NatNetServer
+    double motive_time_s = 0.0;            ///< since Motive's start of streaming
+    std::uint64_t mid_exposure_ticks = 0;  ///< of the server's clock, see NatNetServer
     std::uint64_t transmit_ticks = 0;
-    bool models_changed = false;            ///< the list of assets has changed
-    std::optional<NatNetBody> body;         ///< the one asked for; nothing: it is not streamed
+    bool models_changed = false;          ///< the list of assets has changed
+    std::optional<NatNetBody> body = {};  ///< the one asked for; nothing: it is not streamed
 };
 
 /// Never reads past the end, whatever the bytes are.
 /// @param body_id  streaming id of the rigid body asked for
 /// @return nothing when it is no frame, is cut, miscounts, or holds a pose that is not finite
 [[nodiscard]] std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet,
-                                                      NatNetVersion version,
-                                                      std::int32_t body_id);
+                                                      NatNetVersion version, std::int32_t body_id);
 
 /// What a server says of itself.
 struct NatNetServer {
-    NatNetVersion version;
+    NatNetVersion version = {};
     std::uint64_t clock_Hz = 0;  ///< of its ticks; 0: not told
     std::uint16_t data_port = kNatNetDataPort;
     bool multicast = true;

@@ -15,18 +15,18 @@ namespace limpet::devices {
 
 struct NatNetOptions {
     std::int32_t body_id = 1;
-    MocapAxes axes;
-    NatNetVersion version;        ///< until the server has told its own
+    MocapAxes axes = {};
+    NatNetVersion version = {};    ///< until the server has told its own
     double connect_every_s = 1.0;  ///< said again; while unicast frames come it keeps them coming
 };
 
 struct NatNetCount {
-    std::uint64_t frames = 0;         ///< well-formed
-    std::uint64_t damaged = 0;        ///< datagrams that are none of NatNet's, or cut
-    std::uint64_t without_body = 0;   ///< frames in which our body is not streamed
-    std::uint64_t not_tracked = 0;    ///< frames in which it was not seen
-    std::uint64_t out_of_order = 0;   ///< older than a frame before
-    std::uint64_t lost = 0;           ///< left out by frame number
+    std::uint64_t frames = 0;        ///< well-formed
+    std::uint64_t damaged = 0;       ///< datagrams that are none of NatNet's, or cut
+    std::uint64_t without_body = 0;  ///< frames in which our body is not streamed
+    std::uint64_t not_tracked = 0;   ///< frames in which it was not seen
+    std::uint64_t out_of_order = 0;  ///< older than a frame before
+    std::uint64_t lost = 0;          ///< left out by frame number
 };
 
 /// Poses of one rigid body from Motive. Multicast: the data wire joins the group; the command wire
