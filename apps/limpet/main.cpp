@@ -41,6 +41,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_check(app);
     add_list(app);
     add_params(app);
+    add_px4_params(app);
     add_plot(app);
     add_film(app);
     add_csv(app);

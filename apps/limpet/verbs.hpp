@@ -19,6 +19,7 @@ void add_fly(CLI::App& app, ExitCode& code);
 void add_check(CLI::App& app);
 void add_list(CLI::App& app);
 void add_params(CLI::App& app);
+void add_px4_params(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_film(CLI::App& app);
 void add_csv(CLI::App& app);

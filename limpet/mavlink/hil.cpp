@@ -76,9 +76,10 @@ bool Hil::take(const Frame& frame, const Others& others) {
 }
 
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
-    const Clock::time_point begin = Clock::now();
-    const Clock::time_point end = begin + (answered_ever_ ? Clock::duration(options_.answer_limit)
-                                                          : Clock::duration(kBootWait));
+    const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
+    const Clock::time_point end =
+        Clock::now() +
+        (answered_ever_ ? Clock::duration(options_.answer_limit) : Clock::duration(kBootWait));
     while (answered_usec_ != time_usec) {
         const Clock::time_point now = Clock::now();
         if (now >= end) {
@@ -94,7 +95,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
             return HilStatus::gone;
         }
     }
-    count_.waited_s += duration<double>(Clock::now() - begin).count();
+    count_.waited_s += duration<double>(Clock::now() - sent).count();
     if (answered_usec_ == time_usec) {
         answered_ever_ = true;
         return HilStatus::answered;

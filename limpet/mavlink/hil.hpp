@@ -47,7 +47,9 @@ struct HilCount {
     std::uint64_t strays = 0;       ///< answers to other sensors than the last
     DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
-    double waited_s = 0.0;          ///< for the autopilot, in all
+    /// From HIL_SENSOR handed to the kernel (which may let the autopilot run at once) to its answer
+    /// or the end of the wait; the rest of the time is the simulator's own.
+    double waited_s = 0.0;
 };
 
 /// The simulator's end of PX4's HIL. In each step GPS and motion capture go first, then HIL_SENSOR,

@@ -12,8 +12,9 @@ using testing::HasSubstr;
 TEST(Verbs, EachHasAHelpThatNamesItsOptions) {
     const Bench bench;
     EXPECT_THAT(bench.run({"--help"}).out, HasSubstr("limpet fly perch_concrete"));
-    for (const char* verb : {"fly", "check", "list", "params", "plot", "film", "csv", "export",
-                             "campaign", "replay", "summary", "rotor", "identify", "reproduce"}) {
+    for (const char* verb :
+         {"fly", "check", "list", "params", "px4-params", "plot", "film", "csv", "export",
+          "campaign", "replay", "summary", "rotor", "identify", "reproduce"}) {
         const Finished help = bench.run({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("--help"));

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/autopilot/px4_airframe.hpp"
+#include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Px4Options {
+    std::string wanted;
+    std::vector<std::string> overrides;
+    std::string out = ".";
+    int airframe_id = 22001;
+    Px4Target target = Px4Target::sitl;
+    bool mocap = false;
+    bool gps = false;
+};
+
+const std::map<std::string, Px4Target> kTargets = {
+    {"sitl", Px4Target::sitl}, {"hitl", Px4Target::hitl}, {"flight", Px4Target::flight}};
+
+bool is_vehicle(const std::string& wanted) {
+    if (is_path(wanted)) {
+        return fs::absolute(wanted).parent_path().filename() == "vehicles";
+    }
+    return fs::exists(data_root() / "vehicles" / (wanted + ".yaml"));
+}
+
+/// A vehicle is taken as a scenario that changes nothing of it.
+Scenario scenario_of(const Px4Options& options) {
+    if (!is_vehicle(options.wanted)) {
+        return load_scenario(options.wanted, {.overrides = options.overrides});
+    }
+    const std::string vehicle = is_path(options.wanted)
+                                    ? fs::absolute(options.wanted).lexically_normal().string()
+                                    : options.wanted;
+    return load_scenario_text("mission: hover\nvehicle: \"" + vehicle + "\"\n", options.wanted,
+                              {.overrides = options.overrides});
+}
+
+Px4Airframe airframe_of(const Px4Options& options) {
+    const Scenario scenario = scenario_of(options);
+    const Airframe& vehicle = scenario.airframe;
+    Px4Airframe airframe;
+    airframe.name = vehicle.name;
+    airframe.id = options.airframe_id;
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
+        airframe.rotors[i] = {.p_B_m = vehicle.rotor_p_B_m[i],
+                              .direction = static_cast<double>(vehicle.rotor_direction[i]),
+                              .moment_constant_m = vehicle.rotor.moment_constant_m};
+    }
+    airframe.battery_cells = vehicle.battery.cells;
+    airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;
+    airframe.perches = vehicle.has_cup;
+    airframe.autopilot = scenario.autopilot;
+    airframe.target = options.target;
+    const bool poses = scenario.autopilot.EKF2_EV_CTRL != 0.0;
+    airframe.pose =
+        options.gps || (!options.mocap && !poses) ? Px4Pose::gps : Px4Pose::motion_capture;
+    return airframe;
+}
+
+void how_to_go_on(const Px4Airframe& airframe) {
+    const std::string file = px4_airframe_file_name(airframe);
+    const std::string folder = px4_airframe_folder(airframe.target);
+    if (airframe.target == Px4Target::sitl) {
+        fmt::print(
+            "\nIn PX4's source tree (v1.15): copy {} into\n"
+            "  {}/\nand add it to the CMakeLists.txt there, then\n"
+            "  make px4_sitl_default\n"
+            "  PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d\n",
+            file, folder, airframe.id);
+        return;
+    }
+    fmt::print(
+        "\nLoad the .params file with QGroundControl (Parameters, Tools, Load from file)\n"
+        "and restart the board; or build PX4 with the script in\n  {}/\n",
+        folder);
+}
+
+void write_both(const Px4Options& options) {
+    const Px4Airframe airframe = airframe_of(options);
+    const auto settings = px4_settings(airframe);
+    const fs::path folder = make_folder(options.out);
+    const fs::path params = folder / (airframe.name + ".params");
+    const fs::path script = folder / px4_airframe_file_name(airframe);
+    write_file(params, px4_params_text(airframe, settings));
+    write_file(script, px4_airframe_script(airframe, settings));
+    fmt::print("{}  {} parameters, each with its reason\n{}  the same, as PX4 starts it\n",
+               params.string(), settings.size(), script.string());
+    how_to_go_on(airframe);
+}
+
+}  // namespace
+
+void add_px4_params(CLI::App& app) {
+    auto options = std::make_shared<Px4Options>();
+    CLI::App* verb = app.add_subcommand(
+        "px4-params", "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe");
+    verb->add_option("vehicle", options->wanted,
+                     "vehicle or scenario, by name or YAML file; a scenario brings its autopilot\n"
+                     "section along")
+        ->required()
+        ->type_name("VEHICLE");
+    verb->add_option("--set", options->overrides, "turn one number, as in limpet fly (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    verb->add_option("--out", options->out, "folder for both files (default: here)")
+        ->type_name("DIR");
+    verb->add_option("--airframe-id", options->airframe_id,
+                     "PX4's number of this airframe, 22000 .. 22999 (default 22001)")
+        ->type_name("N");
+    verb->add_option("--target", options->target,
+                     "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
+                     "simulator; flight: the vehicle itself, with its companion on TELEM 2")
+        ->type_name("TARGET")
+        ->transform(CLI::CheckedTransformer(kTargets).description(""));
+    CLI::Option* mocap = verb->add_flag("--mocap", options->mocap,
+                                        "position by motion capture (default unless the\n"
+                                        "scenario's EKF2_EV_CTRL is 0)");
+    verb->add_flag("--gps", options->gps, "position by GPS and compass")->excludes(mocap);
+    verb->footer(
+        "Examples:\n"
+        "  limpet px4-params perching_uav --out out/px4\n"
+        "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
+        "Every line has its reason above it. --target flight leaves outputs, remote control and\n"
+        "the supply check as they are on the board.\n");
+    verb->callback([options] { write_both(*options); });
+}
+
+}  // namespace limpet::app
