@@ -83,17 +83,17 @@ public:
             return {TransferStatus::closed, 0};
         }
         const Deadline deadline(timeout);
-        while (wait(POLLIN, deadline)) {
+        do {
             const std::size_t length = take(into, MSG_TRUNC);
             if (length == 0) {
-                continue;
+                continue;  // nothing there yet, or an empty datagram
             }
             const std::size_t bytes = std::min(length, into.size());
             statistics_.datagrams_truncated += length > bytes ? 1 : 0;
             statistics_.bytes_received += bytes;
             ++statistics_.receives;
             return {TransferStatus::done, bytes};
-        }
+        } while (wait(POLLIN, deadline));
         return {TransferStatus::timed_out, 0};
     }
 
