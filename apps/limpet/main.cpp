@@ -33,6 +33,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     using namespace limpet::app;
     app.require_subcommand(1);
     add_fly(app, code);
+    add_sim_io(app, code);
     add_campaign(app, code);
     add_replay(app);
     add_summary(app);

@@ -16,6 +16,7 @@ enum class ExitCode {
 
 /// Each adds one verb with its options; its callback does the work.
 void add_fly(CLI::App& app, ExitCode& code);
+void add_sim_io(CLI::App& app, ExitCode& code);
 void add_check(CLI::App& app);
 void add_list(CLI::App& app);
 void add_params(CLI::App& app);
