@@ -157,6 +157,9 @@ void RemoteGuidance::hear_command(const Frame& frame, const mavlink::CommandLong
         mechanism_ = *wanted;
     }
     ++(wanted ? count_.commands : count_.refused);
+    if (command.target_component != mavlink::kMechanismComponent && command.target_component != 0) {
+        return;  // meant for another
+    }
     mavlink::CommandAck ack;
     ack.command = command.command;
     ack.result = wanted ? kAccepted : kUnsupported;
@@ -176,6 +179,8 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
         if (*name == EventName::approach_started) {
             guidance.attempt = ++approaches_;
         }
+    } else {
+        last_words_ = keep(mavlink::text_of(text.text));
     }
 }
 
@@ -195,7 +200,7 @@ void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& gui
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
         companion_heard_ = true;
         if (heartbeat->system_status == mavlink::kStatePowerOff) {
-            end(Outcome::timed_out, "the companion ended its mission");
+            end(Outcome::timed_out, last_words_);
         }
     }
 }

@@ -95,6 +95,8 @@ private:
     int approaches_ = 0;
     std::optional<Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
+    /// Of a companion that ends without an outcome: "handed back: reason".
+    std::string_view last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };
 
