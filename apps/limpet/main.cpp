@@ -48,6 +48,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_csv(app);
     add_export(app);
     add_rotor(app);
+    add_stand_in(app);
 }
 
 /// The first word must be a verb; said before the parser only misses one.

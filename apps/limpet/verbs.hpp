@@ -31,5 +31,6 @@ void add_reproduce(CLI::App& app, ExitCode& code);
 void add_summary(CLI::App& app);
 void add_rotor(CLI::App& app);
 void add_identify(CLI::App& app);
+void add_stand_in(CLI::App& app);
 
 }  // namespace limpet::app
