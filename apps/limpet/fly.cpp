@@ -40,16 +40,6 @@ struct FlyOptions {
     bool no_figures = false;
 };
 
-Outcome expected(const std::string& name) {
-    const auto outcome = outcome_from(name);
-    if (!outcome) {
-        throw InputError("--expect " + name +
-                         ": no such outcome; there are perched, released, failed_to_seal, "
-                         "release_aborted, crashed, timed_out");
-    }
-    return *outcome;
-}
-
 Terminal::Voice voice(const FlyOptions& options) {
     if (options.quiet) {
         return Terminal::Voice::quiet;
@@ -102,7 +92,7 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
 
 void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
-        (void)expected(options.expect);  // before any work
+        (void)expected_outcome(options.expect);  // before any work
     }
     const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
     const auto model = build_model(scenario);
@@ -157,7 +147,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (!*stop && !options.expect.empty() && expected(options.expect) != result.outcome) {
+    if (!*stop && !options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
         code = ExitCode::other_outcome;
