@@ -40,16 +40,6 @@ struct FlyOptions {
     bool no_figures = false;
 };
 
-Outcome expected(const std::string& name) {
-    const auto outcome = outcome_from(name);
-    if (!outcome) {
-        throw InputError("--expect " + name +
-                         ": no such outcome; there are perched, released, failed_to_seal, "
-                         "release_aborted, crashed, timed_out");
-    }
-    return *outcome;
-}
-
 Terminal::Voice voice(const FlyOptions& options) {
     if (options.quiet) {
         return Terminal::Voice::quiet;
@@ -100,9 +90,24 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
     return files;
 }
 
+/// What is told of the wires, beside the recording: that one must not depend on wall time.
+void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
+          const std::filesystem::path& folder, std::vector<std::filesystem::path>& files) {
+    write_file(folder / "link.json", json_of(link) + "\n");
+    files.push_back(folder / "link.json");
+    if (!options.no_figures && !options.json && !options.quiet) {
+        for (const auto& figure : draw(link, folder)) {
+            files.push_back(figure);
+        }
+    }
+    if (options.px4.record_wire) {
+        files.push_back(px4.finish_wire_log());
+    }
+}
+
 void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
-        (void)expected(options.expect);  // before any work
+        (void)expected_outcome(options.expect);  // before any work
     }
     const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
     const auto model = build_model(scenario);
@@ -138,17 +143,16 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     for (const std::string& line : flight_summary(result, terminal)) {
         terminal.line(line);
     }
+    std::optional<LinkReport> link;
     if (px4) {
-        for (const std::string& line : px4->report(result.performance, terminal)) {
+        link = px4->report(result.performance);
+        for (const std::string& line : lines_of(*link, terminal)) {
             terminal.line(line);
-        }
-        if (!recording.empty()) {
-            write_file(recording.parent_path() / "link.json", px4->json(result.performance) + "\n");
         }
     }
     auto files = draw(options, result, terminal);
-    if (px4 && options.px4.record_wire) {
-        files.push_back(px4->finish_wire_log());
+    if (link && !recording.empty()) {
+        keep(*link, *px4, options, recording.parent_path(), files);
     }
     if (!recording.empty()) {
         terminal.line(terminal.bold("written    ") + recording.string());
@@ -163,7 +167,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (!*stop && !options.expect.empty() && expected(options.expect) != result.outcome) {
+    if (!*stop && !options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
         code = ExitCode::other_outcome;
@@ -197,7 +201,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
                      "builtin, or px4: a real one in the loop (docs/px4.md)")
         ->type_name("NAME")
         ->check(CLI::IsMember({"builtin", "px4"}));
-    add_options(*verb, options->px4);
+    add_options(*verb, options->px4, true);
     verb->add_option("--speed", options->px4.speed,
                      "times real time, or max (default: as fast as it goes, on a serial wire 1)")
         ->type_name("FACTOR");

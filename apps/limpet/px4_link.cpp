@@ -5,14 +5,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 
 namespace limpet::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
 constexpr std::uint8_t kSimulatorSystem = 255;
@@ -47,60 +45,19 @@ void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
     }
 }
 
-std::string milliseconds(double duration_s) {
-    return fmt::format("{:.3g} ms", 1e3 * duration_s);
-}
-
-std::string quantiles(const DurationHistogram& histogram) {
-    return fmt::format("median {}, p99 {}, largest {}", milliseconds(histogram.quantile_s(0.5)),
-                       milliseconds(histogram.quantile_s(0.99)),
-                       milliseconds(histogram.largest_s()));
-}
-
-Json json_of(const DurationHistogram& histogram) {
-    Json bins = Json::array();
-    for (std::size_t k = 0; k < DurationHistogram::kBins; ++k) {
-        if (histogram.bins()[k] > 0) {
-            bins.push_back(
-                {{"up_to_s", DurationHistogram::edge_s(k)}, {"count", histogram.bins()[k]}});
-        }
-    }
-    return {{"count", histogram.count()},
-            {"mean_s", histogram.mean_s()},
-            {"median_s", histogram.quantile_s(0.5)},
-            {"p99_s", histogram.quantile_s(0.99)},
-            {"largest_s", histogram.largest_s()},
-            {"bins", bins}};
-}
-
-Json json_of(const mavlink::Link& link) {
-    const mavlink::LinkCount count = link.count();
-    return {{"wire", link.transport().describe()},
-            {"sent", count.sent},
-            {"not_sent", count.not_sent},
-            {"received", count.received},
-            {"lost", count.lost},
-            {"damaged", count.damaged},
-            {"discarded_bytes", count.discarded_bytes}};
-}
-
-std::string line_of(const mavlink::Link& link) {
-    const mavlink::LinkCount count = link.count();
-    return fmt::format("{} sent, {} received, {} lost, {} damaged", count.sent, count.received,
-                       count.lost, count.damaged);
-}
-
 }  // namespace
 
-void add_options(CLI::App& verb, Px4LinkOptions& options) {
+void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies) {
     verb.add_option("--hil", options.hil,
                     "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
                     "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)")
         ->type_name("ADDRESS");
-    verb.add_option("--offboard", options.offboard,
-                    "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over serial\n"
-                    "all goes over the one wire)")
-        ->type_name("ADDRESS");
+    if (flies) {
+        verb.add_option("--offboard", options.offboard,
+                        "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
+                        "serial all goes over the one wire)")
+            ->type_name("ADDRESS");
+    }
     verb.add_option("--wait", options.wait_s, "longest wait for PX4 [s] (default 60)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.0));
@@ -164,47 +121,17 @@ std::filesystem::path Px4Link::finish_wire_log() {
     return wire_log_->path();
 }
 
-std::vector<std::string> Px4Link::report(const FlightPerformance& performance,
-                                         const Terminal& terminal) const {
-    const mavlink::HilCount& count = autopilot_->count();
-    std::vector<std::string> lines;
-    const auto add = [&](const std::string& label, const std::string& text) {
-        lines.push_back(terminal.bold(fmt::format("{:<11}", label)) + text);
-    };
-    add("hil", line_of(*hil_) + fmt::format("; {} sensors, {} answers, {} missed",
-                                            count.sensors_sent, count.answers, count.unanswered));
-    if (count.round_trip.count() > 0) {
-        add("round trip", quantiles(count.round_trip));
-    }
-    if (count.send_jitter.count() > 0) {
-        add("jitter", quantiles(count.send_jitter));
-    }
+LinkReport Px4Link::report(const FlightPerformance& performance) const {
+    LinkReport report;
+    report.hil = autopilot_->count();
+    report.wires.emplace_back("hil", *hil_);
     if (offboard_) {
-        add("offboard", line_of(*offboard_));
+        report.wires.emplace_back("offboard", *offboard_);
     }
-    if (performance.wall_s > 0.0 && count.send_jitter.count() == 0) {
-        add("share", fmt::format("{:.1f} % of the wall time was the simulator's own, the rest "
-                                 "PX4's",
-                                 100.0 * (1.0 - performance.waited_s / performance.wall_s)));
-    }
-    return lines;
-}
-
-std::string Px4Link::json(const FlightPerformance& performance) const {
-    const mavlink::HilCount& count = autopilot_->count();
-    Json json = {{"hil", json_of(*hil_)}};
-    json["hil"]["sensors"] = count.sensors_sent;
-    json["hil"]["answers"] = count.answers;
-    json["hil"]["unanswered"] = count.unanswered;
-    json["hil"]["strays"] = count.strays;
-    json["hil"]["round_trip"] = json_of(count.round_trip);
-    json["hil"]["send_jitter"] = json_of(count.send_jitter);
-    if (offboard_) {
-        json["offboard"] = json_of(*offboard_);
-    }
-    json["wall_s"] = performance.wall_s;
-    json["waited_for_autopilot_s"] = performance.waited_s;
-    return json.dump(2);
+    report.wall_s = performance.wall_s;
+    report.waited_s = performance.waited_s;
+    report.held_back = speed_ > 0.0;
+    return report;
 }
 
 }  // namespace limpet::app

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "limpet/autopilot/px4.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
+#include "link_report.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -25,7 +25,8 @@ struct Px4LinkOptions {
 
     [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
 };
-void add_options(CLI::App& verb, Px4LinkOptions& options);
+/// @param flies  guidance is ours; false: a companion's
+void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given
@@ -48,11 +49,7 @@ public:
     /// @return it, or an empty path
     std::filesystem::path finish_wire_log();
 
-    /// For people: messages, misses, latency; what share of the time was whose.
-    [[nodiscard]] std::vector<std::string> report(const FlightPerformance& performance,
-                                                  const Terminal& terminal) const;
-    /// The same for programs, with the histograms.
-    [[nodiscard]] std::string json(const FlightPerformance& performance) const;
+    [[nodiscard]] LinkReport report(const FlightPerformance& performance) const;
 
 private:
     std::unique_ptr<WireLog> wire_log_;
