@@ -24,7 +24,7 @@ Signs with(mavlink::OffboardState state) {
     return {.autopilot = state};
 }
 
-/// As docs/decisions/0012-handing-back.md has it.
+/// As docs/decisions/0013-handing-back.md has it.
 const std::array kLines = {
     Line{"mode taken",
          Cause::mode_taken,
