@@ -90,6 +90,21 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
     return files;
 }
 
+/// What is told of the wires, beside the recording: that one must not depend on wall time.
+void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
+          const std::filesystem::path& folder, std::vector<std::filesystem::path>& files) {
+    write_file(folder / "link.json", json_of(link) + "\n");
+    files.push_back(folder / "link.json");
+    if (!options.no_figures && !options.json && !options.quiet) {
+        for (const auto& figure : draw(link, folder)) {
+            files.push_back(figure);
+        }
+    }
+    if (options.px4.record_wire) {
+        files.push_back(px4.finish_wire_log());
+    }
+}
+
 void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
@@ -104,6 +119,9 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
                                                  : std::filesystem::path(options.out);
         recording = make_folder(folder) / "flight.mcap";
     }
+    if (options.px4.record_wire && (options.no_record || options.autopilot != "px4")) {
+        throw InputError("--record-wire needs a recording's folder and --autopilot px4");
+    }
     Terminal terminal(voice(options));
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
@@ -111,7 +129,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     FlightConduct conduct{.speed = speed_of(options.px4.speed, 0.0), .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
-        px4.emplace(options.px4, *model, true, terminal, stop);
+        px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
         conduct.autopilot = &px4->autopilot();
         conduct.speed = px4->speed();
         conduct.on_obstacle = [&terminal](const std::string& obstacle) {
@@ -125,15 +143,17 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     for (const std::string& line : flight_summary(result, terminal)) {
         terminal.line(line);
     }
+    std::optional<LinkReport> link;
     if (px4) {
-        for (const std::string& line : px4->report(result.performance, terminal)) {
+        link = px4->report(result.performance);
+        for (const std::string& line : lines_of(*link, terminal)) {
             terminal.line(line);
         }
-        if (!recording.empty()) {
-            write_file(recording.parent_path() / "link.json", px4->json(result.performance) + "\n");
-        }
     }
-    const auto files = draw(options, result, terminal);
+    auto files = draw(options, result, terminal);
+    if (link && !recording.empty()) {
+        keep(*link, *px4, options, recording.parent_path(), files);
+    }
     if (!recording.empty()) {
         terminal.line(terminal.bold("written    ") + recording.string());
         for (const auto& file : files) {
@@ -181,7 +201,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
                      "builtin, or px4: a real one in the loop (docs/px4.md)")
         ->type_name("NAME")
         ->check(CLI::IsMember({"builtin", "px4"}));
-    add_options(*verb, options->px4);
+    add_options(*verb, options->px4, true);
     verb->add_option("--speed", options->px4.speed,
                      "times real time, or max (default: as fast as it goes, on a serial wire 1)")
         ->type_name("FACTOR");

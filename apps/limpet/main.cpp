@@ -33,6 +33,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     using namespace limpet::app;
     app.require_subcommand(1);
     add_fly(app, code);
+    add_sim_io(app, code);
     add_campaign(app, code);
     add_companion(app, code);
     add_replay(app);
@@ -48,6 +49,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_csv(app);
     add_export(app);
     add_rotor(app);
+    add_stand_in(app);
 }
 
 /// The first word must be a verb; said before the parser only misses one.

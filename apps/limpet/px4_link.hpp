@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "limpet/autopilot/px4.hpp"
 #include "limpet/simulation/flight.hpp"
+#include "limpet/simulation/wire_log.hpp"
+#include "link_report.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -18,11 +20,13 @@ struct Px4LinkOptions {
     std::string hil = "tcp:127.0.0.1:4560";
     std::string offboard = "udp:127.0.0.1:14540";
     double wait_s = 60.0;
+    bool record_wire = false;
     std::string speed;  ///< "" as suits the wire, "max", or a factor
 
     [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
 };
-void add_options(CLI::App& verb, Px4LinkOptions& options);
+/// @param flies  guidance is ours; false: a companion's
+void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given
@@ -34,20 +38,21 @@ class Px4Link {
 public:
     /// Opens the wires and waits for a PX4 on them; says what it waits for and how to start it.
     /// @param flies  guidance is ours; false: a companion's
+    /// @param folder  where options.record_wire writes wire.mcap
     /// @throws InputError when a wire cannot be opened, nobody comes in time, or on `stop`
     Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
-            Terminal& terminal, const std::atomic<bool>* stop);
+            const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
     [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
     [[nodiscard]] double speed() const { return speed_; }
+    /// After the flight: closes wire.mcap.
+    /// @return it, or an empty path
+    std::filesystem::path finish_wire_log();
 
-    /// For people: messages, misses, latency; what share of the time was whose.
-    [[nodiscard]] std::vector<std::string> report(const FlightPerformance& performance,
-                                                  const Terminal& terminal) const;
-    /// The same for programs, with the histograms.
-    [[nodiscard]] std::string json(const FlightPerformance& performance) const;
+    [[nodiscard]] LinkReport report(const FlightPerformance& performance) const;
 
 private:
+    std::unique_ptr<WireLog> wire_log_;
     std::unique_ptr<mavlink::Link> hil_;
     std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
     std::unique_ptr<Px4Autopilot> autopilot_;

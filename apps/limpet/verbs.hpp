@@ -16,6 +16,7 @@ enum class ExitCode {
 
 /// Each adds one verb with its options; its callback does the work.
 void add_fly(CLI::App& app, ExitCode& code);
+void add_sim_io(CLI::App& app, ExitCode& code);
 void add_companion(CLI::App& app, ExitCode& code);
 void add_check(CLI::App& app);
 void add_list(CLI::App& app);
@@ -31,5 +32,6 @@ void add_reproduce(CLI::App& app, ExitCode& code);
 void add_summary(CLI::App& app);
 void add_rotor(CLI::App& app);
 void add_identify(CLI::App& app);
+void add_stand_in(CLI::App& app);
 
 }  // namespace limpet::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/autopilot/px4.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,9 @@ Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Optio
 
 void Px4Autopilot::hear(const mavlink::Frame& frame) {
     offboard_.hear(frame, clock_s());
+    if (const auto told = mavlink::decode<mavlink::Odometry>(frame)) {
+        told_usec_ = told->time_usec;
+    }
     if (offboard_.report().texts != texts_) {
         texts_ = offboard_.report().texts;
         if (options_.on_text) {
@@ -26,12 +30,30 @@ void Px4Autopilot::hear(const mavlink::Frame& frame) {
     }
 }
 
-Estimate Px4Autopilot::estimate(double time_s) {
-    if (&offboard_link_ != &hil_link_) {
-        while (const auto frame = offboard_link_.receive()) {
+/// A fresh estimate for guidance costs system calls: at twice its rate, not at the IMU's. On a busy
+/// machine PX4's telemetry may lag behind its own lockstep; then it is given a moment, so that
+/// guidance never flies on an estimate that is old by accident.
+void Px4Autopilot::listen() {
+    constexpr double kInterval_s = 0.01;
+    constexpr double kLag_s = 0.05;
+    constexpr std::chrono::milliseconds kMoment{50};
+    if (&offboard_link_ == &hil_link_ || clock_s() - listened_s_ < kInterval_s) {
+        return;
+    }
+    listened_s_ = clock_s();
+    while (const auto frame = offboard_link_.receive()) {
+        hear(*frame);
+    }
+    const bool follows = options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
+    if (follows && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+        if (const auto frame = offboard_link_.receive(kMoment)) {
             hear(*frame);
         }
     }
+}
+
+Estimate Px4Autopilot::estimate(double time_s) {
+    listen();
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s = time_s;
     return estimate;

@@ -40,6 +40,7 @@ public:
 
 private:
     void hear(const mavlink::Frame& frame);
+    void listen();
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 
     mavlink::Link& hil_link_;
@@ -49,6 +50,8 @@ private:
     mavlink::Offboard offboard_;
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
+    double listened_s_ = -1.0;
+    std::uint64_t told_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
     std::uint64_t texts_ = 0;
     std::optional<std::string_view> failure_;
 };

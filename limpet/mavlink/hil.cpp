@@ -26,6 +26,7 @@ bool is_new(const Sample<T>& sample, const Sample<T>& last) {
 Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
 
 void Hil::send(const Readings& readings, std::uint64_t time_usec) {
+    link_.cork();
     if (is_new(readings.gps, last_.gps)) {
         (void)link_.send(hil_gps(readings.gps.value, options_.origin, time_usec));
     }
@@ -42,7 +43,8 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec) {
         const double took_s = duration<double>(sent.at - before.at).count();
         count_.send_jitter.add(std::abs(took_s - meant_s));
     }
-    if (link_.send(sensor) == TransferStatus::done) {
+    (void)link_.send(sensor);
+    if (link_.uncork() == TransferStatus::done) {
         ++count_.sensors_sent;
     }
     ++sends_;

@@ -26,7 +26,7 @@ struct HilOptions {
     HilTiming timing = HilTiming::lockstep;
     std::chrono::milliseconds answer_limit{5000};  ///< longest wait, of wall time
     double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
-    GeographicOrigin origin;
+    GeographicOrigin origin = {};
     bool motion_capture = true;               ///< send poses too; false: a companion does
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
 };

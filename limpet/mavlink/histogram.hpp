@@ -7,7 +7,7 @@
 
 namespace limpet {
 
-/// Counts of durations in bins a quarter of an octave wide, 1 us to 56 s; allocates nothing. Bin i
+/// Counts of durations in bins a quarter of an octave wide, 1 us to 47 s; allocates nothing. Bin i
 /// holds what is above edge_s(i - 1) and not above edge_s(i); the first one all up to 1 us, the
 /// last one all the rest. Less than nothing counts as nothing, and what is no number not at all.
 class DurationHistogram {

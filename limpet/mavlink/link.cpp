@@ -24,9 +24,37 @@ TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout
     if (signing_) {
         frame = signing_->sign(out_, frame, signing_time(unix_us_()));
     }
-    const Transfer transfer = transport_->send(std::as_bytes(frame), timeout);
-    ++(transfer.status == TransferStatus::done ? count_.sent : count_.not_sent);
+    if (!corked_) {
+        return send_bytes(frame, 1, timeout);
+    }
+    if (kept_bytes_ + frame.size() > kept_.size()) {
+        const TransferStatus status = uncork(timeout);
+        corked_ = true;
+        if (status != TransferStatus::done) {
+            ++count_.not_sent;
+            return status;
+        }
+    }
+    std::copy(frame.begin(), frame.end(), kept_.data() + kept_bytes_);
+    kept_bytes_ += frame.size();
+    ++kept_messages_;
+    return TransferStatus::done;
+}
+
+TransferStatus Link::send_bytes(ByteView bytes, std::uint64_t messages,
+                                std::chrono::nanoseconds timeout) {
+    const Transfer transfer = transport_->send(std::as_bytes(bytes), timeout);
+    (transfer.status == TransferStatus::done ? count_.sent : count_.not_sent) += messages;
     return transfer.status;
+}
+
+TransferStatus Link::uncork(std::chrono::nanoseconds timeout) {
+    corked_ = false;
+    const ByteView bytes(kept_.data(), kept_bytes_);
+    const std::uint64_t messages = kept_messages_;
+    kept_bytes_ = 0;
+    kept_messages_ = 0;
+    return messages == 0 ? TransferStatus::done : send_bytes(bytes, messages, timeout);
 }
 
 bool Link::accepts(const Frame& frame) {

@@ -54,6 +54,11 @@ public:
         return send_frame(encode(message, self_, out_), timeout);
     }
 
+    /// From here on messages are kept, up to uncork(), which sends them in one piece: one system
+    /// call, and a peer that wakes up once.
+    void cork() { corked_ = true; }
+    TransferStatus uncork(std::chrono::nanoseconds timeout = std::chrono::milliseconds(100));
+
     /// Waits for the next frame. A peer that goes shows in generation().
     /// @param timeout  longest wait; 0: what is there already
     /// @return valid until the next call
@@ -71,6 +76,8 @@ public:
 
 private:
     TransferStatus send_frame(ByteView frame, std::chrono::nanoseconds timeout);
+    TransferStatus send_bytes(ByteView bytes, std::uint64_t messages,
+                              std::chrono::nanoseconds timeout);
     [[nodiscard]] bool accepts(const Frame& frame);
 
     std::unique_ptr<Transport> transport_;
@@ -84,6 +91,10 @@ private:
     LinkStatistics before_;               ///< of parsers that served earlier peers
     LinkCount count_;
     FrameBuffer out_ = {};
+    std::array<std::uint8_t, 1400> kept_ = {};  ///< while corked; fits a datagram
+    std::size_t kept_bytes_ = 0;
+    std::uint64_t kept_messages_ = 0;
+    bool corked_ = false;
 };
 
 }  // namespace limpet::mavlink

@@ -19,11 +19,12 @@ namespace limpet::mavlink {
 using AllMessages =
     std::tuple<Heartbeat, SysStatus, SystemTime, Ping, ParamRequestRead, ParamRequestList,
                ParamValue, ParamSet, Attitude, AttitudeQuaternion, LocalPositionNed,
-               GlobalPositionInt, SetGpsGlobalOrigin, CommandLong, CommandAck, SetAttitudeTarget,
-               AttitudeTarget, SetPositionTargetLocalNed, PositionTargetLocalNed,
-               HilActuatorControls, VisionPositionEstimate, HilSensor, TimeSync, HilGps,
-               HilStateQuaternion, DistanceSensor, AttPosMocap, BatteryStatus, EstimatorStatus,
-               HomePosition, ExtendedSysState, NamedValueFloat, StatusText, Odometry, EventMessage>;
+               GlobalPositionInt, MissionRequestList, MissionCount, SetGpsGlobalOrigin, CommandLong,
+               CommandAck, SetAttitudeTarget, AttitudeTarget, SetPositionTargetLocalNed,
+               PositionTargetLocalNed, HilActuatorControls, VisionPositionEstimate, HilSensor,
+               TimeSync, HilGps, HilStateQuaternion, DistanceSensor, AttPosMocap, BatteryStatus,
+               AutopilotVersion, EstimatorStatus, HomePosition, ExtendedSysState, NamedValueFloat,
+               StatusText, SetupSigning, Odometry, EventMessage>;
 
 struct MessageInfo {
     std::uint32_t id = 0;

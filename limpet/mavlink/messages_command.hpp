@@ -234,4 +234,48 @@ struct TimeSync {
     }
 };
 
+/// How long is your mission?
+struct MissionRequestList {
+    static constexpr std::uint32_t kId = 43;
+    static constexpr std::string_view kName = "MISSION_REQUEST_LIST";
+    std::uint8_t target_system = 0, target_component = 0;  ///< 0: all
+    std::uint8_t mission_type = 0;                         ///< MAV_MISSION_TYPE
+    [[nodiscard]] static constexpr auto fields() {
+        return std::tuple(field("target_system", &MissionRequestList::target_system),
+                          field("target_component", &MissionRequestList::target_component),
+                          extension("mission_type", &MissionRequestList::mission_type));
+    }
+};
+
+struct MissionCount {
+    static constexpr std::uint32_t kId = 44;
+    static constexpr std::string_view kName = "MISSION_COUNT";
+    std::uint8_t target_system = 0, target_component = 0;  ///< 0: all
+    std::uint16_t count = 0;
+    std::uint8_t mission_type = 0;  ///< MAV_MISSION_TYPE
+    std::uint32_t opaque_id = 0;
+    [[nodiscard]] static constexpr auto fields() {
+        return std::tuple(field("target_system", &MissionCount::target_system),
+                          field("target_component", &MissionCount::target_component),
+                          field("count", &MissionCount::count),
+                          extension("mission_type", &MissionCount::mission_type),
+                          extension("opaque_id", &MissionCount::opaque_id));
+    }
+};
+
+/// Hands a key over in the clear. Limpet refuses it.
+struct SetupSigning {
+    static constexpr std::uint32_t kId = 256;
+    static constexpr std::string_view kName = "SETUP_SIGNING";
+    std::uint8_t target_system = 0, target_component = 0;
+    std::array<std::uint8_t, 32> secret_key = {};
+    std::uint64_t initial_timestamp = 0;  ///< [10 us] since 2015
+    [[nodiscard]] static constexpr auto fields() {
+        return std::tuple(field("target_system", &SetupSigning::target_system),
+                          field("target_component", &SetupSigning::target_component),
+                          field("secret_key", &SetupSigning::secret_key),
+                          field("initial_timestamp", &SetupSigning::initial_timestamp));
+    }
+};
+
 }  // namespace limpet::mavlink

@@ -198,6 +198,35 @@ struct BatteryStatus {
     }
 };
 
+/// Who it is, when asked (MAV_CMD_REQUEST_MESSAGE).
+struct AutopilotVersion {
+    static constexpr std::uint32_t kId = 148;
+    static constexpr std::string_view kName = "AUTOPILOT_VERSION";
+    std::uint64_t capabilities = 0;  ///< MAV_PROTOCOL_CAPABILITY
+    /// major, minor, patch, FIRMWARE_VERSION_TYPE: a byte each from the top
+    std::uint32_t flight_sw_version = 0, middleware_sw_version = 0, os_sw_version = 0;
+    std::uint32_t board_version = 0;
+    std::array<std::uint8_t, 8> flight_custom_version = {}, middleware_custom_version = {},
+                                os_custom_version = {};
+    std::uint16_t vendor_id = 0, product_id = 0;
+    std::uint64_t uid = 0;
+    std::array<std::uint8_t, 18> uid2 = {};
+    [[nodiscard]] static constexpr auto fields() {
+        return std::tuple(
+            field("capabilities", &AutopilotVersion::capabilities),
+            field("flight_sw_version", &AutopilotVersion::flight_sw_version),
+            field("middleware_sw_version", &AutopilotVersion::middleware_sw_version),
+            field("os_sw_version", &AutopilotVersion::os_sw_version),
+            field("board_version", &AutopilotVersion::board_version),
+            field("flight_custom_version", &AutopilotVersion::flight_custom_version),
+            field("middleware_custom_version", &AutopilotVersion::middleware_custom_version),
+            field("os_custom_version", &AutopilotVersion::os_custom_version),
+            field("vendor_id", &AutopilotVersion::vendor_id),
+            field("product_id", &AutopilotVersion::product_id),
+            field("uid", &AutopilotVersion::uid), extension("uid2", &AutopilotVersion::uid2));
+    }
+};
+
 /// Innovations over their gates.
 struct EstimatorStatus {
     static constexpr std::uint32_t kId = 230;

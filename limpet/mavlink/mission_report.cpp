@@ -35,9 +35,8 @@ struct Parts {
 };
 Parts part(std::string_view text) {
     const std::size_t at = text.find(kAnd);
-    return at == std::string_view::npos
-               ? Parts{text, {}}
-               : Parts{text.substr(0, at), text.substr(at + kAnd.size())};
+    return at == std::string_view::npos ? Parts{text, {}}
+                                        : Parts{text.substr(0, at), text.substr(at + kAnd.size())};
 }
 
 }  // namespace

@@ -34,11 +34,12 @@ Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run)
     : model_(std::move(model)), plant_(model_->plant), state_(start(*model_, plant_, run)) {}
 
 Flight::Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
-               ExternalAutopilot& autopilot)
+               ExternalAutopilot& autopilot, RemoteGuidance* guidance)
     : model_(std::move(model)),
       plant_(model_->plant),
       state_(airborne.state),
-      autopilot_(&autopilot) {
+      autopilot_(&autopilot),
+      guidance_(guidance) {
     plant_.restore(airborne.plant);
 }
 
@@ -47,7 +48,7 @@ const EventList& Flight::tick() {
     if (ended()) {
         return events_;
     }
-    step(*model_, state_, plant_, events_, autopilot_);
+    step(*model_, state_, plant_, events_, autopilot_, guidance_);
     if (autopilot_ != nullptr && autopilot_->failure()) {
         // In the air it falls; on the wall the cup still holds it.
         stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
@@ -78,9 +79,11 @@ FlightResult fly(std::shared_ptr<const SimulationModel> model,
                                  bring_up(*model, *conduct.autopilot,
                                           {.run = run,
                                            .speed = conduct.speed,
+                                           .limit_s = conduct.start_limit_s,
+                                           .guidance = conduct.guidance,
                                            .stop = conduct.stop,
                                            .on_obstacle = conduct.on_obstacle}),
-                                 *conduct.autopilot);
+                                 *conduct.autopilot, conduct.guidance);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
         log.emplace(recording, *model);

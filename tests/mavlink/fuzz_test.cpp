@@ -98,7 +98,7 @@ TEST(Fuzz, TenMillionRandomBytesGiveNoFrameWorthMentioning) {
         frames += frames_in(parser, block).size();
     }
     // A false one needs its start byte, defined flags, a known id and a checksum by chance:
-    // 1e7 (1/256) (2/256) (35/2^24) 2^-16 are 1e-8.
+    // 1e7 (1/256) (2/256) (39/2^24) 2^-16 are 1e-8.
     EXPECT_EQ(frames, 0U);
     const auto& seen = parser.statistics();
     EXPECT_GT(seen.discarded_bytes, 9'000'000U);

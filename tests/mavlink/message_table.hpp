@@ -7,7 +7,8 @@
 #include <string_view>
 
 /// The wire as others have it, nothing computed here. Source: MAVLink common.xml, by way of the
-/// reference's mavlink_messages.txt; PARAM_REQUEST_LIST and NAMED_VALUE_FLOAT by way of npm's
+/// reference's mavlink_messages.txt; PARAM_REQUEST_LIST, NAMED_VALUE_FLOAT, AUTOPILOT_VERSION,
+/// SETUP_SIGNING and MISSION_* by way of npm's
 /// mavlink-mappings 1.0.21.
 namespace limpet::mavlink {
 
@@ -20,7 +21,7 @@ struct TableRow {
     std::string_view offsets;  ///< "name@offset ...", by offset
 };
 
-inline constexpr std::array<TableRow, 35> kTable = {{
+inline constexpr std::array<TableRow, 39> kTable = {{
     {0, "HEARTBEAT", 50, 9, 9,
      "custom_mode@0 type@4 autopilot@5 base_mode@6 system_status@7 mavlink_version@8"},
     {1, "SYS_STATUS", 124, 31, 43,
@@ -46,6 +47,9 @@ inline constexpr std::array<TableRow, 35> kTable = {{
     {32, "LOCAL_POSITION_NED", 185, 28, 28, "time_boot_ms@0 x@4 y@8 z@12 vx@16 vy@20 vz@24"},
     {33, "GLOBAL_POSITION_INT", 104, 28, 28,
      "time_boot_ms@0 lat@4 lon@8 alt@12 relative_alt@16 vx@20 vy@22 vz@24 hdg@26"},
+    {43, "MISSION_REQUEST_LIST", 132, 2, 3, "target_system@0 target_component@1 mission_type@2"},
+    {44, "MISSION_COUNT", 221, 4, 9,
+     "count@0 target_system@2 target_component@3 mission_type@4 opaque_id@5"},
     {48, "SET_GPS_GLOBAL_ORIGIN", 41, 13, 21,
      "latitude@0 longitude@4 altitude@8 target_system@12 time_usec@13"},
     {76, "COMMAND_LONG", 152, 33, 33,
@@ -87,6 +91,10 @@ inline constexpr std::array<TableRow, 35> kTable = {{
      "current_consumed@0 energy_consumed@4 temperature@8 voltages@10 current_battery@30 id@32 "
      "battery_function@33 type@34 battery_remaining@35 time_remaining@36 charge_state@40 "
      "voltages_ext@41 mode@49 fault_bitmask@50"},
+    {148, "AUTOPILOT_VERSION", 178, 60, 78,
+     "capabilities@0 uid@8 flight_sw_version@16 middleware_sw_version@20 os_sw_version@24 "
+     "board_version@28 vendor_id@32 product_id@34 flight_custom_version@36 "
+     "middleware_custom_version@44 os_custom_version@52 uid2@60"},
     {230, "ESTIMATOR_STATUS", 163, 42, 42,
      "time_usec@0 vel_ratio@8 pos_horiz_ratio@12 pos_vert_ratio@16 mag_ratio@20 hagl_ratio@24 "
      "tas_ratio@28 pos_horiz_accuracy@32 pos_vert_accuracy@36 flags@40"},
@@ -96,6 +104,8 @@ inline constexpr std::array<TableRow, 35> kTable = {{
     {245, "EXTENDED_SYS_STATE", 130, 2, 2, "vtol_state@0 landed_state@1"},
     {251, "NAMED_VALUE_FLOAT", 170, 18, 18, "time_boot_ms@0 value@4 name@8"},
     {253, "STATUSTEXT", 83, 51, 54, "severity@0 text@1 id@51 chunk_seq@53"},
+    {256, "SETUP_SIGNING", 71, 42, 42,
+     "initial_timestamp@0 target_system@8 target_component@9 secret_key@10"},
     {331, "ODOMETRY", 91, 230, 233,
      "time_usec@0 x@8 y@12 z@16 q@20 vx@36 vy@40 vz@44 rollspeed@48 pitchspeed@52 yawspeed@56 "
      "pose_covariance@60 velocity_covariance@144 frame_id@228 child_frame_id@229 "

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/key_file.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+constexpr std::size_t kMostBytes = 200;  // 64 digits and any blanks that people leave
+
+void check_mode(const std::string& path) {
+    struct stat status {};
+    if (stat(path.c_str(), &status) != 0) {
+        throw InputError(fmt::format("signing key {}: {}", path, std::strerror(errno)));
+    }
+    if (!S_ISREG(status.st_mode)) {
+        throw InputError(fmt::format("signing key {}: is not a file", path));
+    }
+    constexpr unsigned kOthers = 077;
+    if ((status.st_mode & kOthers) != 0) {
+        throw InputError(
+            fmt::format("signing key {}: others may read or write it (mode {:04o}); chmod 600 {}",
+                        path, status.st_mode & 07777U, path));
+    }
+}
+
+std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text(kMostBytes + 1, '\0');
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+    if (!file.is_open() || file.bad()) {
+        throw InputError(fmt::format("signing key {}: cannot be read", path));
+    }
+    return text;
+}
+
+std::optional<std::uint8_t> digit(char letter) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    const char small = letter >= 'A' && letter <= 'F' ? static_cast<char>(letter + 32) : letter;
+    const std::size_t value = kDigits.find(small);
+    return value == std::string_view::npos ? std::nullopt
+                                           : std::optional(static_cast<std::uint8_t>(value));
+}
+
+std::optional<SigningKey> from_hex(std::string_view text) {
+    SigningKey key = {};
+    if (text.size() != 2 * key.size()) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < key.size(); ++i) {
+        const auto high = digit(text[2 * i]);
+        const auto low = digit(text[2 * i + 1]);
+        if (!high || !low) {
+            return std::nullopt;
+        }
+        key[i] = static_cast<std::uint8_t>(*high * 16 + *low);
+    }
+    return key;
+}
+
+std::string_view without_blanks(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) {
+        return {};
+    }
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+}  // namespace
+
+SigningKey read_signing_key(const std::filesystem::path& path) {
+    check_mode(path.string());
+    const std::string text = content(path.string());
+    std::optional<SigningKey> key = from_hex(without_blanks(text));
+    if (!key && text.size() == SigningKey{}.size()) {
+        key.emplace();
+        std::copy(text.begin(), text.end(), key->begin());
+    }
+    if (!key) {
+        throw InputError(
+            fmt::format("signing key {}: must be 64 hex digits, or 32 bytes", path.string()));
+    }
+    if (std::all_of(key->begin(), key->end(), [](std::uint8_t byte) { return byte == 0; })) {
+        throw InputError(
+            fmt::format("signing key {}: all zeros is nobody's secret", path.string()));
+    }
+    return *key;
+}
+
+}  // namespace limpet::mavlink

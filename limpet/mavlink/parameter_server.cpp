@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/parameter_server.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/mavlink/addressed.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+constexpr std::uint8_t kReal32 = 9;  // MAV_PARAM_TYPE
+constexpr std::size_t kLongestName = 16;
+constexpr std::chrono::nanoseconds kAtOnce{0};  // who does not listen is not waited for
+
+}  // namespace
+
+ParameterServer::ParameterServer(std::vector<ServedParameter> parameters, Set set, Refused refused)
+    : parameters_(std::move(parameters)),
+      set_(std::move(set)),
+      refused_(std::move(refused)),
+      next_(parameters_.size()) {
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+        const std::string& name = parameters_[i].name;
+        require(!name.empty() && name.size() <= kLongestName, "a parameter's name fits the wire");
+        require(find(name) == i, "a parameter's name stands once");
+    }
+}
+
+std::size_t ParameterServer::find(std::string_view name) const {
+    const auto at = std::find_if(parameters_.begin(), parameters_.end(),
+                                 [name](const ServedParameter& each) { return each.name == name; });
+    return static_cast<std::size_t>(at - parameters_.begin());
+}
+
+void ParameterServer::answer(std::size_t index, Link& link) const {
+    if (index >= parameters_.size()) {
+        return;  // the protocol has no answer for what is not there
+    }
+    ParamValue message{.param_value = static_cast<float>(parameters_[index].value),
+                       .param_type = kReal32,
+                       .param_count = static_cast<std::uint16_t>(parameters_.size()),
+                       .param_index = static_cast<std::uint16_t>(index)};
+    set_text(message.param_id, parameters_[index].name);
+    (void)link.send(message, kAtOnce);
+}
+
+void ParameterServer::set(const ParamSet& message, Link& link) {
+    const std::size_t index = find(text_of(message.param_id));
+    if (index >= parameters_.size()) {
+        return;
+    }
+    ServedParameter& parameter = parameters_[index];
+    const float wanted = message.param_value;
+    std::array<char, 160> text = {};
+    const auto refuse = [&](auto format, const auto&... values) {
+        const auto end = fmt::format_to_n(text.data(), text.size(), format, values...).out;
+        refused_({text.data(), static_cast<std::size_t>(end - text.data())});
+    };
+    if (message.param_type != kReal32) {
+        refuse(FMT_STRING("{} refused: type {}, must be 9 (REAL32)"), parameter.name,
+               message.param_type);
+    } else if (!(wanted >= static_cast<float>(parameter.minimum) &&
+                 wanted <= static_cast<float>(parameter.maximum))) {  // nor what is no number
+        refuse(FMT_STRING("{} = {:g} refused, allowed {:g} .. {:g}"), parameter.name, wanted,
+               parameter.minimum, parameter.maximum);
+    } else if (parameter.whole && wanted != std::round(wanted)) {
+        refuse(FMT_STRING("{} = {:g} refused, must be whole"), parameter.name, wanted);
+    } else if (wanted != static_cast<float>(parameter.value)) {
+        // The limits themselves have more digits than the wire.
+        parameter.value =
+            std::clamp(static_cast<double>(wanted), parameter.minimum, parameter.maximum);
+        set_(parameter.name, parameter.value);
+    }
+    answer(index, link);
+}
+
+std::size_t ParameterServer::asked_for(const ParamRequestRead& message) const {
+    return message.param_index >= 0 ? static_cast<std::size_t>(message.param_index)
+                                    : find(text_of(message.param_id));
+}
+
+bool ParameterServer::handle(const Frame& frame, Link& link) {
+    if (const auto list = decode<ParamRequestList>(frame)) {
+        next_ = addressed_to(link.self(), *list) ? 0 : next_;
+        return true;
+    }
+    if (const auto read = decode<ParamRequestRead>(frame)) {
+        if (addressed_to(link.self(), *read)) {
+            answer(asked_for(*read), link);
+        }
+        return true;
+    }
+    if (const auto wanted = decode<ParamSet>(frame)) {
+        if (addressed_to(link.self(), *wanted)) {
+            set(*wanted, link);
+        }
+        return true;
+    }
+    return false;
+}
+
+void ParameterServer::update(Link& link) {
+    const std::size_t end = std::min(parameters_.size(), next_ + kPerUpdate);
+    for (; next_ < end; ++next_) {
+        answer(next_, link);
+    }
+}
+
+}  // namespace limpet::mavlink

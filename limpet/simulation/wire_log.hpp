@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "limpet/mavlink/transport.hpp"
+#include "limpet/record/mcap_writer.hpp"
+
+namespace limpet {
+
+/// What went over a wire, byte by byte, as MCAP: topics /wire/sent and /wire/received, a message
+/// for each piece as it was sent or came, in their order. Its times are wall time since it began.
+class WireLog {
+public:
+    /// @throws InputError when the file cannot be written
+    explicit WireLog(const std::filesystem::path& path);
+
+    void sent(std::span<const std::byte> bytes) { write(sent_, bytes); }
+    void received(std::span<const std::byte> bytes) { write(received_, bytes); }
+    /// @throws InputError when the disk does not take it
+    void finish() { writer_.close(); }
+    [[nodiscard]] const std::filesystem::path& path() const { return writer_.path(); }
+
+private:
+    void write(std::uint16_t channel, std::span<const std::byte> bytes);
+
+    mcap::Writer writer_;
+    std::uint16_t sent_;
+    std::uint16_t received_;
+    std::chrono::steady_clock::time_point begin_;
+};
+
+/// The same wire, listened to.
+/// @param log  outlives the wire
+[[nodiscard]] std::unique_ptr<Transport> tapped(std::unique_ptr<Transport> wire, WireLog& log);
+
+}  // namespace limpet

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/link.hpp"
+
+#include <gmock/gmock.h>
+
+#include "scripted_wire.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+using testing::Eq;
+using testing::SizeIs;
+
+Heartbeat beat(std::uint32_t mode = 7) {
+    Heartbeat message;
+    message.custom_mode = mode;
+    return message;
+}
+
+LinkSigning signing(std::uint8_t secret) {
+    LinkSigning options;
+    options.key.fill(secret);
+    options.unix_us = [] { return std::uint64_t{1'700'000'000'000'000}; };
+    return options;
+}
+
+TEST(Link, SeveralFramesOfOnePieceAreHandedOutOneByOne) {
+    ScriptedLink wire;
+    std::vector<std::byte> piece = ScriptedLink::frame_of(beat(1), wire.autopilot);
+    const auto second = ScriptedLink::frame_of(beat(2), wire.autopilot);
+    piece.insert(piece.end(), second.begin(), second.end());
+    wire.ends->to_receive.push_back(piece);
+    for (const std::uint32_t mode : {1U, 2U}) {
+        const auto frame = wire.link.receive();
+        ASSERT_TRUE(frame);
+        EXPECT_THAT(decode<Heartbeat>(*frame)->custom_mode, Eq(mode));
+    }
+    EXPECT_FALSE(wire.link.receive());
+    EXPECT_THAT(wire.link.count().received, Eq(2U));
+}
+
+TEST(Link, CorkedMessagesGoInOnePieceAndInOrder) {
+    ScriptedLink wire;
+    wire.link.cork();
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(wire.link.send(beat(k)), TransferStatus::done);
+    }
+    EXPECT_THAT(wire.ends->sent, SizeIs(0));
+    EXPECT_EQ(wire.link.uncork(), TransferStatus::done);
+    EXPECT_THAT(wire.ends->sent, SizeIs(1));
+    const auto sent = wire.sent<Heartbeat>();
+    ASSERT_THAT(sent, SizeIs(3));
+    EXPECT_THAT(sent[2].custom_mode, Eq(2U));
+    EXPECT_THAT(wire.link.count().sent, Eq(3U));
+    EXPECT_EQ(wire.link.uncork(), TransferStatus::done) << "nothing is left to send";
+    EXPECT_THAT(wire.ends->sent, SizeIs(1));
+}
+
+TEST(Link, MoreThanOnePieceHoldsIsSentInSeveral) {
+    ScriptedLink wire;
+    wire.link.cork();
+    for (std::uint32_t k = 0; k < 200; ++k) {
+        EXPECT_EQ(wire.link.send(beat(k)), TransferStatus::done);
+    }
+    EXPECT_EQ(wire.link.uncork(), TransferStatus::done);
+    EXPECT_THAT(wire.sent<Heartbeat>(), SizeIs(200));
+    for (const auto& piece : wire.ends->sent) {
+        EXPECT_LE(piece.size(), 1400U) << "fits a datagram";
+    }
+    EXPECT_THAT(wire.link.count().sent, Eq(200U));
+}
+
+TEST(Link, HalfAFrameOfOnePeerDoesNotSpoilTheNextOnes) {
+    ScriptedLink wire;
+    auto half = ScriptedLink::frame_of(beat(1), wire.autopilot);
+    half.resize(half.size() / 2);
+    wire.ends->to_receive.push_back(half);
+    EXPECT_FALSE(wire.link.receive());
+    wire.ends->statistics.peers = 2;
+    wire.say(beat(2));
+    const auto frame = wire.link.receive();
+    ASSERT_TRUE(frame);
+    EXPECT_THAT(decode<Heartbeat>(*frame)->custom_mode, Eq(2U));
+}
+
+TEST(Link, SignedHearsSignedAlone) {
+    ScriptedLink wire;
+    wire.link.sign(signing(1));
+    wire.say(beat());
+    EXPECT_FALSE(wire.link.receive()) << "not signed";
+
+    ScriptedLink friend_end;
+    friend_end.link.sign(signing(1));
+    ASSERT_EQ(friend_end.link.send(beat(5)), TransferStatus::done);
+    wire.ends->to_receive.push_back(friend_end.ends->sent.front());
+    EXPECT_TRUE(wire.link.receive());
+    wire.ends->to_receive.push_back(friend_end.ends->sent.front());
+    EXPECT_FALSE(wire.link.receive()) << "played again";
+
+    ScriptedLink stranger;
+    stranger.link.sign(signing(2));
+    ASSERT_EQ(stranger.link.send(beat(6)), TransferStatus::done);
+    wire.ends->to_receive.push_back(stranger.ends->sent.front());
+    EXPECT_FALSE(wire.link.receive()) << "another key";
+    EXPECT_THAT(wire.link.count().unsigned_, Eq(3U));
+    EXPECT_THAT(wire.link.count().received, Eq(1U));
+}
+
+}  // namespace
+}  // namespace limpet::mavlink

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/offboard.hpp"
+
+#include <gmock/gmock.h>
+
+#include "limpet/mavlink/translate.hpp"
+#include "scripted_wire.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// An autopilot as far as Offboard sees it: beats, tells its pose, obeys or not.
+struct Peer {
+    ScriptedLink wire;
+    Offboard offboard;
+    Setpoint setpoint{.motion = PositionSetpoint{}, .armed = true};
+    double time_s = 0.0;
+    bool armed = false;
+    std::uint32_t mode = 0;
+    bool tells_pose = true;
+    bool beats = true;
+
+    explicit Peer(const OffboardOptions& options = {}) : offboard(options) {}
+
+    void hear_all() {
+        while (const auto frame = wire.link.receive()) {
+            offboard.hear(*frame, time_s);
+        }
+    }
+    void beat() {
+        Heartbeat message;
+        message.type = 2;
+        message.autopilot = 12;
+        message.base_mode = armed ? 129 : 1;
+        message.custom_mode = mode << 16U;
+        wire.say(message);
+    }
+    void tell_pose() {
+        Estimate estimate;
+        estimate.valid = true;
+        estimate.p_WB_m = {1.0, 2.0, -3.0};
+        wire.say(odometry(estimate, static_cast<std::uint64_t>(time_s * 1e6)));
+    }
+    /// 20 ms a step, as guidance.
+    void run(double seconds) {
+        const int steps = static_cast<int>(std::lround(seconds / 0.02));
+        for (int k = 0; k < steps; ++k) {
+            time_s += 0.02;
+            if (beats && k % 50 == 0) {
+                beat();
+            }
+            if (tells_pose) {
+                tell_pose();
+            }
+            hear_all();
+            offboard.update(wire.link, setpoint, time_s);
+        }
+    }
+    [[nodiscard]] std::vector<CommandLong> commands(std::uint16_t command) const {
+        std::vector<CommandLong> all;
+        for (const CommandLong& each : wire.sent<CommandLong>()) {
+            if (each.command == command) {
+                all.push_back(each);
+            }
+        }
+        return all;
+    }
+    void engage() {
+        run(2.0);
+        mode = kMainModeOffboard;
+        beat();
+        run(0.1);
+    }
+    void forget() { wire.ends->sent.clear(); }
+};
+
+TEST(Offboard, StreamsBeforeItAsksForTheModeAndArmsOnlyInIt) {
+    Peer peer;
+    EXPECT_EQ(peer.offboard.state(0.0), OffboardState::silent);
+    peer.run(0.9);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::streaming);
+    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty()) << "set-points first, for a second";
+    EXPECT_GE(peer.wire.sent<SetPositionTargetLocalNed>().size(), 40U);
+    peer.run(1.0);
+    ASSERT_FALSE(peer.commands(kCommandSetMode).empty());
+    EXPECT_EQ(peer.commands(kCommandSetMode)[0].param2, 6.0F);
+    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    peer.mode = kMainModeOffboard;
+    peer.beat();
+    peer.run(0.1);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
+    ASSERT_FALSE(peer.commands(kCommandArm).empty());
+    EXPECT_EQ(peer.commands(kCommandArm)[0].param1, 1.0F);
+    EXPECT_EQ(peer.commands(kCommandArm)[0].param2, 0.0F) << "arming is never forced";
+}
+
+TEST(Offboard, StreamsFarAboveTheRateThatPx4Asks) {
+    Peer peer;
+    peer.engage();
+    peer.forget();
+    peer.run(1.0);
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>().size(),
+                testing::AllOf(testing::Ge(48U), testing::Le(51U)));
+}
+
+TEST(Offboard, LeavesTheModeToAnOperatorWhenTold) {
+    OffboardOptions options;
+    options.asks_for_mode = false;
+    Peer peer(options);
+    peer.run(5.0);
+    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty());
+    EXPECT_THAT(peer.offboard.obstacle(peer.time_s), HasSubstr("waits for the mode OFFBOARD"));
+    peer.mode = kMainModeOffboard;
+    peer.run(1.1);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
+}
+
+TEST(Offboard, DisarmsByForceAndStreamsAttitudeWithoutThrustMeanwhile) {
+    Peer peer;
+    peer.engage();
+    peer.armed = true;
+    peer.run(1.1);
+    peer.forget();
+    peer.setpoint.armed = false;
+    peer.run(0.5);
+    const auto commands = peer.commands(kCommandArm);
+    ASSERT_FALSE(commands.empty());
+    EXPECT_EQ(commands[0].param1, 0.0F);
+    EXPECT_EQ(commands[0].param2, kForce) << "PX4 denies it off the ground otherwise";
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty()) << "it would pry";
+    for (const auto& target : peer.wire.sent<SetAttitudeTarget>()) {
+        EXPECT_EQ(target.thrust, 0.0F);
+    }
+    EXPECT_GE(peer.wire.sent<SetAttitudeTarget>().size(), 24U);
+}
+
+TEST(Offboard, RepeatsArmingUntilItIsSo) {
+    Peer peer;
+    peer.engage();
+    peer.forget();
+    peer.run(1.0);
+    EXPECT_THAT(peer.commands(kCommandArm), SizeIs(testing::Ge(3U)));
+    CommandAck ack;
+    ack.command = kCommandArm;
+    ack.result = 1;
+    peer.wire.say(ack);
+    StatusText text;
+    set_text(text.text, "Preflight Fail: pitched");
+    peer.wire.say(text);
+    peer.run(0.1);
+    EXPECT_THAT(peer.offboard.obstacle(peer.time_s), HasSubstr("Preflight Fail: pitched"));
+    EXPECT_THAT(peer.offboard.obstacle(peer.time_s), HasSubstr("refused arming"));
+    peer.armed = true;
+    peer.beat();
+    peer.run(0.1);
+    peer.forget();
+    peer.run(1.0);
+    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    EXPECT_THAT(peer.offboard.obstacle(peer.time_s), IsEmpty());
+}
+
+TEST(Offboard, AnotherModeTakesTheVehicleAwayForGood) {
+    Peer peer;
+    peer.engage();
+    peer.mode = 4;
+    peer.beat();
+    peer.run(0.1);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::taken_away);
+    peer.forget();
+    peer.run(2.0);
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty());
+    EXPECT_THAT(peer.wire.sent<CommandLong>(), IsEmpty()) << "nobody is overruled";
+    EXPECT_FALSE(peer.wire.sent<Heartbeat>().empty());
+}
+
+TEST(Offboard, HandingBackStopsSetPointsAndAsksForHold) {
+    Peer peer;
+    peer.engage();
+    peer.armed = true;
+    peer.run(1.1);
+    peer.forget();
+    peer.offboard.hand_back(peer.wire.link, peer.time_s);
+    peer.run(1.0);
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty());
+    const auto modes = peer.commands(kCommandSetMode);
+    ASSERT_FALSE(modes.empty());
+    EXPECT_EQ(modes[0].param2, 4.0F);
+    EXPECT_EQ(modes[0].param3, 3.0F);
+}
+
+TEST(Offboard, AnOldPoseIsNotValidAndASilentAutopilotIsNoticed) {
+    Peer peer;
+    peer.engage();
+    EXPECT_TRUE(peer.offboard.estimate(peer.time_s).valid);
+    EXPECT_EQ(peer.offboard.estimate(peer.time_s).p_WB_m, Vector3(1.0, 2.0, -3.0));
+    peer.tells_pose = false;
+    peer.run(0.3);
+    EXPECT_FALSE(peer.offboard.estimate(peer.time_s).valid);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::unready);
+    peer.beats = false;
+    peer.run(3.5);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+}
+
+TEST(Offboard, FramesOfOthersAreLeftAlone) {
+    Peer peer;
+    peer.wire.autopilot.system = 9;
+    peer.run(2.0);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+    peer.wire.autopilot.system = 1;
+    peer.wire.autopilot.component = kGroundStationComponent;
+    peer.run(2.0);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+}
+
+TEST(Offboard, AsksForThePoseAndGivesTheOriginAltitudeZero) {
+    Peer peer;
+    peer.run(3.0);
+    ASSERT_FALSE(peer.commands(kCommandMessageInterval).empty());
+    EXPECT_EQ(peer.commands(kCommandMessageInterval)[0].param1, 331.0F);
+    EXPECT_EQ(peer.commands(kCommandMessageInterval)[0].param2, 10'000.0F);
+    ASSERT_FALSE(peer.wire.sent<SetGpsGlobalOrigin>().empty());
+    EXPECT_EQ(peer.wire.sent<SetGpsGlobalOrigin>()[0].altitude, 0);
+}
+
+}  // namespace
+}  // namespace limpet::mavlink
