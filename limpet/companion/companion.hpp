@@ -90,6 +90,7 @@ private:
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     [[nodiscard]] bool engaged(double time_s) const;
     void wait(double time_s);
+    void stay(double time_s);
     void stand_ready(double time_s);
     [[nodiscard]] bool at_start(double time_s);
     void begin(double time_s);

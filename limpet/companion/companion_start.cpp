@@ -76,6 +76,7 @@ void Companion::wait(double time_s) {
     } else if (missing.empty()) {
         phase_ = Phase::ready;
         phase_s_ = time_s;
+        stay(time_s);
         say(time_s,
             dry_run_ ? "ready: all inputs are here" : "ready: inputs and autopilot are here");
     } else if (time_s - phase_s_ > config_.limits.wait_limit_s) {
@@ -108,12 +109,8 @@ bool Companion::at_start(double time_s) {
 }
 
 /// Set-points follow the vehicle until it flies them. Motors are armed only with asks_for_mode;
-/// else they stay as the operator has them.
-void Companion::stand_ready(double time_s) {
-    if (dry_run_) {
-        begin(time_s);
-        return;
-    }
+/// else they stay as the operator has them: to ask for less would stop them in the air.
+void Companion::stay(double time_s) {
     const Estimate estimate = believe(time_s);
     const bool flies = engaged(time_s) && offboard_.report().armed;
     if (!flies || !std::holds_alternative<PositionSetpoint>(setpoint_.motion)) {
@@ -123,6 +120,15 @@ void Companion::stand_ready(double time_s) {
                              .yaw_rad = euler_from_quaternion(estimate.q_WB).yaw_rad};
     }
     setpoint_.armed = config_.asks_for_mode || offboard_.report().armed;
+}
+
+void Companion::stand_ready(double time_s) {
+    if (dry_run_) {
+        begin(time_s);
+        return;
+    }
+    stay(time_s);
+    const bool flies = engaged(time_s) && offboard_.report().armed;
     const Verdict verdict = judge(look(time_s), Place::in_air);
     const std::string missing = obstacle(time_s);
     if (flies && verdict.action != Action::carry_on) {
@@ -151,9 +157,9 @@ void Companion::begin(double time_s) {
     phase_ = Phase::flying;
     phase_s_ = time_s;
     memory_ = start_perching(config_.task, believe(time_s), time_s);
-    setpoint_ = memory_.setpoint;
     arming_ = {.asked_s = time_s, .seen = !dry_run_};
     say(time_s, dry_run_ ? "begins, dry: carry the vehicle" : "begins");
+    guide(time_s);  // in this tick: a set-point that is none yet would stop the rotors
 }
 
 }  // namespace limpet

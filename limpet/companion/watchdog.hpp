@@ -11,7 +11,7 @@ namespace limpet {
 
 // When and how control is handed back: the table of watchdog.cpp. Guidance's own rows handle what
 // it can (LiDAR, force or pressure lost, battery low, position lost on the wall); here stands what
-// it cannot. Why each cell is so: docs/decisions/0012-handing-back.md
+// it cannot. Why each cell is so: docs/decisions/0013-handing-back.md
 //
 //                     in_air   pressed  leaving  on_cup   at_rest
 //   mode_taken        let_go   let_go   let_go   let_go   let_go      an operator flies it
