@@ -85,7 +85,7 @@ std::future<Finished> start(const Bench& bench, std::vector<std::string> argumen
 TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
     const Bench bench;
     GroundView view;
-    auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=12", "--speed", "4",
+    auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                                 "--no-figures", "--out", ".", "--ground-station", view.address()});
     ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
     EXPECT_TRUE(view.armed);
@@ -127,7 +127,7 @@ TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
     std::filesystem::permissions(file, std::filesystem::perms::owner_read);
     GroundView view;
     auto flight =
-        start(bench, {"fly", "hover", "--set", "simulation.hover_s=12", "--speed", "4",
+        start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                       "--no-record", "--ground-station", view.address(), "--signing-key", "key"});
     ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
     view.set("MC_PITCHRATE_P", 0.1F);  // unsigned
