@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "limpet/core/errors.hpp"
+
 namespace limpet::app {
 namespace {
 
@@ -98,6 +100,16 @@ void add_loads(std::vector<std::string>& lines, const Terminal& terminal, const 
 }
 
 }  // namespace
+
+Outcome expected_outcome(const std::string& name) {
+    const auto outcome = outcome_from(name);
+    if (!outcome) {
+        throw InputError("--expect " + name +
+                         ": no such outcome; there are perched, released, failed_to_seal, "
+                         "release_aborted, crashed, timed_out");
+    }
+    return *outcome;
+}
 
 std::string event_head() {
     return "  time s  event              distance m  pitch deg  force N     hPa  why";

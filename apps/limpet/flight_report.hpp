@@ -9,6 +9,10 @@
 
 namespace limpet::app {
 
+/// The outcome of an option --expect.
+/// @throws InputError naming all there are
+[[nodiscard]] Outcome expected_outcome(const std::string& name);
+
 /// Head of the table of events, and a line of it.
 [[nodiscard]] std::string event_head();
 [[nodiscard]] std::string event_line(const Event& event);

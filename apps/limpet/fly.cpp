@@ -42,16 +42,6 @@ struct FlyOptions {
     bool no_figures = false;
 };
 
-Outcome expected(const std::string& name) {
-    const auto outcome = outcome_from(name);
-    if (!outcome) {
-        throw InputError("--expect " + name +
-                         ": no such outcome; there are perched, released, failed_to_seal, "
-                         "release_aborted, crashed, timed_out");
-    }
-    return *outcome;
-}
-
 Terminal::Voice voice(const FlyOptions& options) {
     if (options.quiet) {
         return Terminal::Voice::quiet;
@@ -119,7 +109,7 @@ void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
 
 void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
-        (void)expected(options.expect);  // before any work
+        (void)expected_outcome(options.expect);  // before any work
     }
     const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
     const auto model = build_model(scenario);
@@ -195,7 +185,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (!*stop && !options.expect.empty() && expected(options.expect) != result.outcome) {
+    if (!*stop && !options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
         code = ExitCode::other_outcome;
@@ -229,7 +219,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
                      "builtin, or px4: a real one in the loop (docs/px4.md)")
         ->type_name("NAME")
         ->check(CLI::IsMember({"builtin", "px4"}));
-    add_options(*verb, options->px4);
+    add_options(*verb, options->px4, true);
     add_options(*verb, options->ground);
     verb->add_option("--speed", options->px4.speed,
                      "times real time, or max (default: as fast as it goes; 1 on a serial wire or\n"

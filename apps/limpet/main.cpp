@@ -26,14 +26,16 @@ constexpr const char* kFooter =
     "  limpet fly perch_metal --set suction.valve_fitted=true\n"
     "  limpet params guidance               every number that --set can turn\n"
     "  limpet campaign impact_speed         many flights; then limpet summary, limpet replay\n\n"
-    "Exit codes: 0 done, 1 another outcome than --expect, 2 bad input, 70 a fault of ours,\n"
-    "130 interrupted.\n";
+    "Exit codes: 0 done, 1 another outcome than --expect or control handed back, 2 bad input,\n"
+    "70 a fault of ours, 130 interrupted.\n";
 
 void add_verbs(CLI::App& app, ExitCode& code) {
     using namespace limpet::app;
     app.require_subcommand(1);
     add_fly(app, code);
+    add_sim_io(app, code);
     add_campaign(app, code);
+    add_companion(app, code);
     add_replay(app);
     add_summary(app);
     add_reproduce(app, code);
@@ -47,6 +49,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_csv(app);
     add_export(app);
     add_rotor(app);
+    add_stand_in(app);
 }
 
 /// The first word must be a verb; said before the parser only misses one.

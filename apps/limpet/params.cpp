@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/companion/parameters.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "verbs.hpp"
 
@@ -16,6 +17,20 @@ struct ParamsOptions {
     std::string room;
     std::string format = "text";
 };
+
+/// Those of scenarios, and those of companions, whose sections begin with "companion".
+std::vector<ParameterInfo> rows_of(const std::string& room) {
+    std::vector<ParameterInfo> companions = companion_parameters();
+    if (room.empty()) {
+        std::vector<ParameterInfo> all = all_parameters();
+        all.insert(all.end(), companions.begin(), companions.end());
+        return all;
+    }
+    std::erase_if(companions, [&room](const ParameterInfo& row) {
+        return row.section != room && row.section.rfind(room + ".", 0) != 0;
+    });
+    return companions.empty() ? parameters_of(room) : companions;
+}
 
 std::string range(const ParameterInfo& row) {
     return fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
@@ -41,7 +56,8 @@ void print_text(const std::vector<ParameterInfo>& rows) {
 void print_markdown(const std::vector<ParameterInfo>& rows) {
     fmt::print(
         "# Parameters\n\nMade by `limpet params --format markdown`. Set them in a scenario, "
-        "or by `--set section.name=value`.\n");
+        "or by `--set section.name=value`; "
+        "those of `companion` in a companion's file, without that word.\n");
     std::string section;
     for (const ParameterInfo& row : rows) {
         if (row.section != section) {
@@ -62,16 +78,16 @@ void add_params(CLI::App& app) {
     auto options = std::make_shared<ParamsOptions>();
     CLI::App* verb =
         app.add_subcommand("params", "Print every number that can be set: default, range, source");
-    verb->add_option(
-            "room", options->room,
-            "one room or section only: guidance, autopilot, sensors, suction, vehicle, ...")
+    verb->add_option("room", options->room,
+                     "one room or section only: guidance, autopilot, sensors, suction, vehicle, "
+                     "companion, ...")
         ->type_name("ROOM");
     verb->add_option("--format", options->format, "text or markdown")
         ->type_name("FORMAT")
         ->check(CLI::IsMember({"text", "markdown"}));
     verb->footer("Columns: name, default, unit, allowed range, what it does, [source].\n");
     verb->callback([options] {
-        const auto rows = options->room.empty() ? all_parameters() : parameters_of(options->room);
+        const auto rows = rows_of(options->room);
         options->format == "text" ? print_text(rows) : print_markdown(rows);
     });
 }

@@ -47,15 +47,17 @@ void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
 
 }  // namespace
 
-void add_options(CLI::App& verb, Px4LinkOptions& options) {
+void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies) {
     verb.add_option("--hil", options.hil,
                     "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
                     "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)")
         ->type_name("ADDRESS");
-    verb.add_option("--offboard", options.offboard,
-                    "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over serial\n"
-                    "all goes over the one wire)")
-        ->type_name("ADDRESS");
+    if (flies) {
+        verb.add_option("--offboard", options.offboard,
+                        "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
+                        "serial all goes over the one wire)")
+            ->type_name("ADDRESS");
+    }
     verb.add_option("--wait", options.wait_s, "longest wait for PX4 [s] (default 60)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.0));

@@ -25,7 +25,8 @@ struct Px4LinkOptions {
 
     [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
 };
-void add_options(CLI::App& verb, Px4LinkOptions& options);
+/// @param flies  guidance is ours; false: a companion's
+void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given

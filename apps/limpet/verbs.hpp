@@ -8,7 +8,7 @@ namespace limpet::app {
 /// What the program hands back to the shell.
 enum class ExitCode {
     ok = 0,
-    other_outcome = 1,  ///< --expect named another one
+    other_outcome = 1,  ///< --expect named another one; companion: control handed back
     bad_input = 2,      ///< also a damaged recording
     our_fault = 70,
     interrupted = 130,  ///< by Ctrl-C, as a shell has it
@@ -16,6 +16,8 @@ enum class ExitCode {
 
 /// Each adds one verb with its options; its callback does the work.
 void add_fly(CLI::App& app, ExitCode& code);
+void add_sim_io(CLI::App& app, ExitCode& code);
+void add_companion(CLI::App& app, ExitCode& code);
 void add_check(CLI::App& app);
 void add_list(CLI::App& app);
 void add_params(CLI::App& app);
@@ -30,5 +32,6 @@ void add_reproduce(CLI::App& app, ExitCode& code);
 void add_summary(CLI::App& app);
 void add_rotor(CLI::App& app);
 void add_identify(CLI::App& app);
+void add_stand_in(CLI::App& app);
 
 }  // namespace limpet::app

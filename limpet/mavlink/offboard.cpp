@@ -186,7 +186,13 @@ void Offboard::request_rate(Link& link) {
     }
 }
 
-void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
+void Offboard::attend(Link& link, double time_s) {
+    streaming_s_ = -1.0;
+    speak_up(link, time_s);
+}
+
+/// What goes whether or not it flies.
+void Offboard::speak_up(Link& link, double time_s) {
     if (again(sent_heartbeat_s_, 1.0 / options_.heartbeat_rate_Hz, time_s)) {
         Heartbeat beat;
         beat.type = options_.hears_texts ? kGroundStation : kOnboardController;
@@ -196,11 +202,8 @@ void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
         (void)link.send(beat);
     }
     const OffboardState now = state(time_s);
-    if (now == OffboardState::silent || now == OffboardState::taken_away) {
-        streaming_s_ = -1.0;
-        return;
-    }
-    if (again(sent_request_s_, 1.0, time_s)) {
+    const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
+    if (heard && again(sent_request_s_, 1.0, time_s)) {
         if (options_.sets_origin && !report_.armed) {
             SetGpsGlobalOrigin origin;
             constexpr GeographicOrigin kOrigin;
@@ -211,7 +214,13 @@ void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
         }
         request_rate(link);
     }
-    if (now == OffboardState::unready && !was_engaged_) {
+}
+
+void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
+    speak_up(link, time_s);
+    const OffboardState now = state(time_s);
+    if (now == OffboardState::silent || now == OffboardState::taken_away ||
+        (now == OffboardState::unready && !was_engaged_)) {
         streaming_s_ = -1.0;
         return;
     }

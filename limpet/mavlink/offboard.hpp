@@ -73,6 +73,8 @@ public:
     /// Sends what is due: heartbeat, set-point, command. Often, at least at the set-point rate.
     /// @param time_s  seconds of a clock that never steps back; simulated in lockstep
     void update(Link& link, const Setpoint& setpoint, double time_s);
+    /// Heartbeat and requests of rates and origin alone, no set-points: as long as it must not fly.
+    void attend(Link& link, double time_s);
     /// Stops the set-points and asks for `hold` (AUTO.LOITER): the autopilot is on its own. For
     /// good; update() then keeps the heartbeat alone.
     void hand_back(Link& link, double time_s);
@@ -87,6 +89,7 @@ public:
 
 private:
     void hear_command_ack(const CommandAck& ack);
+    void speak_up(Link& link, double time_s);
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
     void request(Link& link, const Setpoint& setpoint, double time_s);
     void request_rate(Link& link);

@@ -48,6 +48,13 @@ public:
         }
     }
 
+    /// Of a listening end: whom it speaks to at first; the first one that speaks is kept.
+    void call(const TransportAddress& first) {
+        peer_ = udp::endpoint(boost::asio::ip::make_address_v4(first.host), first.port);
+        peer_known_ = true;
+        keeps_first_ = true;
+    }
+
     Transfer send(std::span<const std::byte> bytes, nanoseconds timeout) override {
         require(bytes.size() <= kLongestDatagram, "a datagram has at most 65507 bytes");
         if (closed_) {
@@ -193,6 +200,9 @@ private:
             }
             return 0;
         }
+        if (keeps_first_ && heard_ && from != peer_) {
+            return 0;
+        }
         if (length > 0 && (!heard_ || from != peer_)) {
             ++statistics_.peers;
             heard_ = true;
@@ -217,6 +227,7 @@ private:
     bool peer_known_ = false;
     bool connected_ = false;
     bool heard_ = false;
+    bool keeps_first_ = false;
     bool closed_ = false;
 };
 
@@ -224,6 +235,13 @@ private:
 
 std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role) {
     return std::make_unique<UdpTransport>(address, role);
+}
+
+std::unique_ptr<Transport> open_udp_between(const TransportAddress& local,
+                                            const TransportAddress& first) {
+    auto transport = std::make_unique<UdpTransport>(local, Role::listen);
+    transport->call(first);
+    return transport;
 }
 
 }  // namespace limpet

@@ -14,4 +14,11 @@ namespace limpet {
 /// joined
 [[nodiscard]] std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role);
 
+/// As PX4's links: bound to a port of its own, speaks to `first` until somebody speaks to it, and
+/// from then on to that one alone; what others send is dropped.
+/// @param local  port 0: the kernel chooses
+/// @throws InputError when the port is in use or the address not of this machine
+[[nodiscard]] std::unique_ptr<Transport> open_udp_between(const TransportAddress& local,
+                                                          const TransportAddress& first);
+
 }  // namespace limpet

@@ -96,6 +96,23 @@ void Recorder::battery(const Sample<BatteryReading>& sample) {
     write(Topic::battery, t, messages::battery(buffer_, t, sample.value));
 }
 
+void Recorder::new_readings(const Readings& readings, Readings& last) {
+    const auto when_new = [&](const auto& sample, auto& before, auto record) {
+        if (sample.time_s > before.time_s) {
+            (this->*record)(sample);
+            before.time_s = sample.time_s;
+        }
+    };
+    when_new(readings.imu, last.imu, &Recorder::imu);
+    when_new(readings.lidar_left, last.lidar_left, &Recorder::range_left);
+    when_new(readings.lidar_right, last.lidar_right, &Recorder::range_right);
+    when_new(readings.force, last.force, &Recorder::force);
+    when_new(readings.cup_pressure, last.cup_pressure, &Recorder::cup_pressure);
+    when_new(readings.motion_capture, last.motion_capture, &Recorder::motion_capture);
+    when_new(readings.barometer, last.barometer, &Recorder::barometer);
+    when_new(readings.battery, last.battery, &Recorder::battery);
+}
+
 void Recorder::truth(const Truth& truth) {
     const std::int64_t t = nanoseconds(truth.time_s);
     const Kinematics& base = truth.base;

@@ -46,6 +46,8 @@ public:
     void motion_capture(const Sample<PoseReading>& sample);
     void barometer(const Sample<BarometerReading>& sample);
     void battery(const Sample<BatteryReading>& sample);
+    /// All of these whose sample is newer than in `last`, which then holds them.
+    void new_readings(const Readings& readings, Readings& last);
 
     /// Five messages: pose, twist, vehicle, cup, wrench of the cup.
     void truth(const Truth& truth);

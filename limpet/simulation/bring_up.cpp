@@ -55,6 +55,18 @@ Snapshot first_state(const SimulationModel& model, const SimulationState& now,
     return {.state = state, .plant = plant.save()};
 }
 
+std::string obstacle_of(const ExternalAutopilot& autopilot, const RemoteGuidance* guidance,
+                        bool on_stand) {
+    std::string obstacle = autopilot.obstacle();
+    if (obstacle.empty() && guidance != nullptr) {
+        obstacle = guidance->obstacle();
+        if (obstacle.empty() && on_stand) {
+            obstacle = "the vehicle stands: the companion has not taken off";
+        }
+    }
+    return obstacle;
+}
+
 [[noreturn]] void give_up(const std::string& why, const std::string& obstacle) {
     throw InputError("no flight: " + why + (obstacle.empty() ? "" : ": " + obstacle));
 }
@@ -81,13 +93,13 @@ Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
     Tick still_since = -1;
     std::string obstacle;
     while (seconds(state.tick) < options.limit_s) {
-        step(waiting, state, plant, events, &autopilot);
+        step(waiting, state, plant, events, &autopilot, options.guidance);
         on_stand = on_stand && state.truth.thrust_N < weight_N;
         if (on_stand) {
             rest_on_stand(model, stand_W_m, plant, state.truth);
         }
         if (due(state.tick, model.control_rate_Hz)) {
-            std::string now = autopilot.obstacle();
+            std::string now = obstacle_of(autopilot, options.guidance, on_stand);
             if (options.on_obstacle && now != obstacle) {
                 options.on_obstacle(now);
             }
@@ -101,6 +113,9 @@ Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
         }
         if (state.ending) {
             give_up(fmt::format("{} on the way to the start", state.ending->reason), obstacle);
+        }
+        if (options.guidance != nullptr && !on_stand) {
+            return first_state(model, state, plant, options.run);
         }
         const bool still =
             !on_stand && stands_still(scenario, state.truth) && state.autopilot.estimate.valid;

@@ -38,11 +38,12 @@ Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run)
     : model_(std::move(model)), plant_(model_->plant), state_(start(*model_, plant_, run)) {}
 
 Flight::Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
-               ExternalAutopilot& autopilot)
+               ExternalAutopilot& autopilot, RemoteGuidance* guidance)
     : model_(std::move(model)),
       plant_(model_->plant),
       state_(airborne.state),
-      autopilot_(&autopilot) {
+      autopilot_(&autopilot),
+      guidance_(guidance) {
     plant_.restore(airborne.plant);
 }
 
@@ -51,7 +52,7 @@ const EventList& Flight::tick() {
     if (ended()) {
         return events_;
     }
-    step(*model_, state_, plant_, events_, autopilot_);
+    step(*model_, state_, plant_, events_, autopilot_, guidance_);
     report_parameters();
     if (autopilot_ != nullptr && autopilot_->failure()) {
         // In the air it falls; on the wall the cup still holds it.
@@ -70,6 +71,7 @@ void Flight::stop(Outcome outcome, std::string_view reason) {
 }
 
 void Flight::set_autopilot(const AutopilotParameters& parameters) {
+    require(autopilot_ == nullptr, "an autopilot behind a wire has its own parameters");
     for (const auto& row : autopilot_table()) {
         const double value = row.get(parameters);
         if (!(value >= row.minimum && value <= row.maximum)) {
@@ -112,9 +114,11 @@ FlightResult fly(std::shared_ptr<const SimulationModel> model,
                                  bring_up(*model, *conduct.autopilot,
                                           {.run = run,
                                            .speed = conduct.speed,
+                                           .limit_s = conduct.start_limit_s,
+                                           .guidance = conduct.guidance,
                                            .stop = conduct.stop,
                                            .on_obstacle = conduct.on_obstacle}),
-                                 *conduct.autopilot);
+                                 *conduct.autopilot, conduct.guidance);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
         log.emplace(recording, *model);

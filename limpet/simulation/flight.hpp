@@ -10,6 +10,7 @@
 
 #include "limpet/autopilot/external.hpp"
 #include "limpet/simulation/model.hpp"
+#include "limpet/simulation/remote_guidance.hpp"
 
 namespace limpet {
 
@@ -20,8 +21,9 @@ public:
     /// The same with another autopilot than the built-in one, which has brought the vehicle to the
     /// scenario's start (bring_up.hpp).
     /// @param autopilot  outlives the flight
+    /// @param guidance   outlives it too; nullptr: ours
     Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
-           ExternalAutopilot& autopilot);
+           ExternalAutopilot& autopilot, RemoteGuidance* guidance = nullptr);
 
     /// One base tick. Does nothing once the flight has ended.
     /// @return what happened in it, valid until the next tick
@@ -52,6 +54,7 @@ private:
     EventList events_;
     std::vector<EventValue> parameters_set_;  ///< not reported yet
     ExternalAutopilot* autopilot_ = nullptr;
+    RemoteGuidance* guidance_ = nullptr;
 };
 
 /// How a flight is watched. Empty members watch nothing.
@@ -67,6 +70,8 @@ struct FlightWatch {
 /// How a flight is flown where the defaults do not do.
 struct FlightConduct {
     ExternalAutopilot* autopilot = nullptr;   ///< nullptr: the built-in one
+    RemoteGuidance* guidance = nullptr;       ///< nullptr: ours; else with `autopilot` alone
+    double start_limit_s = 120.0;             ///< of simulated time, to be brought up
     double speed = 0.0;                       ///< times real time; 0: as fast as it goes
     const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole
     /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).

@@ -33,29 +33,12 @@ RecordingInfo describe(const SimulationModel& model) {
 FlightLog::FlightLog(const std::filesystem::path& path, const SimulationModel& model)
     : recorder_(path, describe(model)) {}
 
-void FlightLog::sensors(const Readings& readings) {
-    const auto when_new = [&](const auto& sample, auto& last, auto write) {
-        if (sample.time_s > last.time_s) {
-            (recorder_.*write)(sample);
-            last.time_s = sample.time_s;
-        }
-    };
-    when_new(readings.imu, last_.imu, &Recorder::imu);
-    when_new(readings.lidar_left, last_.lidar_left, &Recorder::range_left);
-    when_new(readings.lidar_right, last_.lidar_right, &Recorder::range_right);
-    when_new(readings.force, last_.force, &Recorder::force);
-    when_new(readings.cup_pressure, last_.cup_pressure, &Recorder::cup_pressure);
-    when_new(readings.motion_capture, last_.motion_capture, &Recorder::motion_capture);
-    when_new(readings.barometer, last_.barometer, &Recorder::barometer);
-    when_new(readings.battery, last_.battery, &Recorder::battery);
-}
-
 void FlightLog::tick(const SimulationModel& model, const SimulationState& state,
                      const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
-    sensors(state.sensors.readings);
+    recorder_.new_readings(state.sensors.readings, last_);
     if (due(state.tick, model.record_rate_Hz)) {
         const double time_s = seconds(state.tick);
         recorder_.truth(state.truth);

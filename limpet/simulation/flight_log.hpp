@@ -20,8 +20,6 @@ public:
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:
-    void sensors(const Readings& readings);
-
     Recorder recorder_;
     Readings last_;
 };

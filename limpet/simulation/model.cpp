@@ -30,7 +30,13 @@ SensorsModel sensors_of(const Scenario& scenario) {
             .lidar_right_p_B_m = {airframe.lidar_x_m, half_m, airframe.lidar_z_m}};
 }
 
-AutopilotModel autopilot_of(const Scenario& scenario) {
+int whole(double value) {
+    return static_cast<int>(std::lround(value));
+}
+
+}  // namespace
+
+AutopilotModel autopilot_model(const Scenario& scenario) {
     std::array<RotorGeometry, kRotors> rotors;
     for (std::size_t i = 0; i < rotors.size(); ++i) {
         rotors[i] = {.p_B_m = scenario.airframe.rotor_p_B_m[i],
@@ -39,12 +45,6 @@ AutopilotModel autopilot_of(const Scenario& scenario) {
     }
     return make_autopilot(scenario.autopilot, rotors);
 }
-
-int whole(double value) {
-    return static_cast<int>(std::lround(value));
-}
-
-}  // namespace
 
 std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
     return build_model(scenario, [](const std::string& mjcf) {
@@ -61,7 +61,7 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
     scene.visuals = false;
     model->plant = compile(write_mjcf(scenario.airframe, scene));
     model->sensors = sensors_of(scenario);
-    model->autopilot = autopilot_of(scenario);
+    model->autopilot = autopilot_model(scenario);
     model->task = {.perch = scenario.mission != Mission::hover,
                    .take_off = scenario.mission == Mission::perch_and_take_off,
                    .hover_s = scenario.simulation.hover_s};

@@ -45,6 +45,9 @@ struct SimulationModel {
 };
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario);
 
+/// The built-in autopilot of the scenario's vehicle, which can also fly behind a wire.
+[[nodiscard]] AutopilotModel autopilot_model(const Scenario& scenario);
+
 /// Makes the plant of a model's text.
 using CompilePlant = std::function<std::shared_ptr<const MujocoModel>(const std::string& mjcf)>;
 /// The same with plants from elsewhere: models that differ in other things can share one.

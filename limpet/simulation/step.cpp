@@ -44,7 +44,7 @@ RotorCommand control(const SimulationModel& model, SimulationState& state,
 }  // namespace
 
 void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
-          ExternalAutopilot* external) {
+          ExternalAutopilot* external, RemoteGuidance* remote) {
     const Airframe& airframe = model.scenario.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
@@ -57,6 +57,9 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
     }
     if (model.scenario.mount != Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
+    } else if (remote != nullptr) {
+        remote->exchange(readings, time_s, state.guidance, events);
+        state.guidance.setpoint.armed = state.command.armed;
     } else if (due(state.tick, model.guidance_rate_Hz)) {
         update(model.scenario.guidance, model.task, state.guidance, readings,
                state.autopilot.estimate, time_s, events);

@@ -77,10 +77,15 @@ public:
         return std::nan("");
     }
 
-    void tick() {
+    /// The world alone: does as memory.setpoint says, measures.
+    void step_world() {
         time_s += kDt_s;
         move();
         measure();
+    }
+
+    void tick() {
+        step_world();
         EventList happened;
         update(parameters, task, memory, readings, estimate, time_s, happened);
         events.insert(events.end(), happened.events.begin(),

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes through the parser, in pieces, then through every decoder and the check of signatures.
-// fuzz_test.cpp drives it with mutated frames under any compiler. With clang, libFuzzer can:
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -I. tests/mavlink/fuzz.cpp
-//       limpet/mavlink/*.cpp -lcrypto -o /tmp/fuzz && /tmp/fuzz -max_total_time=60
+// fuzz_test.cpp drives it with mutated frames under any compiler; .ci/run with libFuzzer, from the
+// seeds in corpus/, whose first byte says in what pieces the rest arrives.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

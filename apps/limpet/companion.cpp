@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flight_report.hpp"
+#include "limpet/companion/run.hpp"
+#include "limpet/core/errors.hpp"
+#include "output.hpp"
+#include "signals.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct CompanionOptions {
+    std::string config;
+    std::vector<std::string> overrides;
+    std::string out = "out/companion";
+    std::string expect;
+    double speed = 1.0;
+    bool check = false;
+    bool dry_run = false;
+    bool no_record = false;
+};
+
+void check_speed(const CompanionOptions& options, const CompanionConfig& config) {
+    if (!(std::isfinite(options.speed) && options.speed >= 0.01 && options.speed <= 100.0)) {
+        throw InputError(fmt::format("--speed {}: must be 0.01..100", options.speed));
+    }
+    if (options.speed != 1.0 && has_serial(config)) {
+        throw InputError(fmt::format(
+            "--speed {}: what hangs on a serial port keeps its own time; only 1 with serial wires",
+            options.speed));
+    }
+}
+
+CompanionWatch watch(Terminal& terminal) {
+    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+            .on_line =
+                [&terminal](double time_s, const std::string& text) {
+                    terminal.line(fmt::format("{:8.3f}  {}", time_s, text));
+                }};
+}
+
+void introduce(const CompanionOptions& options, const CompanionConfig& config, Terminal& terminal) {
+    terminal.line(terminal.bold(config.name) + ": " + config.description);
+    for (const std::string& line : describe(config)) {
+        terminal.line("  " + line);
+    }
+    if (options.dry_run) {
+        terminal.line("  dry run     hears all, commands nothing; poses are motion capture's");
+    }
+    if (options.speed != 1.0) {
+        terminal.line(fmt::format("  clock       {:g} times real time", options.speed));
+    }
+}
+
+void conclude(const CompanionResult& result, const std::filesystem::path& recording,
+              Terminal& terminal) {
+    terminal.line("");
+    const std::string outcome =
+        result.outcome ? std::string(to_string(*result.outcome)) + ": " : "";
+    terminal.line(terminal.bold("ended      ") + outcome + result.reason);
+    terminal.line(terminal.bold("loop       ") +
+                  fmt::format("{} ticks, {} of them late by more than a period, the latest by "
+                              "{:.1f} ms",
+                              result.ticks, result.late_ticks, 1e3 * result.latest_s));
+    if (!recording.empty()) {
+        terminal.line(terminal.bold("written    ") + recording.string() + " (limpet plot " +
+                      recording.string() + ")");
+    }
+}
+
+ExitCode code_of(const CompanionOptions& options, const CompanionResult& result) {
+    switch (result.end) {
+        case CompanionEnd::absent: throw InputError("nothing was flown: " + result.reason);
+        case CompanionEnd::interrupted: return ExitCode::interrupted;
+        case CompanionEnd::handed_back:
+            fmt::print(stderr, "limpet: control was handed back: {}\n", result.reason);
+            return ExitCode::other_outcome;
+        case CompanionEnd::mission_over: break;
+    }
+    if (!options.expect.empty() && expected_outcome(options.expect) != *result.outcome) {
+        fmt::print(stderr, "limpet: expected {}, the mission ended {}: {}\n", options.expect,
+                   to_string(*result.outcome), result.reason);
+        return ExitCode::other_outcome;
+    }
+    return ExitCode::ok;
+}
+
+void companion(const CompanionOptions& options, ExitCode& code) {
+    if (!options.expect.empty()) {
+        (void)expected_outcome(options.expect);  // before any work
+    }
+    const CompanionConfig config = load_companion(options.config, options.overrides);
+    check_speed(options, config);
+    Terminal terminal(Terminal::Voice::normal);
+    introduce(options, config, terminal);
+    if (options.check) {
+        terminal.line("  good; nothing was opened");
+        return;
+    }
+    const std::atomic<bool>* stop = stop_on_signals();
+    Wires wires = open_wires(config);
+    CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
+    if (!options.no_record) {
+        conduct.recording = make_folder(options.out) / "flight.mcap";
+    }
+    terminal.line(terminal.dim(event_head()));
+    const CompanionResult result =
+        run(config, wires, steady_clock(options.speed), conduct, watch(terminal));
+    conclude(result, conduct.recording, terminal);
+    code = code_of(options, result);
+}
+
+}  // namespace
+
+void add_companion(CLI::App& app, ExitCode& code) {
+    auto options = std::make_shared<CompanionOptions>();
+    CLI::App* verb =
+        app.add_subcommand("companion", "Guidance alone, beside a real autopilot, over wires");
+    verb->add_option("config", options->config, "companions/*.yaml: a name, or a file")
+        ->required()
+        ->type_name("CONFIG");
+    verb->add_flag("--check", options->check, "say what it would do, open nothing");
+    verb->add_flag("--dry-run", options->dry_run,
+                   "hear all, command nothing, say what it would do: carry the vehicle by hand");
+    verb->add_option("--set", options->overrides,
+                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    verb->add_option("--out", options->out, "folder for the recording (default out/companion)")
+        ->type_name("DIR");
+    verb->add_option("--expect", options->expect, "exit with 1 unless the mission ends so")
+        ->type_name("OUTCOME");
+    verb->add_option("--speed", options->speed,
+                     "its clock runs so many times real time: beside a simulation only")
+        ->type_name("N");
+    verb->add_flag("--no-record", options->no_record, "write nothing");
+    verb->footer(
+        "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes to\n"
+        "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
+        "Exit codes: 0 the mission came to its end, 1 control was handed back or another outcome\n"
+        "than --expect, 2 bad input or something absent, 130 interrupted.\n");
+    verb->callback([options, &code] { companion(*options, code); });
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "outside_wires.hpp"
+
+#include "limpet/core/errors.hpp"
+#include "limpet/devices/pseudo_terminal.hpp"
+
+namespace limpet::app {
+namespace {
+
+constexpr std::string_view kPseudoTerminal = "pty:";
+constexpr std::uint64_t kClock_Hz = 1000000;  // of NatNet's ticks: RemoteGuidance's microseconds
+
+bool begins(const std::string& text, std::string_view head) {
+    return text.rfind(head, 0) == 0;
+}
+
+/// A serial device, real or made for the occasion; null: none is asked for.
+std::unique_ptr<Transport> open_device(const std::string& option, const std::string& text) {
+    if (text.empty()) {
+        return nullptr;
+    }
+    if (begins(text, kPseudoTerminal)) {
+        return devices::open_pseudo_terminal(text.substr(kPseudoTerminal.size()));
+    }
+    if (begins(text, "serial:")) {
+        return open_transport(parse_address(text), Role::connect);
+    }
+    throw InputError(option + " " + text + ": must be serial:DEVICE:BAUD or pty:PATH");
+}
+
+devices::NatNetVersion natnet_version(const std::string& text) {
+    if (text == "3.0" || text == "3.1" || text == "4.0" || text == "4.1") {
+        return {.major = static_cast<std::uint8_t>(text[0] - '0'),
+                .minor = static_cast<std::uint8_t>(text[2] - '0')};
+    }
+    throw InputError("--natnet " + text + ": must be 3.0, 3.1, 4.0 or 4.1");
+}
+
+std::unique_ptr<devices::NatNetSource> open_motion_capture(const OutsideWireOptions& options) {
+    if (options.motion_capture == "mavlink") {
+        return nullptr;
+    }
+    const TransportAddress address = parse_address(options.motion_capture);
+    const devices::NatNetServer server{.version = natnet_version(options.natnet),
+                                       .clock_Hz = kClock_Hz};
+    switch (address.medium) {
+        case Medium::udp_multicast:
+            return std::make_unique<devices::NatNetSource>(
+                server, open_transport(address, Role::connect), nullptr);
+        case Medium::udp:
+            return std::make_unique<devices::NatNetSource>(server, nullptr,
+                                                           open_transport(address, Role::listen));
+        case Medium::tcp:
+        case Medium::udp_broadcast:
+        case Medium::serial: break;
+    }
+    throw InputError("--motion-capture " + options.motion_capture +
+                     ": must be mavlink, udp-multicast:GROUP:PORT[@INTERFACE] or udp:HOST:PORT");
+}
+
+}  // namespace
+
+void add_options(CLI::App& verb, OutsideWireOptions& options) {
+    verb.add_option("--sensors", options.sensors,
+                    "where the companion listens for MAVLink sensors and speaks to pump and\n"
+                    "valve (default udp:127.0.0.1:14600)")
+        ->type_name("ADDRESS");
+    verb.add_option("--motion-capture", options.motion_capture,
+                    "mavlink (ODOMETRY on the sensors' wire, default), or NatNet as Motive:\n"
+                    "udp-multicast:239.255.42.99:1511@127.0.0.1, unicast udp:127.0.0.1:1510")
+        ->type_name("WIRE");
+    verb.add_option("--natnet", options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1")
+        ->type_name("VERSION");
+    verb.add_option("--up", options.up, "axis of motion capture that points up (default y)")
+        ->type_name("AXIS")
+        ->check(CLI::IsMember({"y", "z"}));
+    verb.add_option("--rigid-body", options.rigid_body, "streaming id (default 1)")
+        ->type_name("ID");
+    verb.add_option("--lidar-left", options.lidar_left,
+                    "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
+                    "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)")
+        ->type_name("DEVICE");
+    verb.add_option("--lidar-right", options.lidar_right, "likewise")->type_name("DEVICE");
+    verb.add_option("--mechanism", options.mechanism,
+                    "pump, valve, force and pressure as lines on such a device")
+        ->type_name("DEVICE");
+}
+
+OutsideWires open_wires(const OutsideWireOptions& options) {
+    const TransportAddress sensors = parse_address(options.sensors);
+    if (sensors.medium == Medium::serial || sensors.medium == Medium::tcp) {
+        throw InputError("--sensors " + options.sensors + ": must be udp:HOST:PORT");
+    }
+    OutsideWires wires;
+    wires.sensors = std::make_unique<mavlink::Link>(
+        open_transport(sensors, Role::connect),
+        mavlink::Sender{.system = 1, .component = mavlink::kMechanismComponent});
+    wires.motion_capture = open_motion_capture(options);
+    wires.lidar_left = open_device("--lidar-left", options.lidar_left);
+    wires.lidar_right = open_device("--lidar-right", options.lidar_right);
+    wires.mechanism = open_device("--mechanism", options.mechanism);
+    return wires;
+}
+
+OutsideOptions outside_options(const OutsideWireOptions& options, const Scenario& scenario) {
+    return {
+        .axes = {.up = options.up == "z" ? devices::UpAxis::z : devices::UpAxis::y},
+        .rigid_body = options.rigid_body,
+        .lidar_range_min_m = scenario.sensors.lidar_range_min_m,
+        .lidar_range_max_m = scenario.sensors.lidar_range_max_m,
+    };
+}
+
+bool has_serial(const OutsideWireOptions& options) {
+    return begins(options.lidar_left, "serial:") || begins(options.lidar_right, "serial:") ||
+           begins(options.mechanism, "serial:");
+}
+
+}  // namespace limpet::app

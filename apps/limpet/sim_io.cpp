@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flight_report.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/report/figures.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "limpet/simulation/result_json.hpp"
+#include "output.hpp"
+#include "outside_wires.hpp"
+#include "px4_link.hpp"
+#include "signals.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct SimIoOptions {
+    std::string scenario;
+    std::vector<std::string> overrides;
+    std::string out;
+    std::string expect;
+    Px4LinkOptions px4;
+    OutsideWireOptions wires;
+    double start_limit_s = 300.0;
+    bool json = false;
+    bool no_figures = false;
+};
+
+void say_wires(const RemoteGuidance& guidance, Terminal& terminal) {
+    const OutsideWires& wires = guidance.wires();
+    const auto say = [&](const char* what, const std::string& wire) {
+        terminal.line(terminal.bold(fmt::format("{:<11}", what)) + wire);
+    };
+    say("sensors", wires.sensors->transport().describe());
+    if (wires.motion_capture != nullptr) {
+        say("NatNet", wires.motion_capture->describe());
+    }
+    if (wires.lidar_left != nullptr) {
+        say("left", wires.lidar_left->describe());
+    }
+    if (wires.lidar_right != nullptr) {
+        say("right", wires.lidar_right->describe());
+    }
+    if (wires.mechanism != nullptr) {
+        say("mechanism", wires.mechanism->describe());
+    }
+}
+
+std::string report_line(const RemoteGuidance& guidance) {
+    const OutsideCount& count = guidance.count();
+    return fmt::format("{} poses, {} ranges, {} loads out; {} commands to pump and valve in",
+                       count.poses, count.ranges, count.loads, count.commands);
+}
+
+/// The companion's clock runs by itself: there is no "as fast as it goes".
+void check_speed(const SimIoOptions& options) {
+    if (options.px4.speed == "max") {
+        throw InputError("--speed max: the companion has its own clock; must be a number");
+    }
+    if (has_serial(options.wires) && speed_of(options.px4.speed, 1.0) != 1.0) {
+        throw InputError("--speed " + options.px4.speed +
+                         ": what hangs on a serial wire has its own clock; there is 1 alone");
+    }
+}
+
+void sim_io(SimIoOptions options, ExitCode& code) {
+    if (!options.expect.empty()) {
+        (void)expected_outcome(options.expect);  // before any work
+    }
+    check_speed(options);
+    if (options.px4.speed.empty()) {
+        options.px4.speed = "1";  // the companion's clock is real
+    }
+    const Scenario scenario = load_scenario(options.scenario, {.overrides = options.overrides});
+    if (scenario.mount != Mount::free) {
+        throw InputError(scenario.name + ": hangs on a mount; sim-io is for what flies");
+    }
+    const auto model = build_model(scenario);
+    RemoteGuidance guidance(open_wires(options.wires), outside_options(options.wires, scenario));
+
+    const std::filesystem::path folder = options.out.empty()
+                                             ? std::filesystem::path("out") / scenario.name
+                                             : std::filesystem::path(options.out);
+    const std::filesystem::path recording = make_folder(folder) / "flight.mcap";
+    Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
+    terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
+                  scenario.description);
+    say_wires(guidance, terminal);
+    const std::atomic<bool>* stop = stop_on_signals();
+    Px4Link px4(options.px4, *model, false, terminal, stop);
+    terminal.line(terminal.dim(event_head()));
+    const FlightResult result =
+        fly(model, recording,
+            {.on_event = [&](const Event& event) { terminal.line(event_line(event)); },
+             .on_progress =
+                 [&](double time_s, PerchingState state) {
+                     terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
+                 }},
+            0,
+            {.autopilot = &px4.autopilot(),
+             .guidance = &guidance,
+             .start_limit_s = options.start_limit_s,
+             .speed = px4.speed(),
+             .stop = stop,
+             .on_obstacle = [&](const std::string& obstacle) {
+                 terminal.line(
+                     terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
+             }});
+
+    terminal.line("");
+    for (const std::string& line : flight_summary(result, terminal)) {
+        terminal.line(line);
+    }
+    for (const std::string& line : px4.report(result.performance, terminal)) {
+        terminal.line(line);
+    }
+    terminal.line(terminal.bold("companion  ") + report_line(guidance));
+    write_file(folder / "link.json", px4.json(result.performance) + "\n");
+    if (!options.no_figures && !options.json) {
+        terminal.progress("drawing figures ...");
+        (void)plot(read_recording(recording), folder);
+    }
+    terminal.line(terminal.bold("written    ") + recording.string());
+    if (options.json) {
+        fmt::print("{}\n", result_json(result));
+    }
+    if (*stop) {
+        code = ExitCode::interrupted;
+        terminal.line("interrupted; the recording is whole up to here");
+    } else if (!options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
+        fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
+                   to_string(result.outcome), result.reason);
+        code = ExitCode::other_outcome;
+    }
+}
+
+}  // namespace
+
+void add_sim_io(CLI::App& app, ExitCode& code) {
+    auto options = std::make_shared<SimIoOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "sim-io",
+        "Simulate what is around a companion computer: vehicle, wall, sensors, PX4's HIL");
+    verb->add_option("scenario", options->scenario, "name (limpet list scenarios) or YAML file")
+        ->required()
+        ->type_name("SCENARIO");
+    verb->add_option("--set", options->overrides, "turn one number, as for fly (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    verb->add_option("--out", options->out, "folder for the recording (default out/NAME)")
+        ->type_name("DIR");
+    verb->add_option("--expect", options->expect, "exit with 1 unless the flight ends so")
+        ->type_name("OUTCOME");
+    add_options(*verb, options->wires);
+    add_options(*verb, options->px4, false);
+    verb->add_option("--start-limit", options->start_limit_s,
+                     "longest wait for the take-off [s of simulated time] (default 300)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(1.0, 86400.0));
+    verb->add_option("--speed", options->px4.speed,
+                     "times real time (default 1); the companion needs the same, see its --speed")
+        ->type_name("FACTOR");
+    verb->add_flag("--json", options->json, "one JSON object on standard output; no figures");
+    verb->add_flag("--no-figures", options->no_figures, "write the recording only");
+    verb->footer(
+        "Three terminals, as in the paper's Fig. 5:\n"
+        "  limpet sim-io perch_concrete\n"
+        "  limpet stand-in perch_concrete       or PX4: docs/px4.md\n"
+        "  limpet companion simulation\n"
+        "The vehicle stands until the companion takes off. The flight ends when the companion\n"
+        "says so, at a crash or at the scenario's time limit.\n");
+    verb->callback([options, &code] { sim_io(*options, code); });
+}
+
+}  // namespace limpet::app

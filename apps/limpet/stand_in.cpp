@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/autopilot/stand_in.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/model.hpp"
+#include "signals.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct Options {
+    std::string what;
+    std::string hil = "tcp:127.0.0.1:4560";
+    std::string onboard = "udp:127.0.0.1:14580";
+    std::string peer = "udp:127.0.0.1:14540";
+    std::vector<std::string> parameters;
+};
+
+/// A vehicle flies as in the scenario `hover`.
+Scenario scenario_of(const std::string& what) {
+    const auto vehicles = list_vehicles(data_root());
+    const bool vehicle =
+        std::any_of(vehicles.begin(), vehicles.end(),
+                    [&](const CatalogueEntry& entry) { return entry.name == what; });
+    return vehicle ? load_scenario("hover", {.overrides = {"vehicle=" + what}})
+                   : load_scenario(what);
+}
+
+TransportAddress onboard_address(const std::string& option, const std::string& text) {
+    const TransportAddress address = parse_address(text);
+    if (address.medium != Medium::udp) {
+        throw InputError(option + " " + text + ": must be udp:HOST:PORT");
+    }
+    return address;
+}
+
+void set(const WireParameters& parameters, const std::string& text) {
+    const std::size_t at = text.find('=');
+    const std::string name = text.substr(0, at);
+    const std::string value = at == std::string::npos ? "" : text.substr(at + 1);
+    if (!wire_parameter(parameters, name)) {
+        throw InputError("--param " + text + ": no parameter of the stand-in is called '" + name +
+                         "'");
+    }
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !set_wire_parameter(parameters, name, number)) {
+        throw InputError("--param " + text + ": '" + value + "' is no value for it");
+    }
+}
+
+void serve(const Options& options) {
+    AutopilotModel model = autopilot_model(scenario_of(options.what));
+    StandInOptions stand_in;
+    stand_in.hil = parse_address(options.hil);
+    if (stand_in.hil.medium != Medium::tcp && stand_in.hil.medium != Medium::serial) {
+        throw InputError("--hil " + options.hil + ": must be tcp:HOST:PORT or serial:DEVICE:BAUD");
+    }
+    stand_in.onboard = onboard_address("--onboard", options.onboard);
+    stand_in.onboard_peer = onboard_address("--peer", options.peer);
+    // as `limpet px4-params` has them: else a perched vehicle may not arm
+    stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0.0;
+    for (const std::string& text : options.parameters) {
+        set({.commander = stand_in.parameters, .autopilot = model.parameters}, text);
+    }
+    StandIn autopilot(std::move(model), stand_in);
+    const std::atomic<bool>* stop = stop_on_signals();
+    const auto say = [](const std::string& text) {
+        fmt::print("{}\n", text);
+        std::fflush(stdout);
+    };
+    say("the built-in autopilot behind PX4's wire: " + autopilot.hil().transport().describe() +
+        (autopilot.onboard_address() ? ", onboard " + to_text(*autopilot.onboard_address()) : "") +
+        "; Ctrl-C ends it");
+    bool there = false;
+    while (!*stop) {
+        const bool now = autopilot.serve(std::chrono::milliseconds(100));
+        if (now != there) {
+            say(now ? "a simulator is there" : "no simulator; it goes on trying");
+            there = now;
+        }
+    }
+    say(fmt::format("{} HIL_SENSOR, {} answers", autopilot.count().sensors,
+                    autopilot.count().answers));
+}
+
+}  // namespace
+
+void add_stand_in(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand(
+        "stand-in",
+        "The built-in autopilot behind PX4's wire, to try what flies a PX4 without one");
+    verb->add_option("what", options->what, "scenario (name or file) or vehicle (name) to fly")
+        ->required()
+        ->type_name("SCENARIO");
+    verb->add_option("--hil", options->hil,
+                     "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
+                     "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)")
+        ->type_name("ADDRESS");
+    verb->add_option("--onboard", options->onboard,
+                     "where its onboard link listens (default udp:127.0.0.1:14580)")
+        ->type_name("ADDRESS");
+    verb->add_option("--peer", options->peer,
+                     "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)")
+        ->type_name("ADDRESS");
+    verb->add_option("--param", options->parameters,
+                     "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given")
+        ->type_name("NAME=VALUE");
+    verb->footer(
+        "In another terminal: limpet fly SCENARIO --autopilot px4\n"
+        "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n");
+    verb->callback([options] { serve(*options); });
+}
+
+}  // namespace limpet::app

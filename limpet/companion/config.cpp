@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/companion/config.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/devices/natnet.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/overrides.hpp"
+#include "limpet/scenario/parts.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAutopilotAddress = "udp:127.0.0.1:14540";  // PX4's offboard port
+constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: free beside PX4's
+
+/// Reads one file: keeps what is missing until the end, so that it is named in one go.
+class Reader {
+public:
+    Reader(const YamlNode& root, fs::path data, fs::path folder)
+        : root_(root), data_(std::move(data)), folder_(std::move(folder)) {}
+
+    void read(CompanionConfig& config);
+
+private:
+    /// @return nullptr when the section is not there; its keys are then missing
+    [[nodiscard]] const YamlNode* section(std::string_view name) const {
+        const YamlNode* node = root_.find(name);
+        return is_section(node) ? node : nullptr;
+    }
+    [[nodiscard]] const YamlNode* find(std::string_view name, std::string_view key) const {
+        const YamlNode* node = section(name);
+        const YamlNode* value = node == nullptr ? nullptr : node->find(key);
+        return value == nullptr || value->kind == YamlNode::Kind::null ? nullptr : value;
+    }
+    const YamlNode* wanted(std::string_view name, std::string_view key) {
+        const YamlNode* value = find(name, key);
+        if (value == nullptr) {
+            missing_.push_back(fmt::format("{}.{}", name, key));
+        }
+        return value;
+    }
+    template <class Choice>
+    void choose(std::string_view name, std::string_view key, Choice& choice,
+                std::initializer_list<std::pair<std::string_view, Choice>> words) {
+        if (const YamlNode* node = wanted(name, key)) {
+            choice = chosen(*node, words);
+        }
+    }
+    template <class Choice>
+    static Choice chosen(const YamlNode& node,
+                         std::initializer_list<std::pair<std::string_view, Choice>> words);
+    /// Refuses a key that the chosen source does not use: it would mean nothing.
+    void only_with(bool used, std::string_view name, std::string_view key,
+                   std::string_view with) const {
+        const YamlNode* node = find(name, key);
+        if (!used && node != nullptr) {
+            fail(*node, fmt::format("is of use only with {}", with));
+        }
+    }
+    [[nodiscard]] static TransportAddress address(const YamlNode& node,
+                                                  std::initializer_list<Medium> media,
+                                                  std::string_view allowed);
+    void serial(std::string_view name, std::string_view key, TransportAddress& into) {
+        if (const YamlNode* node = wanted(name, key)) {
+            into = address(*node, {Medium::serial}, "serial:DEVICE:BAUD");
+        }
+    }
+
+    void read_vehicle(CompanionConfig& config);
+    void read_autopilot(CompanionConfig& config);
+    void read_motion_capture(CompanionConfig& config);
+    void read_lidars(CompanionConfig& config);
+    void read_mechanism(CompanionConfig& config);
+    void read_sensors(CompanionConfig& config);
+
+    const YamlNode& root_;
+    fs::path data_;
+    fs::path folder_;
+    std::vector<std::string> missing_;
+};
+
+template <class Choice>
+Choice Reader::chosen(const YamlNode& node,
+                      std::initializer_list<std::pair<std::string_view, Choice>> words) {
+    const std::string word = read_text(node);
+    std::string all;
+    for (const auto& [name, choice] : words) {
+        if (name == word) {
+            return choice;
+        }
+        all += fmt::format("{}{}", all.empty() ? "" : ", ", name);
+    }
+    fail(node, fmt::format("\"{}\" is none of {}", shown(word), all));
+}
+
+TransportAddress Reader::address(const YamlNode& node, std::initializer_list<Medium> media,
+                                 std::string_view allowed) {
+    TransportAddress address;
+    try {
+        address = parse_address(read_text(node));
+    } catch (const InputError& error) {
+        fail(node, error.what());
+    }
+    if (std::find(media.begin(), media.end(), address.medium) == media.end()) {
+        fail(node,
+             fmt::format("\"{}\" cannot be used here, allowed {}", shown(node.text), allowed));
+    }
+    return address;
+}
+
+void Reader::read_vehicle(CompanionConfig& config) {
+    const YamlNode* mission = root_.find("mission");
+    if (mission == nullptr) {
+        missing_.emplace_back("mission");
+    } else {
+        config.mission = read_text(*mission);
+        const Mission asked =
+            chosen<Mission>(*mission, {{"hover", Mission::hover},
+                                       {"perch", Mission::perch},
+                                       {"perch_and_take_off", Mission::perch_and_take_off}});
+        config.task = {.perch = asked != Mission::hover,
+                       .take_off = asked == Mission::perch_and_take_off,
+                       .hover_s = config.limits.hover_s};
+    }
+    const YamlNode* vehicle = root_.find("vehicle");
+    if (vehicle == nullptr) {
+        missing_.emplace_back("vehicle");
+        return;
+    }
+    Scenario scenario;  // what guidance has to know of the vehicle is derived as for a flight
+    scenario.airframe = vehicle_from(*vehicle, data_, folder_);
+    config.vehicle = vehicle->text;
+    if (!scenario.airframe.has_cup && config.task.perch) {
+        fail(*vehicle, "has no cup to perch with, allowed with mission hover only");
+    }
+    if (const YamlNode* valve = wanted("mechanism", "valve")) {
+        scenario.cup.valve_fitted = read_flag(*valve) ? 1.0 : 0.0;
+    }
+    derive(scenario);
+    if (const YamlNode* valve = find("guidance", "valve_fitted")) {
+        fail(*valve, "is said by mechanism.valve");
+    }
+    const std::vector<BoundParameter> rows = bind(perching_table(), scenario.guidance);
+    read_rows(root_.find("guidance"), rows);
+    for (const BoundParameter& row : rows) {
+        if (!(*row.value >= row.minimum && *row.value <= row.maximum)) {
+            fail(*vehicle, fmt::format("guidance.{} follows from it as {:.4g}, allowed {}",
+                                       row.name, *row.value, allowed_text(row)));
+        }
+    }
+    config.guidance = scenario.guidance;
+    if (!(config.guidance.land_pressure_Pa < config.guidance.detach_pressure_Pa)) {
+        const YamlNode* node = find("guidance", "land_pressure_Pa");
+        fail(node != nullptr ? *node : root_,
+             fmt::format("guidance.land_pressure_Pa must be below detach_pressure_Pa, {}",
+                         number_text(config.guidance.detach_pressure_Pa)));
+    }
+}
+
+void Reader::read_autopilot(CompanionConfig& config) {
+    AutopilotNumbers numbers;
+    read_rows(section("autopilot"), bind(autopilot_wire_table(), numbers),
+              {"address", "asks_for_mode"});
+    config.system = static_cast<int>(numbers.system);
+    config.autopilot = parse_address(kAutopilotAddress);
+    if (const YamlNode* node = find("autopilot", "address")) {
+        config.autopilot = address(*node, {Medium::udp, Medium::tcp, Medium::serial},
+                                   "udp:HOST:PORT (listens), tcp:HOST:PORT (connects), "
+                                   "serial:DEVICE:BAUD");
+    }
+    if (const YamlNode* node = find("autopilot", "asks_for_mode")) {
+        config.asks_for_mode = read_flag(*node);
+    }
+}
+
+void Reader::read_motion_capture(CompanionConfig& config) {
+    constexpr std::string_view kHere = "motion_capture";
+    constexpr std::string_view kNatNet = "source: natnet";
+    MotionCaptureNumbers numbers;
+    const std::vector<BoundParameter> rows = bind(motion_capture_table(), numbers);
+    read_rows(section(kHere), rows, {"source", "address", "command", "up"});
+    choose<PoseSource>(kHere, "source", config.pose_source,
+                       {{"natnet", PoseSource::natnet}, {"mavlink", PoseSource::mavlink}});
+    const bool natnet = config.pose_source == PoseSource::natnet;
+    for (const std::string_view key : {"address", "command", "up"}) {
+        only_with(natnet, kHere, key, kNatNet);
+    }
+    for (const BoundParameter& row : rows) {
+        only_with(natnet, kHere, row.name, kNatNet);
+    }
+    if (!natnet || find(kHere, "source") == nullptr) {
+        return;
+    }
+    (void)wanted(kHere, "rigid_body");
+    choose<devices::UpAxis>(kHere, "up", config.axes.up,
+                            {{"y", devices::UpAxis::y}, {"z", devices::UpAxis::z}});
+    config.pose_address = parse_address(
+        fmt::format("udp-multicast:{}:{}", devices::kNatNetGroup, devices::kNatNetDataPort));
+    if (const YamlNode* node = find(kHere, "address")) {
+        config.pose_address = address(*node, {Medium::udp, Medium::udp_multicast},
+                                      "udp-multicast:GROUP:PORT[@INTERFACE] or udp:OUR_HOST:PORT");
+    }
+    const YamlNode* command = config.pose_address.medium == Medium::udp ? wanted(kHere, "command")
+                                                                        : find(kHere, "command");
+    if (command != nullptr) {
+        config.pose_command = address(*command, {Medium::udp}, "udp:MOTIVE_HOST:1510");
+    }
+    config.rigid_body = static_cast<int>(numbers.rigid_body);
+    config.axes.x_axis_yaw_deg = numbers.x_axis_yaw_deg;
+    config.axes.nose_yaw_deg = numbers.nose_yaw_deg;
+    config.axes.p_WM_m = {numbers.origin_x_m, numbers.origin_y_m, numbers.origin_z_m};
+    config.axes.p_BP_m = {numbers.pivot_x_m, numbers.pivot_y_m, numbers.pivot_z_m};
+}
+
+void Reader::read_lidars(CompanionConfig& config) {
+    if (is_section(section("lidars"))) {
+        check_keys(*section("lidars"), {"source", "left", "right"});
+    }
+    choose<ReadingSource>("lidars", "source", config.lidar_source,
+                          {{"mavlink", ReadingSource::mavlink},
+                           {"autopilot", ReadingSource::autopilot},
+                           {"tfmini", ReadingSource::serial}});
+    const bool serial_ports = config.lidar_source == ReadingSource::serial;
+    only_with(serial_ports, "lidars", "left", "source: tfmini");
+    only_with(serial_ports, "lidars", "right", "source: tfmini");
+    if (serial_ports) {
+        serial("lidars", "left", config.lidar_left);
+        serial("lidars", "right", config.lidar_right);
+    }
+}
+
+void Reader::read_mechanism(CompanionConfig& config) {
+    if (is_section(section("mechanism"))) {
+        check_keys(*section("mechanism"), {"source", "address", "readings", "valve"});
+    }
+    choose<MechanismWire>("mechanism", "source", config.mechanism,
+                          {{"mavlink", MechanismWire::mavlink}, {"line", MechanismWire::line}});
+    const bool line = config.mechanism == MechanismWire::line;
+    only_with(line, "mechanism", "address", "source: line");
+    if (line) {
+        serial("mechanism", "address", config.mechanism_address);
+    }
+    config.load_source = line ? ReadingSource::serial : ReadingSource::mavlink;
+    if (const YamlNode* node = find("mechanism", "readings")) {
+        config.load_source = chosen<ReadingSource>(*node, {{"mavlink", ReadingSource::mavlink},
+                                                           {"autopilot", ReadingSource::autopilot},
+                                                           {"line", ReadingSource::serial}});
+        if (config.load_source == ReadingSource::serial && !line) {
+            fail(*node, "line is of use only with source: line");
+        }
+    }
+}
+
+/// After all that may need it.
+void Reader::read_sensors(CompanionConfig& config) {
+    const YamlNode* node = section("sensors");
+    if (node != nullptr) {
+        check_keys(*node, {"address"});
+    }
+    const bool needed = config.pose_source == PoseSource::mavlink ||
+                        config.lidar_source == ReadingSource::mavlink ||
+                        config.load_source == ReadingSource::mavlink ||
+                        config.mechanism == MechanismWire::mavlink;
+    only_with(needed, "sensors", "address", "a source: mavlink");
+    if (!needed) {
+        return;
+    }
+    config.sensors = parse_address(kSensorsAddress);
+    if (const YamlNode* text = find("sensors", "address")) {
+        config.sensors = address(*text, {Medium::udp, Medium::serial},
+                                 "udp:OUR_HOST:PORT or serial:DEVICE:BAUD");
+    }
+}
+
+void Reader::read(CompanionConfig& config) {
+    if (!is_section(&root_)) {
+        fail(root_, "is empty");
+    }
+    check_keys(root_, {"description", "vehicle", "mission", "guidance", "limits", "autopilot",
+                       "sensors", "motion_capture", "lidars", "mechanism", "signing_key_file"});
+    if (const YamlNode* node = root_.find("description")) {
+        config.description = read_text(*node);
+    }
+    read_rows(root_.find("limits"), bind(companion_limits_table(), config.limits));
+    read_vehicle(config);
+    read_autopilot(config);
+    read_motion_capture(config);
+    read_lidars(config);
+    read_mechanism(config);
+    read_sensors(config);
+    if (const YamlNode* node = root_.find("signing_key_file")) {
+        const fs::path file = read_text(*node);
+        config.signing_key_file = file.is_absolute() ? file : folder_ / file;
+    }
+    if (!missing_.empty()) {
+        std::sort(missing_.begin(), missing_.end());
+        missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
+        fail(root_, fmt::format("is half a companion, missing {}", fmt::join(missing_, ", ")));
+    }
+}
+
+std::string text_of(const std::string& text, const std::vector<std::string>& overrides) {
+    std::string all = text;
+    for (const std::string& override_text : overrides) {
+        all += fmt::format("{}# --set {}\n", all.empty() || all.back() == '\n' ? "" : "\n",
+                           override_text);
+    }
+    return all;
+}
+
+}  // namespace
+
+CompanionConfig load_companion(const std::string& wanted, const std::vector<std::string>& overrides,
+                               const fs::path& data_root) {
+    const fs::path data = data_root.empty() ? limpet::data_root() : data_root;
+    const fs::path path =
+        is_path(wanted) ? fs::path(wanted) : find_file(wanted, "companion", data / "companions");
+    const std::string text = read_yaml_text(path);
+    YamlNode root = parse_yaml(text, shown_path(path));
+    for (const std::string& override_text : overrides) {
+        set_override(root, override_text);
+    }
+    CompanionConfig config;
+    config.name = path.stem().string();
+    config.yaml = text_of(text, overrides);
+    Reader(root, data, path.parent_path()).read(config);
+    return config;
+}
+
+}  // namespace limpet

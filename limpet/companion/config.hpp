@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/companion/parameters.hpp"
+#include "limpet/devices/mocap_axes.hpp"
+#include "limpet/guidance/perching.hpp"
+#include "limpet/mavlink/address.hpp"
+
+namespace limpet {
+
+/// Where poses come from.
+enum class PoseSource {
+    natnet,   ///< Motive
+    mavlink,  ///< ODOMETRY on the sensors' wire
+};
+/// Where readings of a kind come from.
+enum class ReadingSource {
+    mavlink,    ///< the sensors' wire
+    autopilot,  ///< its wire, passed on by the autopilot
+    serial,     ///< LiDARs: TFmini Plus; force and pressure: the mechanism's lines
+};
+/// Who switches pump and valve.
+enum class MechanismWire {
+    mavlink,  ///< MAV_CMD_DO_SET_ACTUATOR on the sensors' wire
+    line,     ///< lines over a serial port
+};
+
+/// A companion, checked: nothing downstream reads YAML.
+struct CompanionConfig {
+    std::string name;
+    std::string description;
+    std::string yaml;  ///< the text, with what --set has changed behind it
+    std::string vehicle;
+    std::string mission;  ///< its word
+    PerchingTask task;
+    PerchingParameters guidance;
+    CompanionLimits limits;
+
+    TransportAddress autopilot;
+    int system = 1;
+    bool asks_for_mode = false;
+    std::optional<TransportAddress> sensors;  ///< nothing: no source needs it
+
+    PoseSource pose_source = PoseSource::natnet;
+    TransportAddress pose_address;                 ///< NatNet: where its frames come
+    std::optional<TransportAddress> pose_command;  ///< NatNet: Motive's command port
+    int rigid_body = 1;
+    devices::MocapAxes axes;
+
+    ReadingSource lidar_source = ReadingSource::mavlink;
+    TransportAddress lidar_left;  ///< of serial
+    TransportAddress lidar_right;
+
+    MechanismWire mechanism = MechanismWire::mavlink;
+    TransportAddress mechanism_address;  ///< of line
+    ReadingSource load_source = ReadingSource::mavlink;
+
+    std::filesystem::path signing_key_file;  ///< empty: unsigned
+};
+
+/// Reads and checks one companion. Keys: companions/*.yaml, which name them all.
+/// @param wanted     path of a file, or a name in companions/ of the data
+/// @param overrides  "limits.wait_limit_s=5", in order, before anything is checked
+/// @param data_root  empty: limpet::data_root()
+/// @throws InputError one line: file:line, key, value, what is allowed; or all keys that are
+/// missing
+[[nodiscard]] CompanionConfig load_companion(const std::string& wanted,
+                                             const std::vector<std::string>& overrides = {},
+                                             const std::filesystem::path& data_root = {});
+
+/// What it will do, for people, before it does it: wires, frames, limits, a line each.
+[[nodiscard]] std::vector<std::string> describe(const CompanionConfig& config);
+
+}  // namespace limpet

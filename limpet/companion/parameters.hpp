@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "limpet/core/parameters.hpp"
+
+namespace limpet {
+
+/// Rates and patience of the companion: section `limits` of its file.
+struct CompanionLimits {
+    double guidance_rate_Hz = 50.0;   ///< guidance and set-points
+    double poll_rate_Hz = 500.0;      ///< how often the wires are looked at
+    double pose_rate_Hz = 50.0;       ///< at most so often a pose goes on to the autopilot
+    double pose_limit_s = 0.25;       ///< a motion-capture pose older than this is stale
+    double estimate_limit_s = 0.25;   ///< the autopilot's pose likewise
+    double silence_limit_s = 3.0;     ///< without a heartbeat of the autopilot
+    double late_limit_s = 0.3;        ///< a tick of ours later than this: set-points had stopped
+    double arming_s = 2.0;            ///< from asking to a heartbeat that must show it
+    double agreement_m = 0.3;         ///< motion capture and estimate, before it begins
+    double agreement_deg = 15.0;      ///< the same of the attitude
+    double wait_limit_s = 60.0;       ///< for the inputs
+    double operator_limit_s = 600.0;  ///< for OFFBOARD, armed, in the air
+    double rise_m = 0.3;              ///< with asks_for_mode: so high off its stand it begins
+    double begin_tolerance_m = 0.15;  ///< ... standing as near to that
+    double begin_speed_m_s = 0.1;     ///< ... slower than this
+    double begin_steady_s = 2.0;      ///< ... for so long
+    double hand_back_s = 2.0;         ///< how long hold is asked for, and the end told
+    double mechanism_rate_Hz = 10.0;  ///< pump and valve are said so often
+    double hover_s = 20.0;            ///< of mission hover
+};
+[[nodiscard]] const ParameterTable<CompanionLimits>& companion_limits_table();
+
+/// How motion capture lies in W and the rigid body on the vehicle: numbers of `motion_capture`.
+struct MotionCaptureNumbers {
+    double rigid_body = 1.0;
+    double x_axis_yaw_deg = 0.0;
+    double origin_x_m = 0.0;
+    double origin_y_m = 0.0;
+    double origin_z_m = 0.0;
+    double nose_yaw_deg = 0.0;
+    double pivot_x_m = 0.0;
+    double pivot_y_m = 0.0;
+    double pivot_z_m = 0.0;
+};
+[[nodiscard]] const ParameterTable<MotionCaptureNumbers>& motion_capture_table();
+
+/// The vehicle's number on the wire: `autopilot`.
+struct AutopilotNumbers {
+    double system = 1.0;
+};
+[[nodiscard]] const ParameterTable<AutopilotNumbers>& autopilot_wire_table();
+
+/// All of these for `limpet params`: sections "companion.limits", ...
+[[nodiscard]] std::vector<ParameterInfo> companion_parameters();
+
+}  // namespace limpet

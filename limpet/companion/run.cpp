@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/companion/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view word(CompanionEnd end) {
+    switch (end) {
+        case CompanionEnd::mission_over: return "mission_over";
+        case CompanionEnd::handed_back: return "handed_back";
+        case CompanionEnd::interrupted: return "interrupted";
+        case CompanionEnd::absent: return "absent";
+    }
+    throw InternalError("end of a companion out of range");
+}
+
+Json json_of(const Event& event) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < event.value_count; ++k) {
+        values[std::string(event.values[k].name)] = event.values[k].value;
+    }
+    return {{"t_s", event.time_s},
+            {"name", to_string(event.name)},
+            {"station", event.station},
+            {"reason", event.reason},
+            {"values", values}};
+}
+
+void loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
+          const std::atomic<bool>* stop) {
+    const double period_s = 1.0 / config.limits.guidance_rate_Hz;
+    const double poll_s = 1.0 / config.limits.poll_rate_Hz;
+    double deadline_s = clock.now_s();
+    while (!companion.over()) {
+        double now_s = clock.now_s();
+        companion.tick(now_s, now_s - deadline_s, stop != nullptr && *stop);
+        deadline_s = std::max(deadline_s + period_s, now_s);
+        for (now_s = clock.now_s(); now_s < deadline_s && !companion.over();
+             now_s = clock.now_s()) {
+            companion.poll(now_s);
+            clock.wait_until_s(std::min(deadline_s, now_s + poll_s));
+        }
+    }
+}
+
+}  // namespace
+
+CompanionClock steady_clock(double speed) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    return {.now_s =
+                [begin, speed] {
+                    return speed * std::chrono::duration<double>(Clock::now() - begin).count();
+                },
+            .wait_until_s =
+                [begin, speed](double time_s) {
+                    std::this_thread::sleep_until(
+                        begin + std::chrono::duration_cast<Clock::duration>(
+                                    std::chrono::duration<double>(time_s / speed)));
+                }};
+}
+
+CompanionResult run(const CompanionConfig& config, Wires& wires, const CompanionClock& clock,
+                    const CompanionConduct& conduct, const CompanionWatch& watch) {
+    std::optional<CompanionLog> log;
+    if (!conduct.recording.empty()) {
+        log.emplace(conduct.recording, config);
+    }
+    Companion companion(config, wires, log ? &*log : nullptr, conduct.dry_run, watch);
+    loop(config, companion, clock, conduct.stop);
+    if (log) {
+        log->finish(summary_json(config, companion.result()));
+    }
+    return companion.result();
+}
+
+std::string summary_json(const CompanionConfig& config, const CompanionResult& result) {
+    Json events = Json::array();
+    for (const Event& event : result.events) {
+        events.push_back(json_of(event));
+    }
+    const Json json = {
+        {"companion", config.name},
+        {"end", word(result.end)},
+        {"outcome", std::string(result.outcome ? to_string(*result.outcome) : word(result.end))},
+        {"reason", result.reason},
+        {"attempts", result.attempts},
+        {"events", events},
+        {"ticks", result.ticks},
+        {"late_ticks", result.late_ticks},
+        {"latest_s", result.latest_s}};
+    return json.dump(2);
+}
+
+}  // namespace limpet

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "limpet/devices/mocap_axes.hpp"
+
+/// NatNet, the protocol of OptiTrack's Motive: packets to and from bytes. Little-endian; a header
+/// of message id and payload length (two bytes each), then the payload.
+/// Source: the direct depacketization samples of the NatNet SDK 3.0 to 4.1, as public clients write
+/// them (mje-nz/python_natnet, TimSchneider42/python-natnet-client, libmotioncapture), and packets
+/// of Motive 2.1 kept by the first.
+namespace limpet::devices {
+
+/// Version of the bit stream, as the server says; 3.0 to 4.x are understood.
+struct NatNetVersion {
+    std::uint8_t major = 3;
+    std::uint8_t minor = 1;
+    friend bool operator==(const NatNetVersion&, const NatNetVersion&) = default;
+};
+[[nodiscard]] bool understood(NatNetVersion version);
+/// From 4.1 on every section of a frame says how long it is.
+[[nodiscard]] bool has_section_sizes(NatNetVersion version);
+
+inline constexpr std::uint16_t kNatNetCommandPort = 1510;
+inline constexpr std::uint16_t kNatNetDataPort = 1511;
+inline constexpr std::string_view kNatNetGroup = "239.255.42.99";
+/// Longest datagram that Motive sends: UDP's own limit.
+inline constexpr std::size_t kNatNetLongest_bytes = 65507;
+
+enum class NatNetMessage : std::uint16_t {
+    connect = 0,
+    server_info = 1,
+    frame_of_data = 7,
+    keep_alive = 10,
+};
+
+/// @return what the packet says it is; nothing if it is shorter than its header says, or other
+[[nodiscard]] std::optional<NatNetMessage> natnet_message(std::span<const std::byte> packet);
+
+/// A rigid body in one frame.
+struct NatNetBody {
+    std::int32_t id = 1;  ///< the streaming id in Motive
+    MocapPose pose = {};
+    double mean_error_m = 0.0;    ///< of its markers
+    bool tracking_valid = false;  ///< false: not seen in this frame, the pose is an old one
+};
+
+/// What Limpet wants to know of a frame of motion-capture data.
+struct NatNetFrame {
+    std::int32_t number = 0;
+    double motive_time_s = 0.0;            ///< since Motive's start of streaming
+    std::uint64_t mid_exposure_ticks = 0;  ///< of the server's clock, see NatNetServer
+    std::uint64_t transmit_ticks = 0;
+    bool models_changed = false;          ///< the list of assets has changed
+    std::optional<NatNetBody> body = {};  ///< the one asked for; nothing: it is not streamed
+};
+
+/// Never reads past the end, whatever the bytes are.
+/// @param body_id  streaming id of the rigid body asked for
+/// @return nothing when it is no frame, is cut, miscounts, or holds a pose that is not finite
+[[nodiscard]] std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet,
+                                                      NatNetVersion version, std::int32_t body_id);
+
+/// What a server says of itself.
+struct NatNetServer {
+    NatNetVersion version = {};
+    std::uint64_t clock_Hz = 0;  ///< of its ticks; 0: not told
+    std::uint16_t data_port = kNatNetDataPort;
+    bool multicast = true;
+};
+[[nodiscard]] std::optional<NatNetServer> decode_server(std::span<const std::byte> packet);
+
+/// Room for every packet that Limpet makes.
+inline constexpr std::size_t kNatNetRoom_bytes = 512;
+using NatNetBuffer = std::array<std::byte, kNatNetRoom_bytes>;
+
+// Each returns the part of `into` that is the packet.
+
+/// Asks who is there, and in unicast to be sent frames.
+[[nodiscard]] std::span<const std::byte> encode_connect(NatNetVersion version, NatNetBuffer& into);
+/// Unicast: Motive stops streaming to who says nothing.
+[[nodiscard]] std::span<const std::byte> encode_keep_alive(NatNetBuffer& into);
+[[nodiscard]] std::span<const std::byte> encode_server(const NatNetServer& server,
+                                                       NatNetBuffer& into);
+/// A frame with no or one rigid body and nothing else.
+[[nodiscard]] std::span<const std::byte> encode_frame(const NatNetFrame& frame,
+                                                      NatNetVersion version, NatNetBuffer& into);
+
+}  // namespace limpet::devices

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "limpet/devices/natnet.hpp"
+
+// Frame of data, in the order of the wire; "n" is a count (4 bytes), from 4.1 on followed by the
+// section's length in bytes (4):
+//
+//   number, n marker sets, n unlabelled markers, n rigid bodies, n skeletons, n assets (4.1),
+//   n labelled markers, n force plates, n devices, suffix
+//
+// Suffix: time code (4, 4), time (double), three clocks (8 each), in 4.1 perhaps a precision time
+// (8), flags (2), end (4).
+
+namespace limpet::devices {
+namespace {
+
+constexpr std::size_t kHeader_bytes = 4;
+constexpr std::size_t kVector_bytes = 12;
+constexpr std::size_t kRigidBody_bytes = 38;
+constexpr std::size_t kMarker_bytes = 26;
+constexpr std::size_t kSuffix_bytes = 42;  // without precision time and end
+constexpr std::size_t kPrecisionTime_bytes = 8;
+constexpr std::size_t kServerName_bytes = 256;
+constexpr std::uint16_t kModelsChanged = 2;
+constexpr double kQuaternionTolerance = 0.1;  // float noise is 1e-6; garbage is anywhere
+
+/// Reads on; once something is missing, all that follows is zero and `whole` false.
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> bytes) : left_(bytes) {}
+
+    template <class T>
+    T take() {
+        T value{};
+        if (const auto* bytes = take_bytes(sizeof(T))) {
+            std::memcpy(&value, bytes, sizeof(T));  // little-endian, as every host we build for
+        }
+        return value;
+    }
+
+    Vector3 take_vector() {
+        const auto x = take<float>();
+        const auto y = take<float>();
+        const auto z = take<float>();
+        return {x, y, z};
+    }
+
+    void skip(std::size_t bytes) { (void)take_bytes(bytes); }
+
+    /// `count` things of `size` bytes each; no overflow, since both fit in 32 bits.
+    void skip_many(std::size_t count, std::size_t size) { skip(count * size); }
+
+    void skip_text() {
+        const auto end = std::find(left_.begin(), left_.end(), std::byte{0});
+        skip(static_cast<std::size_t>(end - left_.begin()) + 1);
+    }
+
+    /// A count that the bytes which are left can hold.
+    /// @param size  of the smallest thing counted
+    std::size_t take_count(std::size_t size) {
+        const auto count = take<std::int32_t>();
+        if (count < 0 || static_cast<std::size_t>(count) > left_.size() / size) {
+            fail();
+            return 0;
+        }
+        return static_cast<std::size_t>(count);
+    }
+
+    void fail() {
+        left_ = {};
+        whole_ = false;
+    }
+    [[nodiscard]] bool whole() const { return whole_; }
+    [[nodiscard]] std::size_t left() const { return left_.size(); }
+
+private:
+    const std::byte* take_bytes(std::size_t count) {
+        if (count > left_.size()) {
+            fail();
+            return nullptr;
+        }
+        const std::byte* bytes = left_.data();
+        left_ = left_.subspan(count);
+        return bytes;
+    }
+
+    std::span<const std::byte> left_;
+    bool whole_ = true;
+};
+
+/// A section that nobody here wants.
+/// @param size  of its smallest element
+template <class SkipElement>
+void skip_section(Reader& reader, NatNetVersion version, std::size_t size,
+                  const SkipElement& skip_element) {
+    if (has_section_sizes(version)) {
+        (void)reader.take<std::int32_t>();
+        reader.skip(reader.take<std::uint32_t>());
+        return;
+    }
+    const std::size_t count = reader.take_count(size);
+    for (std::size_t i = 0; i < count && reader.whole(); ++i) {
+        skip_element();
+    }
+}
+
+NatNetBody take_body(Reader& reader) {
+    NatNetBody body;
+    body.id = reader.take<std::int32_t>();
+    body.pose.p_MP_m = reader.take_vector();
+    const Vector3 xyz = reader.take_vector();
+    body.pose.q_MP = Quaternion(reader.take<float>(), xyz.x(), xyz.y(), xyz.z());
+    body.mean_error_m = reader.take<float>();
+    body.tracking_valid = (reader.take<std::uint16_t>() & 1U) != 0;
+    return body;
+}
+
+bool plausible(const MocapPose& pose) {
+    return pose.p_MP_m.allFinite() && pose.q_MP.coeffs().allFinite() &&
+           std::abs(pose.q_MP.norm() - 1.0) < kQuaternionTolerance;
+}
+
+std::optional<NatNetBody> take_bodies(Reader& reader, NatNetVersion version, std::int32_t id) {
+    std::optional<NatNetBody> found;
+    const std::size_t count = reader.take_count(kRigidBody_bytes);
+    if (has_section_sizes(version) && reader.take<std::uint32_t>() != count * kRigidBody_bytes) {
+        reader.fail();  // of a shape that we do not know
+    }
+    for (std::size_t i = 0; i < count && reader.whole(); ++i) {
+        const NatNetBody body = take_body(reader);
+        if (body.id == id && !found) {
+            found = body;
+        }
+    }
+    return found;
+}
+
+void skip_to_suffix(Reader& reader, NatNetVersion version) {
+    const auto channels = [&reader] {  // of a force plate or a device
+        reader.skip(4);
+        const std::size_t count = reader.take_count(4);
+        for (std::size_t i = 0; i < count && reader.whole(); ++i) {
+            reader.skip_many(reader.take_count(4), 4);
+        }
+    };
+    skip_section(reader, version, 8, [&reader] {  // skeletons
+        reader.skip(4);
+        reader.skip_many(reader.take_count(kRigidBody_bytes), kRigidBody_bytes);
+    });
+    if (has_section_sizes(version)) {  // assets
+        skip_section(reader, version, 1, [] {});
+    }
+    skip_section(reader, version, kMarker_bytes, [&reader] { reader.skip(kMarker_bytes); });
+    skip_section(reader, version, 8, channels);  // force plates
+    skip_section(reader, version, 8, channels);  // devices
+}
+
+void take_suffix(Reader& reader, NatNetVersion version, NatNetFrame& frame) {
+    const bool precise =
+        has_section_sizes(version) && reader.left() >= kSuffix_bytes + kPrecisionTime_bytes;
+    reader.skip(8);
+    frame.motive_time_s = reader.take<double>();
+    frame.mid_exposure_ticks = reader.take<std::uint64_t>();
+    reader.skip(8);
+    frame.transmit_ticks = reader.take<std::uint64_t>();
+    reader.skip(precise ? kPrecisionTime_bytes : 0);
+    frame.models_changed = (reader.take<std::uint16_t>() & kModelsChanged) != 0;
+}
+
+/// @return the payload of a packet of this kind
+std::optional<Reader> payload(std::span<const std::byte> packet, NatNetMessage kind) {
+    if (natnet_message(packet) != kind) {
+        return std::nullopt;
+    }
+    Reader header(packet);
+    header.skip(2);
+    const auto length = header.take<std::uint16_t>();
+    return Reader(packet.subspan(kHeader_bytes, length));
+}
+
+}  // namespace
+
+bool understood(NatNetVersion version) {
+    return version.major == 3 || version.major == 4;
+}
+
+bool has_section_sizes(NatNetVersion version) {
+    return version.major == 4 && version.minor >= 1;
+}
+
+std::optional<NatNetMessage> natnet_message(std::span<const std::byte> packet) {
+    Reader reader(packet);
+    const auto id = reader.take<std::uint16_t>();
+    const auto length = reader.take<std::uint16_t>();
+    if (!reader.whole() || reader.left() < length) {
+        return std::nullopt;
+    }
+    for (const NatNetMessage kind : {NatNetMessage::connect, NatNetMessage::server_info,
+                                     NatNetMessage::frame_of_data, NatNetMessage::keep_alive}) {
+        if (id == static_cast<std::uint16_t>(kind)) {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet, NatNetVersion version,
+                                        std::int32_t body_id) {
+    std::optional<Reader> reader = payload(packet, NatNetMessage::frame_of_data);
+    if (!reader || !understood(version)) {
+        return std::nullopt;
+    }
+    NatNetFrame frame;
+    frame.number = reader->take<std::int32_t>();
+    skip_section(*reader, version, 5, [&reader] {  // marker sets
+        reader->skip_text();
+        reader->skip_many(reader->take_count(kVector_bytes), kVector_bytes);
+    });
+    skip_section(*reader, version, kVector_bytes, [&reader] { reader->skip(kVector_bytes); });
+    frame.body = take_bodies(*reader, version, body_id);
+    skip_to_suffix(*reader, version);
+    take_suffix(*reader, version, frame);
+    if (!reader->whole() || !std::isfinite(frame.motive_time_s)) {
+        return std::nullopt;
+    }
+    if (frame.body && !plausible(frame.body->pose)) {
+        if (frame.body->tracking_valid) {
+            return std::nullopt;
+        }
+        frame.body->pose = {};  // not seen yet: nothing is known
+    }
+    return frame;
+}
+
+std::optional<NatNetServer> decode_server(std::span<const std::byte> packet) {
+    std::optional<Reader> reader = payload(packet, NatNetMessage::server_info);
+    if (!reader) {
+        return std::nullopt;
+    }
+    NatNetServer server;
+    reader->skip(kServerName_bytes + 4);  // name and version of the program
+    server.version.major = reader->take<std::uint8_t>();
+    server.version.minor = reader->take<std::uint8_t>();
+    reader->skip(2);
+    if (!reader->whole()) {
+        return std::nullopt;
+    }
+    if (reader->left() >= 15) {  // 3.0 and later
+        server.clock_Hz = reader->take<std::uint64_t>();
+        server.data_port = reader->take<std::uint16_t>();
+        server.multicast = reader->take<std::uint8_t>() != 0;
+    }
+    return server;
+}
+
+}  // namespace limpet::devices

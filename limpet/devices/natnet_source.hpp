@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "limpet/devices/natnet.hpp"
+#include "limpet/mavlink/transport.hpp"
+
+namespace limpet::devices {
+
+/// Motive's end of NatNet, for simulators: tells who asks what it is and streams frames. With a
+/// group to stream to it is a multicast server, without one it streams to who said connect. For
+/// one thread; allocates nothing once running.
+class NatNetSource {
+public:
+    /// @param group    speaks to the multicast group; null: unicast
+    /// @param command  listens on the command port; may be null with a group
+    NatNetSource(NatNetServer server, std::unique_ptr<Transport> group,
+                 std::unique_ptr<Transport> command);
+
+    /// Answers whoever has asked since.
+    void answer();
+    /// Waits for no one: a frame that nobody can take is gone.
+    void stream(const NatNetFrame& frame);
+
+    /// Unicast: somebody has said connect. Multicast: nobody knows, false.
+    [[nodiscard]] bool connected() const { return connected_; }
+    [[nodiscard]] const NatNetServer& server() const { return server_; }
+    [[nodiscard]] std::string describe() const;
+
+private:
+    NatNetServer server_;
+    std::unique_ptr<Transport> group_;
+    std::unique_ptr<Transport> command_;
+    bool connected_ = false;
+};
+
+}  // namespace limpet::devices

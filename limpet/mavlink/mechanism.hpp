@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "limpet/mavlink/messages.hpp"
+
+/// Pump and valve over MAVLink: between a companion and the perching mechanism, not through the
+/// autopilot, whose outputs drop to 0 when it disarms (px4.md).
+namespace limpet::mavlink {
+
+/// The mechanism's component id in the vehicle's system. Source: common.xml, MAV_COMP_ID_USER1
+inline constexpr std::uint8_t kMechanismComponent = 25;
+/// MAV_CMD_DO_SET_ACTUATOR. Source: common.xml
+inline constexpr std::uint16_t kCommandSetActuator = 187;
+/// A companion's last heartbeats: the mission is over. Source: common.xml, MAV_STATE_POWEROFF
+inline constexpr std::uint8_t kStatePowerOff = 7;
+
+/// What the mechanism shall do. It keeps its last state when nobody speaks: a vehicle on a wall
+/// must not drop because a computer failed.
+struct MechanismCommand {
+    bool pump_on = false;
+    bool valve_open = false;
+    friend bool operator==(const MechanismCommand&, const MechanismCommand&) = default;
+};
+
+/// First actuator: pump, second: valve, 1 on, 0 off.
+/// @param confirmation  how often it was said before
+[[nodiscard]] inline CommandLong actuator_command(const MechanismCommand& command,
+                                                  std::uint8_t system, std::uint8_t confirmation) {
+    CommandLong message;
+    message.target_system = system;
+    message.target_component = kMechanismComponent;
+    message.command = kCommandSetActuator;
+    message.confirmation = confirmation;
+    message.param1 = command.pump_on ? 1.0F : 0.0F;
+    message.param2 = command.valve_open ? 1.0F : 0.0F;
+    return message;
+}
+
+/// @return nothing for another command or another component; what is no number counts as off
+[[nodiscard]] inline std::optional<MechanismCommand> mechanism_command(const CommandLong& message) {
+    if (message.command != kCommandSetActuator ||
+        (message.target_component != kMechanismComponent && message.target_component != 0)) {
+        return std::nullopt;
+    }
+    return MechanismCommand{.pump_on = message.param1 > 0.5F, .valve_open = message.param2 > 0.5F};
+}
+
+}  // namespace limpet::mavlink

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/companion/rehearsal.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<EventName> names(const CompanionResult& result) {
+    std::vector<EventName> list;
+    for (const Event& event : result.events) {
+        list.push_back(event.name);
+    }
+    return list;
+}
+
+TEST(Companion, PerchesAndTakesOffOverItsWires) {
+    Rehearsal r;
+    ASSERT_TRUE(r.run_to(PerchingState::resting)) << testing::PrintToString(r.lines);
+    r.tick();
+    r.stage.step();
+    EXPECT_FALSE(r.stage.armed);
+    EXPECT_GE(r.stage.autopilot.disarms, 1);
+    EXPECT_TRUE(r.stage.mechanism.pump_on);
+    ASSERT_TRUE(r.run_out());
+    EXPECT_EQ(r.result().end, CompanionEnd::mission_over);
+    EXPECT_EQ(r.result().outcome, Outcome::released);
+    using enum EventName;
+    EXPECT_THAT(names(r.result()), ElementsAre(pre_positioned, approach_started, impact, hold_over,
+                                               landing_started, perched, motors_off, motors_on,
+                                               level, pump_off, pressure_released, backed_off));
+    EXPECT_EQ(r.stage.sensors.events, names(r.result()));
+    EXPECT_EQ(r.stage.sensors.outcome, "released");
+    EXPECT_TRUE(r.stage.sensors.over);
+    EXPECT_GE(r.stage.autopilot.holds, 1) << "in the air it ends in hold";
+    EXPECT_FALSE(r.stage.mechanism.pump_on);
+    EXPECT_EQ(r.stage.autopilot.drops, 0);
+}
+
+TEST(Companion, SendsPosesOnAtMostAtTheirRate) {
+    Rehearsal fast({"limits.pose_rate_Hz=25"});
+    fast.run(10.0);
+    EXPECT_NEAR(fast.stage.autopilot.poses, 250, 5);  // 50 Hz come in
+    Rehearsal all({"limits.pose_rate_Hz=100"});
+    all.run(10.0);
+    EXPECT_NEAR(all.stage.autopilot.poses, 500, 5);
+}
+
+TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
+    Rehearsal r({"limits.wait_limit_s=10"});
+    r.stage.puppet.force_works = false;
+    r.stage.tells_pose = false;
+    r.run(5.0);
+    EXPECT_TRUE(r.said("waits for force, the autopilot tells no fresh pose"))
+        << testing::PrintToString(r.lines);
+    ASSERT_TRUE(r.run_out(6.0));
+    EXPECT_EQ(r.result().end, CompanionEnd::absent);
+    EXPECT_THAT(r.result().reason, testing::HasSubstr("waited 10 s for force"));
+    EXPECT_EQ(r.stage.autopilot.set_points, 0);
+    EXPECT_EQ(r.stage.autopilot.arms, 0);
+}
+
+TEST(Companion, WaitsForEachOfItsInputs) {
+    const auto waits = [](const auto& breaks, const std::string& what) {
+        Rehearsal r;
+        breaks(r.stage);
+        r.run(2.0);
+        EXPECT_EQ(r.companion->phase(), Phase::waiting) << what;
+        EXPECT_TRUE(r.said(what)) << what << testing::PrintToString(r.lines);
+        EXPECT_EQ(r.stage.autopilot.set_points, 0) << what;
+    };
+    waits([](Stage& s) { s.motion_capture_works = false; }, "motion-capture pose");
+    waits([](Stage& s) { s.puppet.lidar_works = false; }, "left LiDAR, right LiDAR");
+    waits([](Stage& s) { s.puppet.force_works = false; }, "force");
+    waits([](Stage& s) { s.puppet.pressure_works = false; }, "cup pressure");
+    waits([](Stage& s) { s.beats = false; }, "no heartbeat of the autopilot");
+    waits([](Stage& s) { s.tells_pose = false; }, "no fresh pose");
+    waits([](Stage& s) { s.mechanism_answers = false; }, "an answer of pump and valve");
+    waits(
+        [](Stage& s) {
+            s.motion_capture_off_m = {0.0, 0.5, 0.0};
+        },
+        "motion capture and the autopilot's pose to agree (now 0.50 m and 0 deg apart)");
+}
+
+TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
+    Rehearsal r;
+    r.stage.mechanism.pump_on = true;
+    r.stage.puppet.vacuum_Pa = 60000.0;
+    r.stage.puppet.estimate.p_WB_m.x() = Puppet::kWall_m - Puppet::kLip_m;
+    for (int i = 0; i < 100; ++i) {  // the vacuum is there before the companion
+        r.stage.step();
+    }
+    r.run(3.0);
+    EXPECT_EQ(r.companion->phase(), Phase::waiting);
+    EXPECT_TRUE(r.said("the cup to be free (it holds 60")) << testing::PrintToString(r.lines);
+    EXPECT_EQ(r.stage.sensors.commands, 0);
+    EXPECT_TRUE(r.stage.mechanism.pump_on);
+}
+
+TEST(Companion, LeavesArmingAndModeToTheOperator) {
+    Rehearsal r({"autopilot.asks_for_mode=false"});
+    r.run(5.0);
+    EXPECT_EQ(r.companion->phase(), Phase::ready);
+    EXPECT_GT(r.stage.autopilot.set_points, 100) << "they must stream before OFFBOARD is chosen";
+    r.stage.mode = Stage::kOffboard;
+    r.run(1.0);
+    EXPECT_EQ(r.companion->phase(), Phase::ready) << "on the ground, disarmed";
+    r.stage.armed = true;
+    r.run(1.0);
+    EXPECT_EQ(r.companion->phase(), Phase::ready) << "on the ground";
+    r.stage.landed_state = 2;
+    r.run(0.1);
+    EXPECT_EQ(r.companion->phase(), Phase::flying);
+    EXPECT_EQ(r.stage.autopilot.arms + r.stage.autopilot.disarms, 0);
+    EXPECT_EQ(r.stage.autopilot.offboards, 0);
+}
+
+TEST(Companion, ThatComesToAVehicleInTheAirNeverStopsItsMotors) {
+    Rehearsal r({"autopilot.asks_for_mode=false"});
+    r.stage.armed = true;
+    r.stage.landed_state = 2;
+    r.stage.mode = Stage::kOffboard;
+    r.stage.puppet.force_works = false;
+    r.run(1.0);
+    EXPECT_EQ(r.companion->phase(), Phase::waiting);
+    r.stage.puppet.force_works = true;
+    r.run(1.0);
+    EXPECT_EQ(r.companion->phase(), Phase::flying);
+    EXPECT_EQ(r.stage.autopilot.disarms, 0);
+    EXPECT_EQ(r.stage.autopilot.drops, 0);
+}
+
+TEST(Companion, IsNotWaitedForLongerThanTheOperatorsLimit) {
+    Rehearsal r({"autopilot.asks_for_mode=false", "limits.operator_limit_s=5"});
+    ASSERT_TRUE(r.run_out(8.0));
+    EXPECT_EQ(r.result().end, CompanionEnd::absent);
+    EXPECT_THAT(r.result().reason, testing::HasSubstr("waits for the mode OFFBOARD"));
+}
+
+TEST(Companion, FailsToSealAsInTheSimulationAndEndsInTheAir) {
+    Rehearsal r({"guidance.attempts=2"});
+    r.stage.puppet.seals = false;
+    ASSERT_TRUE(r.run_out());
+    EXPECT_EQ(r.result().end, CompanionEnd::mission_over);
+    EXPECT_EQ(r.result().outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(r.result().attempts, 2);
+    EXPECT_EQ(r.stage.sensors.outcome, "failed_to_seal");
+}
+
+TEST(Companion, APerchThatIsAskedToStayEndsOnTheWallWithThePumpOn) {
+    Rehearsal r({"mission=perch"});
+    ASSERT_TRUE(r.run_out());
+    EXPECT_EQ(r.result().end, CompanionEnd::mission_over);
+    EXPECT_EQ(r.result().outcome, Outcome::perched);
+    EXPECT_TRUE(r.stage.mechanism.pump_on);
+    EXPECT_FALSE(r.stage.armed);
+    EXPECT_EQ(r.stage.autopilot.holds, 0) << "hold would pry at the cup";
+}
+
+// --- dry run ----------------------------------------------------------------------------------
+
+TEST(DryRun, SendsNothingAndSaysWhatItWouldDo) {
+    Rehearsal r({}, true);
+    r.stage.beats = false;  // no autopilot is needed
+    r.stage.tells_pose = false;
+    // Somebody carries the vehicle to the pre-position.
+    r.stage.puppet.estimate.p_WB_m.x() =
+        Puppet::kWall_m - r.config.guidance.pre_distance_m - r.config.guidance.lidar_x_m;
+    r.run(4.0);
+    EXPECT_EQ(r.companion->phase(), Phase::flying);
+    EXPECT_EQ(r.companion->memory().state, PerchingState::approaching);
+    EXPECT_EQ(r.stage.autopilot.frames, 0);
+    EXPECT_EQ(r.stage.sensors.frames, 0);
+    for (const char* line : {"state     pre_positioning", "set-point position (", "motors    on",
+                             "state     approaching", "set-point velocity (", "pump      on"}) {
+        EXPECT_TRUE(r.said(line)) << line << testing::PrintToString(r.lines);
+    }
+    EXPECT_LT(r.lines.size(), 40U) << "a line a change";
+    r.interrupted = true;
+    r.run(1.0);
+    EXPECT_TRUE(r.companion->over());
+    EXPECT_EQ(r.stage.autopilot.frames + r.stage.sensors.frames, 0);
+}
+
+TEST(PoseEstimate, FollowsAStraightRunAndATurn) {
+    PoseEstimate estimate;
+    const double speed_m_s = 0.5;
+    const double rate_rad_s = 0.3;
+    for (int i = 0; i <= 200; ++i) {
+        const double t_s = 0.01 * i;
+        estimate.update({t_s,
+                         {.p_WB_m = {speed_m_s * t_s, 0.0, -1.0},
+                          .q_WB = quaternion_from_euler({.yaw_rad = rate_rad_s * t_s})}});
+    }
+    const Estimate now = estimate.estimate(true);
+    EXPECT_NEAR(now.v_WB_m_s.x(), speed_m_s, 1e-6);
+    EXPECT_NEAR(now.w_WB_B_rad_s.z(), rate_rad_s, 1e-6);
+    EXPECT_NEAR(now.p_WB_m.x(), 1.0, 1e-12);
+    EXPECT_TRUE(now.valid);
+    EXPECT_FALSE(estimate.estimate(false).valid);
+    EXPECT_FALSE(PoseEstimate().estimate(true).valid);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/mechanism.hpp"
+#include "limpet/mavlink/mission_report.hpp"
+#include "limpet/mavlink/translate.hpp"
+#include "tests/guidance/puppet.hpp"
+
+namespace limpet {
+
+/// What the autopilot's end has heard.
+struct HeardByAutopilot {
+    int set_points = 0;
+    int poses = 0;
+    int heartbeats = 0;
+    int holds = 0;      ///< AUTO.LOITER asked for
+    int offboards = 0;  ///< OFFBOARD asked for
+    int arms = 0;
+    int disarms = 0;
+    int frames = 0;
+    int drops = 0;  ///< no thrust asked for in free flight
+};
+
+/// What the sensors' end has heard.
+struct HeardBySensors {
+    int commands = 0;
+    int frames = 0;
+    bool over = false;  ///< the companion's last heartbeat
+    std::string outcome;
+    std::vector<EventName> events;
+};
+
+/// The outside of a companion, in this process and over real loopback sockets: an autopilot with
+/// PX4's manners as far as a companion sees them, sensors, a mechanism, and a vehicle on strings.
+class Stage {
+public:
+    static constexpr std::uint32_t kOffboard = 6U << 16U;
+    static constexpr std::uint32_t kLoiter = (4U << 16U) | (3U << 24U);
+    static constexpr std::uint32_t kPosition = 3U << 16U;
+
+    Stage(const TransportAddress& autopilot_address, const TransportAddress& sensors_address)
+        : autopilot_(open_transport(autopilot_address, Role::connect),
+                     {1, mavlink::kAutopilotComponent}),
+          sensors_(open_transport(sensors_address, Role::connect),
+                   {1, mavlink::kMechanismComponent}) {}
+
+    Puppet puppet;
+    HeardByAutopilot autopilot;
+    HeardBySensors sensors;
+    std::uint32_t mode = kPosition;
+    bool armed = false;
+    std::uint8_t landed_state = 1;
+    mavlink::MechanismCommand mechanism;
+    Setpoint setpoint;
+
+    // what is broken
+    bool beats = true;
+    bool tells_pose = true;
+    bool motion_capture_works = true;
+    bool mechanism_answers = true;
+    bool obeys_mode = true;
+    bool obeys_arming = true;
+    Vector3 motion_capture_off_m = Vector3::Zero();
+
+    /// Puppet::kDt_s of the world: hears, moves, tells.
+    void step() {
+        hear();
+        puppet.memory.setpoint = followed();
+        puppet.step_world();
+        tell();
+    }
+
+    [[nodiscard]] double time_s() const { return puppet.time_s; }
+
+private:
+    [[nodiscard]] Setpoint followed() const {
+        const bool flies = armed && mode == kOffboard;
+        Setpoint now = flies ? setpoint : Setpoint{.motion = standing()};
+        now.pump_on = mechanism.pump_on;
+        now.valve_open = mechanism.valve_open;
+        return now;
+    }
+    /// Without us: stays where it is, as it is.
+    [[nodiscard]] decltype(Setpoint::motion) standing() const {
+        if (euler_from_quaternion(puppet.estimate.q_WB).pitch_rad > 0.1) {
+            return AttitudeSetpoint{.q_WB = puppet.estimate.q_WB};
+        }
+        return PositionSetpoint{.p_W_m = puppet.estimate.p_WB_m, .yaw_rad = puppet.yaw_rad};
+    }
+
+    void hear() {
+        while (const auto frame = autopilot_.receive()) {
+            ++autopilot.frames;
+            hear_autopilot(*frame);
+        }
+        while (const auto frame = sensors_.receive()) {
+            ++sensors.frames;
+            hear_sensors(*frame);
+        }
+    }
+
+    void hear_autopilot(const mavlink::Frame& frame) {
+        if (const auto target = mavlink::decode<mavlink::SetPositionTargetLocalNed>(frame)) {
+            ++autopilot.set_points;
+            if (const auto position = mavlink::position_set_point(*target)) {
+                setpoint.motion = *position;
+            } else if (const auto velocity = mavlink::velocity_set_point(*target)) {
+                setpoint.motion = *velocity;
+            }
+        } else if (const auto attitude = mavlink::decode<mavlink::SetAttitudeTarget>(frame)) {
+            ++autopilot.set_points;
+            if (const auto aim = mavlink::attitude_set_point(*attitude)) {
+                setpoint.motion = *aim;
+                const bool free = puppet.estimate.p_WB_m.x() < Puppet::kWall_m - 0.6;
+                autopilot.drops += armed && landed_state == 2 && free && aim->thrust <= 0.0;
+            }
+        } else if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
+            obey(*command);
+        } else if (mavlink::decode<mavlink::Odometry>(frame)) {
+            ++autopilot.poses;
+        } else if (mavlink::decode<mavlink::Heartbeat>(frame)) {
+            ++autopilot.heartbeats;
+        }
+    }
+
+    void obey(const mavlink::CommandLong& command) {
+        if (command.command == mavlink::kCommandSetMode) {
+            const bool offboard = command.param2 == 6.0F;
+            ++(offboard ? autopilot.offboards : autopilot.holds);
+            if (obeys_mode) {
+                mode = offboard ? kOffboard : kLoiter;
+            }
+        } else if (command.command == mavlink::kCommandArm) {
+            ++(command.param1 > 0.5F ? autopilot.arms : autopilot.disarms);
+            if (obeys_arming) {
+                armed = command.param1 > 0.5F;
+                landed_state = armed ? 2 : landed_state;
+            }
+        }
+    }
+
+    void hear_sensors(const mavlink::Frame& frame) {
+        if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
+            if (const auto asked = mavlink::mechanism_command(*command)) {
+                ++sensors.commands;
+                if (mechanism_answers) {
+                    mechanism = *asked;
+                    mavlink::CommandAck ack;
+                    ack.command = command->command;
+                    (void)sensors_.send(ack);
+                }
+            }
+        } else if (const auto text = mavlink::decode<mavlink::StatusText>(frame)) {
+            if (const auto told = mavlink::told_outcome(*text)) {
+                sensors.outcome = to_string(told->outcome);
+            } else if (const auto event = mavlink::event_name(*text)) {
+                sensors.events.push_back(*event);
+            }
+        } else if (const auto beat = mavlink::decode<mavlink::Heartbeat>(frame)) {
+            sensors.over = sensors.over || beat->system_status == mavlink::kStatePowerOff;
+        }
+    }
+
+    void tell() {
+        const auto boot_ms = static_cast<std::uint32_t>(std::llround(puppet.time_s * 1e3));
+        const auto usec = static_cast<std::uint64_t>(std::llround(puppet.time_s * 1e6));
+        if (beats) {
+            mavlink::Heartbeat beat;
+            beat.type = 2;
+            beat.autopilot = 12;
+            beat.base_mode = armed ? mavlink::kArmedFlag : std::uint8_t{0};
+            beat.custom_mode = mode;
+            (void)autopilot_.send(beat);
+            mavlink::ExtendedSysState state;
+            state.landed_state = landed_state;
+            (void)autopilot_.send(state);
+        }
+        if (tells_pose) {
+            (void)autopilot_.send(mavlink::odometry(puppet.estimate, usec));
+        }
+        if (motion_capture_works) {
+            (void)sensors_.send(mavlink::odometry(
+                PoseReading{.p_WB_m = puppet.estimate.p_WB_m + motion_capture_off_m,
+                            .q_WB = puppet.estimate.q_WB},
+                usec));
+        }
+        tell_readings(boot_ms);
+    }
+
+    void tell_readings(std::uint32_t boot_ms) {
+        const Readings& readings = puppet.readings;
+        if (puppet.lidar_works) {
+            (void)sensors_.send(
+                mavlink::distance_sensor(readings.lidar_left.value, 0, 0.1, 12.0, boot_ms));
+            (void)sensors_.send(
+                mavlink::distance_sensor(readings.lidar_right.value, 1, 0.1, 12.0, boot_ms));
+        }
+        const auto named = [&](std::string_view name, double value) {
+            mavlink::NamedValueFloat message;
+            message.time_boot_ms = boot_ms;
+            mavlink::set_text(message.name, name);
+            message.value = static_cast<float>(value);
+            (void)sensors_.send(message);
+        };
+        if (puppet.force_works) {
+            named(mavlink::kForceName, readings.force.value.axial_N);
+        }
+        if (puppet.pressure_works) {
+            named(mavlink::kPressureName, readings.cup_pressure.value.pressure_Pa / 100.0);
+        }
+    }
+
+    mavlink::Link autopilot_;
+    mavlink::Link sensors_;
+};
+
+}  // namespace limpet

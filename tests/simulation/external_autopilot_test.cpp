@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "flown.hpp"
+#include "limpet/autopilot/builtin.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/simulation/bring_up.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "limpet/simulation/pace.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::HasSubstr;
+
+/// The built-in autopilot as one from outside: no wire, but a boot, an estimator that begins with
+/// what it measures, and, when told to, an end.
+class Outsider final : public ExternalAutopilot {
+public:
+    explicit Outsider(const SimulationModel& model, double boot_s = 1.0)
+        : model_(model.autopilot), boot_s_(boot_s) {}
+
+    /// Fails that long after the vehicle has been armed.
+    void fail_after(double armed_s) { fail_after_s_ = armed_s; }
+
+    Estimate estimate(double time_s) override {
+        Estimate estimate = state_.estimate;
+        estimate.time_s = time_s;
+        estimate.valid = started_ && estimate.valid;
+        return estimate;
+    }
+    RotorCommand control(const Readings& readings, const Setpoint& setpoint, double) override {
+        clock_s_ += 0.004;
+        if (clock_s_ < boot_s_ || !readings.motion_capture.ever()) {
+            return {};
+        }
+        Readings mine = readings;
+        shift(mine);
+        if (!started_) {
+            Estimate begin;
+            begin.time_s = clock_s_;
+            begin.p_WB_m = readings.motion_capture.value.p_WB_m;
+            begin.q_WB = readings.motion_capture.value.q_WB;
+            begin.valid = true;
+            state_ = start(model_, begin);
+            started_ = true;
+        }
+        limpet::estimate(model_, state_, mine);
+        const RotorCommand command = limpet::control(model_, state_, setpoint, clock_s_);
+        armed_s_ += command.armed ? 0.004 : 0.0;
+        return command;
+    }
+    std::optional<std::string_view> failure() const override {
+        return armed_s_ > fail_after_s_ ? std::optional<std::string_view>("as told") : std::nullopt;
+    }
+    double waited_s() const override { return 0.0; }
+    std::string obstacle() const override { return started_ ? "" : "it boots"; }
+
+private:
+    /// Stamps of a clock of its own, which goes on when the flight's begins.
+    void shift(Readings& readings) const {
+        const double ahead_s = clock_s_ - readings.imu.time_s;
+        readings.imu.time_s += ahead_s;
+        readings.motion_capture.time_s += ahead_s;
+    }
+
+    AutopilotModel model_;
+    AutopilotState state_;
+    double boot_s_;
+    double clock_s_ = 0.0;
+    double armed_s_ = 0.0;
+    double fail_after_s_ = 1e9;
+    bool started_ = false;
+};
+
+TEST(BringUp, BeginsTheFlightInHoverAtTheStartWithAllClocksAtZero) {
+    const auto model = model_of("perch_concrete");
+    Outsider outsider(*model);
+    std::vector<std::string> obstacles;
+    BringUp options;
+    options.on_obstacle = [&](const std::string& text) { obstacles.push_back(text); };
+    const Snapshot first = bring_up(*model, outsider, options);
+    EXPECT_EQ(first.state.tick, 0);
+    EXPECT_EQ(first.state.truth.time_s, 0.0);
+    EXPECT_LT((first.state.truth.base.p_WF_m - model->scenario.start.p_WB_m).norm(), 0.15);
+    EXPECT_LT(first.state.truth.base.v_WF_W_m_s.norm(), 0.1);
+    EXPECT_TRUE(first.state.command.armed);
+    EXPECT_FALSE(first.state.sensors.readings.imu.ever());
+    EXPECT_EQ(first.state.truth.battery.energy_used_J, 0.0);
+    EXPECT_THAT(obstacles, testing::ElementsAre("it boots", ""));
+}
+
+TEST(BringUp, GivesUpWithWhatItWaitedFor) {
+    const auto model = model_of("hover");
+    Outsider outsider(*model, 1e9);
+    BringUp options;
+    options.limit_s = 3.0;
+    try {
+        (void)bring_up(*model, outsider, options);
+        FAIL() << "nobody flew";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("3 s of simulated time"));
+        EXPECT_THAT(error.what(), HasSubstr("it boots"));
+    }
+}
+
+TEST(ExternalAutopilot, FliesTheMissionAsTheBuiltInOne) {
+    const auto model = model_of("perch_concrete");
+    Outsider outsider(*model);
+    const FlightResult builtin = fly(model);
+    const FlightResult outside = fly(model, {}, {}, 0, {.autopilot = &outsider});
+    EXPECT_EQ(outside.outcome, Outcome::released) << outside.reason;
+    ASSERT_EQ(outside.events.size(), builtin.events.size());
+    for (std::size_t k = 0; k < builtin.events.size(); ++k) {
+        EXPECT_EQ(outside.events[k].name, builtin.events[k].name);
+        EXPECT_NEAR(outside.events[k].time_s, builtin.events[k].time_s, 0.5)
+            << to_string(builtin.events[k].name);
+    }
+}
+
+TEST(ExternalAutopilot, ItsEndInTheAirIsACrashWithTheReasonAndAWholeRecording) {
+    const auto model = model_of("perch_concrete");
+    Outsider outsider(*model);
+    outsider.fail_after(8.0);  // it took off within five
+    const auto path = std::filesystem::path(testing::TempDir()) / "outsider_fails.mcap";
+    const FlightResult result = fly(model, path, {}, 0, {.autopilot = &outsider});
+    EXPECT_EQ(result.outcome, Outcome::crashed);
+    EXPECT_EQ(result.reason, "as told");
+    const Recording recording = read_recording(path);
+    EXPECT_EQ(recording.damage, "");
+    EXPECT_NE(recording.attachment("summary.json"), nullptr);
+    std::filesystem::remove(path);
+}
+
+TEST(ExternalAutopilot, ItsEndOnTheWallLeavesTheVehicleHanging) {
+    const auto model = model_of("perch_concrete");
+    Outsider outsider(*model);
+    outsider.fail_after(17.0);  // while it lands on its legs
+    const FlightResult result = fly(model, {}, {}, 0, {.autopilot = &outsider});
+    EXPECT_EQ(result.outcome, Outcome::timed_out);
+    EXPECT_EQ(result.reason, "as told");
+}
+
+TEST(Flight, StopsWhenToldWithTheRecordingWhole) {
+    const auto model = model_of("hover");
+    const std::atomic<bool> stop = true;
+    const auto path = std::filesystem::path(testing::TempDir()) / "stopped.mcap";
+    const FlightResult result = fly(model, path, {}, 0, {.stop = &stop});
+    EXPECT_EQ(result.outcome, Outcome::timed_out);
+    EXPECT_EQ(result.reason, "interrupted");
+    EXPECT_EQ(read_recording(path).damage, "");
+    std::filesystem::remove(path);
+}
+
+TEST(Pace, HoldsSimulatedTimeBackAndNeverAhead) {
+    Pace pace(10.0);
+    pace.wait_until(0.5);
+    EXPECT_GE(pace.elapsed_s(), 0.05);
+    Pace free(0.0);
+    free.wait_until(1e6);
+    EXPECT_LT(free.elapsed_s(), 10.0);
+}
+
+}  // namespace
+}  // namespace limpet
