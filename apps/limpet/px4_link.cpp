@@ -106,8 +106,7 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bo
     px4.control_rate_Hz = model.control_rate_Hz;
     px4.flies = flies;
     px4.on_text = [&terminal](const std::string& text) {
-        terminal.line(
-            terminal.dim("          PX4: " + text.substr(0, text.find_last_not_of(" \t\n") + 1)));
+        terminal.line(terminal.dim("          PX4: " + text));
     };
     autopilot_ =
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));

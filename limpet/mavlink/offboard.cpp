@@ -79,7 +79,8 @@ void Offboard::hear(const Frame& frame, double time_s) {
     } else if (const auto system_state = decode<ExtendedSysState>(frame)) {
         report_.landed_state = system_state->landed_state;
     } else if (const auto text = decode<StatusText>(frame)) {
-        report_.text = text_of(text->text);
+        const std::string_view said = text_of(text->text);  // PX4 ends some with a tab
+        report_.text = said.substr(0, said.find_last_not_of(" \t\r\n") + 1);
         ++report_.texts;
     } else if (const auto ack = decode<CommandAck>(frame)) {
         hear_command_ack(*ack);
