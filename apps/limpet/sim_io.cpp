@@ -61,8 +61,11 @@ std::string report_line(const RemoteGuidance& guidance) {
                        count.poses, count.ranges, count.loads, count.commands);
 }
 
-/// The companion's clock runs by itself: there is no "as fast as it goes".
-void check_speed(const SimIoOptions& options) {
+/// Before any work. The companion's clock runs by itself: there is no "as fast as it goes".
+void check(const SimIoOptions& options) {
+    if (!options.expect.empty()) {
+        (void)expected_outcome(options.expect);
+    }
     if (options.px4.speed == "max") {
         throw InputError("--speed max: the companion has its own clock; must be a number");
     }
@@ -72,11 +75,43 @@ void check_speed(const SimIoOptions& options) {
     }
 }
 
-void sim_io(SimIoOptions options, ExitCode& code) {
-    if (!options.expect.empty()) {
-        (void)expected_outcome(options.expect);  // before any work
+/// What is told after the flight, and what is left beside the recording.
+void conclude(const SimIoOptions& options, const FlightResult& result, Px4Link& px4,
+              const RemoteGuidance& guidance, Terminal& terminal) {
+    const std::filesystem::path folder = result.recording.parent_path();
+    const LinkReport link = px4.report(result.performance);
+    terminal.line("");
+    for (const std::string& line : flight_summary(result, terminal)) {
+        terminal.line(line);
     }
-    check_speed(options);
+    for (const std::string& line : lines_of(link, terminal)) {
+        terminal.line(line);
+    }
+    terminal.line(terminal.bold("companion  ") + report_line(guidance));
+    write_file(folder / "link.json", json_of(link) + "\n");
+    if (!options.no_figures && !options.json) {
+        terminal.progress("drawing figures ...");
+        (void)plot(read_recording(result.recording), folder);
+    }
+    if (options.px4.record_wire) {
+        (void)px4.finish_wire_log();
+    }
+    terminal.line(terminal.bold("written    ") + result.recording.string());
+    if (options.json) {
+        fmt::print("{}\n", result_json(result));
+    }
+}
+
+FlightWatch watch(Terminal& terminal) {
+    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+            .on_progress =
+                [&terminal](double time_s, PerchingState state) {
+                    terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
+                }};
+}
+
+void sim_io(SimIoOptions options, ExitCode& code) {
+    check(options);
     if (options.px4.speed.empty()) {
         options.px4.speed = "1";  // the companion's clock is real
     }
@@ -86,53 +121,26 @@ void sim_io(SimIoOptions options, ExitCode& code) {
     }
     const auto model = build_model(scenario);
     RemoteGuidance guidance(open_wires(options.wires), outside_options(options.wires, scenario));
-
-    const std::filesystem::path folder = options.out.empty()
-                                             ? std::filesystem::path("out") / scenario.name
-                                             : std::filesystem::path(options.out);
-    const std::filesystem::path recording = make_folder(folder) / "flight.mcap";
+    const std::filesystem::path folder =
+        make_folder(options.out.empty() ? std::filesystem::path("out") / scenario.name
+                                        : std::filesystem::path(options.out));
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
     say_wires(guidance, terminal);
     const std::atomic<bool>* stop = stop_on_signals();
-    Px4Link px4(options.px4, *model, false, terminal, stop);
+    Px4Link px4(options.px4, *model, false, folder, terminal, stop);
     terminal.line(terminal.dim(event_head()));
-    const FlightResult result =
-        fly(model, recording,
-            {.on_event = [&](const Event& event) { terminal.line(event_line(event)); },
-             .on_progress =
-                 [&](double time_s, PerchingState state) {
-                     terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
-                 }},
-            0,
-            {.autopilot = &px4.autopilot(),
-             .guidance = &guidance,
-             .start_limit_s = options.start_limit_s,
-             .speed = px4.speed(),
-             .stop = stop,
-             .on_obstacle = [&](const std::string& obstacle) {
-                 terminal.line(
-                     terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
-             }});
-
-    terminal.line("");
-    for (const std::string& line : flight_summary(result, terminal)) {
-        terminal.line(line);
-    }
-    for (const std::string& line : px4.report(result.performance, terminal)) {
-        terminal.line(line);
-    }
-    terminal.line(terminal.bold("companion  ") + report_line(guidance));
-    write_file(folder / "link.json", px4.json(result.performance) + "\n");
-    if (!options.no_figures && !options.json) {
-        terminal.progress("drawing figures ...");
-        (void)plot(read_recording(recording), folder);
-    }
-    terminal.line(terminal.bold("written    ") + recording.string());
-    if (options.json) {
-        fmt::print("{}\n", result_json(result));
-    }
+    FlightConduct conduct{.autopilot = &px4.autopilot(),
+                          .guidance = &guidance,
+                          .start_limit_s = options.start_limit_s,
+                          .speed = px4.speed(),
+                          .stop = stop};
+    conduct.on_obstacle = [&terminal](const std::string& obstacle) {
+        terminal.line(terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
+    };
+    const FlightResult result = fly(model, folder / "flight.mcap", watch(terminal), 0, conduct);
+    conclude(options, result, px4, guidance, terminal);
     if (*stop) {
         code = ExitCode::interrupted;
         terminal.line("interrupted; the recording is whole up to here");

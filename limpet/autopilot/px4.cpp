@@ -46,9 +46,12 @@ void Px4Autopilot::listen() {
     }
     const bool follows = options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
     if (follows && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+        const auto begin = std::chrono::steady_clock::now();
         if (const auto frame = offboard_link_.receive(kMoment)) {
             hear(*frame);
         }
+        listening_s_ +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
 }
 

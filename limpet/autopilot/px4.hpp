@@ -33,7 +33,7 @@ public:
     [[nodiscard]] RotorCommand control(const Readings& readings, const Setpoint& setpoint,
                                        double time_s) override;
     [[nodiscard]] std::optional<std::string_view> failure() const override { return failure_; }
-    [[nodiscard]] double waited_s() const override { return hil_.count().waited_s; }
+    [[nodiscard]] double waited_s() const override { return hil_.count().waited_s + listening_s_; }
     [[nodiscard]] std::string obstacle() const override;
 
     [[nodiscard]] const mavlink::HilCount& count() const { return hil_.count(); }
@@ -51,6 +51,7 @@ private:
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
     double listened_s_ = -1.0;
+    double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time
     std::uint64_t told_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
     std::uint64_t texts_ = 0;
     std::optional<std::string_view> failure_;
