@@ -30,7 +30,6 @@ struct OutsideWires {
 struct OutsideOptions {
     devices::MocapAxes axes;
     std::int32_t rigid_body = 1;
-    std::uint8_t system = 1;  ///< of the vehicle, on MAVLink
     double lidar_range_min_m = 0.1;
     double lidar_range_max_m = 12.0;
 };
