@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace limpet {
 namespace fs = std::filesystem;
@@ -51,9 +53,11 @@ std::vector<std::string> Bench::files() const {
     return list;
 }
 
-Finished Bench::run(const std::vector<std::string>& arguments) const {
-    const fs::path out = folder_.string() + ".out";
-    const fs::path err = folder_.string() + ".err";
+std::unique_ptr<Running> Bench::start(const std::vector<std::string>& arguments) const {
+    static int count = 0;
+    const std::string stem = folder_.string() + "." + std::to_string(++count);
+    const fs::path out = stem + ".out";
+    const fs::path err = stem + ".err";
     std::vector<std::string> words = {LIMPET_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -68,18 +72,47 @@ Finished Bench::run(const std::vector<std::string>& arguments) const {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
     posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
-    pid_t child = 0;
-    Finished finished;
-    if (posix_spawn(&child, LIMPET_PROGRAM, &actions, nullptr, argv.data(), environ) == 0) {
-        int status = 0;
-        waitpid(child, &status, 0);
-        finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    pid_t child = -1;
+    if (posix_spawn(&child, LIMPET_PROGRAM, &actions, nullptr, argv.data(), environ) != 0) {
+        child = -1;
     }
     posix_spawn_file_actions_destroy(&actions);
-    finished.out = text_of(out);
-    finished.err = text_of(err);
-    fs::remove(out);
-    fs::remove(err);
+    return std::make_unique<Running>(child, out, err);
+}
+
+Finished Bench::run(const std::vector<std::string>& arguments) const {
+    return start(arguments)->wait();
+}
+
+Running::Running(int pid, fs::path out, fs::path err)
+    : pid_(pid), out_(std::move(out)), err_(std::move(err)) {}
+
+Running::~Running() {
+    if (pid_ > 0) {
+        kill(pid_, SIGKILL);
+        (void)wait();
+    }
+}
+
+Finished Running::interrupt() {
+    if (pid_ > 0) {
+        kill(pid_, SIGINT);
+    }
+    return wait();
+}
+
+Finished Running::wait() {
+    Finished finished;
+    if (pid_ > 0) {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    pid_ = -1;
+    finished.out = text_of(out_);
+    finished.err = text_of(err_);
+    fs::remove(out_);
+    fs::remove(err_);
     return finished;
 }
 
