@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <csignal>
 
+#include "free_port.hpp"
 #include "limpet/record/recording.hpp"
 #include "program.hpp"
 
@@ -18,26 +16,12 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// A port that is free on loopback now.
-/// @param type  SOCK_DGRAM or SOCK_STREAM
-std::string free_port(int type) {
-    const int handle = socket(AF_INET, type, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof(address);
-    EXPECT_EQ(bind(handle, reinterpret_cast<sockaddr*>(&address), length), 0);
-    EXPECT_EQ(getsockname(handle, reinterpret_cast<sockaddr*>(&address), &length), 0);
-    close(handle);
-    return std::to_string(ntohs(address.sin_port));
-}
-
 /// Addresses of one set of three processes.
 struct Ports {
-    std::string hil = "tcp:127.0.0.1:" + free_port(SOCK_STREAM);
-    std::string onboard = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
-    std::string companion = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
-    std::string sensors = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
+    std::string hil = "tcp:" + free_port(SOCK_STREAM);
+    std::string onboard = "udp:" + free_port(SOCK_DGRAM);
+    std::string companion = "udp:" + free_port(SOCK_DGRAM);
+    std::string sensors = "udp:" + free_port(SOCK_DGRAM);
 
     [[nodiscard]] std::vector<std::string> companion_words(
         const std::vector<std::string>& more) const {

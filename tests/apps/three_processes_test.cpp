@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's Fig. 5: simulator, autopilot and companion as three programs on loopback.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -12,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "free_port.hpp"
 #include "limpet/record/recording.hpp"
 #include "program.hpp"
 
@@ -20,25 +17,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A port that nobody had a moment ago.
-std::string free_port(int type) {
-    const int probe = ::socket(AF_INET, type, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    EXPECT_EQ(::bind(probe, reinterpret_cast<const sockaddr*>(&address), size), 0);
-    EXPECT_EQ(::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    ::close(probe);
-    return std::to_string(ntohs(address.sin_port));
-}
-
 struct Ports {
-    std::string hil = "tcp:127.0.0.1:" + free_port(SOCK_STREAM);
-    std::string onboard = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
-    std::string autopilot = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
-    std::string sensors = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
-    std::string motive = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
+    std::string hil = "tcp:" + free_port(SOCK_STREAM);
+    std::string onboard = "udp:" + free_port(SOCK_DGRAM);
+    std::string autopilot = "udp:" + free_port(SOCK_DGRAM);
+    std::string sensors = "udp:" + free_port(SOCK_DGRAM);
+    std::string motive = "udp:" + free_port(SOCK_DGRAM);
 };
 
 struct OverDevices : testing::Test {
@@ -107,7 +91,7 @@ TEST_F(OverDevices, ThreeProcessesPerchOverNatNetRangeFindersAndTheMechanismsLin
         "motion_capture:\n"
         "  source: natnet\n"
         "  address: " +
-        ("udp:127.0.0.1:" + free_port(SOCK_DGRAM)) +
+        ("udp:" + free_port(SOCK_DGRAM)) +
         "\n"
         "  command: " +
         ports.motive +
@@ -171,9 +155,9 @@ TEST(SimIo, WhatItCannotUseIsSaidInOneLine) {
     EXPECT_NE(refused({"--lidar-left", "/dev/ttyUSB0"}).find("--lidar-left"), std::string::npos);
     EXPECT_NE(refused({"--mechanism", "pty:/no/such/folder/x"}).find("/no/such/folder/x"),
               std::string::npos);
-    EXPECT_NE(refused({"--hil", "tcp:127.0.0.1:" + free_port(SOCK_STREAM), "--wait", "0.2"})
-                  .find("no PX4 came"),
-              std::string::npos);
+    EXPECT_NE(
+        refused({"--hil", "tcp:" + free_port(SOCK_STREAM), "--wait", "0.2"}).find("no PX4 came"),
+        std::string::npos);
 }
 
 }  // namespace
