@@ -108,6 +108,8 @@ private:
     }
     [[nodiscard]] mavlink::StatusText last_word() const;
     void record(double time_s);
+    template <class Write>
+    void log(double time_s, Write&& write);
     void report(const Event& event);
     void say(double time_s, const std::string& text) const;
     void say_changes(double time_s);
