@@ -75,7 +75,8 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
     result_.last_s = time_s;
     result_.late_ticks += late_s > 1.0 / config_.limits.guidance_rate_Hz ? 1 : 0;
     result_.latest_s = std::max(result_.latest_s, late_s);
-    late_ = late_ || (late_s > config_.limits.late_limit_s && phase_ == Phase::flying);
+    const bool flies_us = phase_ == Phase::flying || (phase_ == Phase::ready && steers());
+    late_ = late_ || (late_s > config_.limits.late_limit_s && flies_us);
     interrupted_ = interrupted_ || interrupted;
 
     poll(time_s);
@@ -130,6 +131,11 @@ Estimate Companion::believe(double time_s) const {
     Estimate estimate = offboard_.estimate(time_s);
     estimate.valid = estimate.valid && pose_fresh;
     return estimate;
+}
+
+/// By its last heartbeat.
+bool Companion::steers() const {
+    return offboard_.report().offboard && offboard_.report().armed;
 }
 
 bool Companion::engaged(double time_s) const {

@@ -89,6 +89,7 @@ private:
     [[nodiscard]] std::string obstacle(double time_s) const;
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     [[nodiscard]] bool engaged(double time_s) const;
+    [[nodiscard]] bool steers() const;
     void wait(double time_s);
     void stay(double time_s);
     void stand_ready(double time_s);
