@@ -88,19 +88,15 @@ void RemoteGuidance::send_loads(const Readings& readings) {
         (void)wires_.sensors->send(message, kNoWait);
     };
     const bool pressure = is_new(readings.cup_pressure, last_.cup_pressure);
-    if (wires_.mechanism != nullptr) {
-        if (pressure) {  // a line carries both: at the slower one's rate
-            ++count_.loads;
-            devices::MechanismBuffer buffer;
-            const std::string_view line =
-                devices::encode({.pump_on = mechanism_.pump_on,
-                                 .valve_open = mechanism_.valve_open,
-                                 .force_N = readings.force.value.axial_N,
-                                 .pressure_Pa = readings.cup_pressure.value.pressure_Pa},
-                                buffer);
-            send_bytes(*wires_.mechanism, std::as_bytes(std::span(line)));
-        }
-        return;
+    if (wires_.mechanism != nullptr && pressure) {
+        devices::MechanismBuffer buffer;  // a line carries both: at the slower one's rate
+        const std::string_view line =
+            devices::encode({.pump_on = mechanism_.pump_on,
+                             .valve_open = mechanism_.valve_open,
+                             .force_N = readings.force.value.axial_N,
+                             .pressure_Pa = readings.cup_pressure.value.pressure_Pa},
+                            buffer);
+        send_bytes(*wires_.mechanism, std::as_bytes(std::span(line)));
     }
     if (is_new(readings.force, last_.force)) {
         send_value(mavlink::kForceName, readings.force.value.axial_N);
