@@ -182,6 +182,7 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
 
 void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& guidance,
                           EventList& events) {
+    companion_heard_ = true;
     if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
         hear_command(frame, *command);
     } else if (const auto text = mavlink::decode<mavlink::StatusText>(frame)) {
@@ -194,7 +195,6 @@ void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& gui
             state_since_s_ = time_s;
         }
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
-        companion_heard_ = true;
         if (heartbeat->system_status == mavlink::kStatePowerOff) {
             end(Outcome::timed_out, last_words_);
         }
