@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -39,13 +40,19 @@ struct MechanismCommand {
     return message;
 }
 
-/// @return nothing for another command or another component; what is no number counts as off
-[[nodiscard]] inline std::optional<MechanismCommand> mechanism_command(const CommandLong& message) {
+/// @param now  what is so: NaN leaves it, as the command has it
+/// @return nothing for another command or another component
+[[nodiscard]] inline std::optional<MechanismCommand> mechanism_command(
+    const CommandLong& message, const MechanismCommand& now) {
     if (message.command != kCommandSetActuator ||
         (message.target_component != kMechanismComponent && message.target_component != 0)) {
         return std::nullopt;
     }
-    return MechanismCommand{.pump_on = message.param1 > 0.5F, .valve_open = message.param2 > 0.5F};
+    const auto switched = [](float value, bool before) {
+        return std::isnan(value) ? before : value > 0.5F;
+    };
+    return MechanismCommand{.pump_on = switched(message.param1, now.pump_on),
+                            .valve_open = switched(message.param2, now.valve_open)};
 }
 
 }  // namespace limpet::mavlink

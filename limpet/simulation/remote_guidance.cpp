@@ -148,7 +148,7 @@ void RemoteGuidance::end(Outcome outcome, std::string_view reason) {
 void RemoteGuidance::hear_command(const Frame& frame, const mavlink::CommandLong& command) {
     constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
     constexpr std::uint8_t kUnsupported = 3;
-    const auto wanted = mavlink::mechanism_command(command);
+    const auto wanted = mavlink::mechanism_command(command, mechanism_);
     if (wanted && wires_.mechanism == nullptr) {
         mechanism_ = *wanted;
     }

@@ -48,7 +48,7 @@ struct OverDevices : testing::Test {
                               "guidance: {sensor_limit_s: 1}\n"
                               "sensors:\n"
                               "  address: " +
-                              ports.sensors + "\n" + sources +);
+                              ports.sensors + "\n" + sources);
     }
 
     void start(const std::string& speed) {

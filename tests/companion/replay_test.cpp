@@ -95,7 +95,7 @@ private:
         }
         while (const auto frame = sensors_.receive()) {
             const auto command = mavlink::decode<mavlink::CommandLong>(*frame);
-            if (command && mavlink::mechanism_command(*command)) {
+            if (command && mavlink::mechanism_command(*command, {})) {
                 mavlink::CommandAck ack;
                 ack.command = command->command;
                 (void)sensors_.send(ack);
