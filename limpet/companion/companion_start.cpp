@@ -44,8 +44,11 @@ std::string Companion::obstacle(double time_s) const {
         return list;
     }
     const mavlink::OffboardState state = offboard_.state(time_s);
-    if (state == mavlink::OffboardState::silent || state == mavlink::OffboardState::unready) {
-        add(offboard_.obstacle(time_s));
+    if (state == mavlink::OffboardState::silent) {
+        add("a heartbeat of the autopilot");
+    } else if (state == mavlink::OffboardState::unready) {
+        const std::string& said = offboard_.report().text;
+        add("a fresh pose of the autopilot" + (said.empty() ? "" : " (it said \"" + said + "\")"));
     } else if (inputs_.pose_fresh(time_s)) {
         const PoseReading& pose = inputs_.readings().motion_capture.value;
         const Estimate estimate = offboard_.estimate(time_s);
@@ -131,7 +134,8 @@ void Companion::stand_ready(double time_s) {
     const bool flies = engaged(time_s) && offboard_.report().armed;
     const Verdict verdict = judge(look(time_s), Place::in_air);
     const std::string missing = obstacle(time_s);
-    if (flies && verdict.action != Action::carry_on) {
+    const bool taken = verdict.action != Action::carry_on && verdict.cause == Cause::mode_taken;
+    if (taken || (flies && verdict.action != Action::carry_on)) {
         leave(verdict.action,
               verdict.cause == Cause::interrupted ? CompanionEnd::interrupted
                                                   : CompanionEnd::handed_back,

@@ -88,7 +88,7 @@ TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
         bench.run(Ports().companion_words({"--set", "limits.wait_limit_s=2", "--speed", "4"}));
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_THAT(finished.out, HasSubstr("waits for motion-capture pose, left LiDAR, right LiDAR, "
-                                        "force, cup pressure, no heartbeat of the autopilot"));
+                                        "force, cup pressure, a heartbeat of the autopilot"));
     EXPECT_THAT(finished.err, HasSubstr("limpet: nothing was flown: waited 2 s for"));
     EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
     EXPECT_EQ(read_recording(bench.folder() / "out/companion/flight.mcap").damage, "");

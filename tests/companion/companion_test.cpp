@@ -54,7 +54,7 @@ TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     r.stage.puppet.force_works = false;
     r.stage.tells_pose = false;
     r.run(5.0);
-    EXPECT_TRUE(r.said("waits for force, the autopilot tells no fresh pose"))
+    EXPECT_TRUE(r.said("waits for force, a fresh pose of the autopilot"))
         << testing::PrintToString(r.lines);
     ASSERT_TRUE(r.run_out(6.0));
     EXPECT_EQ(r.result().end, CompanionEnd::absent);
@@ -76,8 +76,8 @@ TEST(Companion, WaitsForEachOfItsInputs) {
     waits([](Stage& s) { s.puppet.lidar_works = false; }, "left LiDAR, right LiDAR");
     waits([](Stage& s) { s.puppet.force_works = false; }, "force");
     waits([](Stage& s) { s.puppet.pressure_works = false; }, "cup pressure");
-    waits([](Stage& s) { s.beats = false; }, "no heartbeat of the autopilot");
-    waits([](Stage& s) { s.tells_pose = false; }, "no fresh pose");
+    waits([](Stage& s) { s.beats = false; }, "a heartbeat of the autopilot");
+    waits([](Stage& s) { s.tells_pose = false; }, "a fresh pose");
     waits([](Stage& s) { s.mechanism_answers = false; }, "an answer of pump and valve");
     waits(
         [](Stage& s) {
