@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flight_report.hpp"
+#include "ground_station.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
@@ -32,6 +33,7 @@ struct FlyOptions {
     std::string expect;
     std::string autopilot = "builtin";
     Px4LinkOptions px4;
+    GroundStationOptions ground;
     bool seed_given = false;
     bool json = false;
     bool quiet = false;
@@ -122,11 +124,13 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (options.px4.record_wire && (options.no_record || options.autopilot != "px4")) {
         throw InputError("--record-wire needs a recording's folder and --autopilot px4");
     }
+    check(options.ground, options.autopilot == "builtin");
     Terminal terminal(voice(options));
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
     const std::atomic<bool>* stop = stop_on_signals();
-    FlightConduct conduct{.speed = speed_of(options.px4.speed, 0.0), .stop = stop};
+    FlightConduct conduct{.speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0),
+                          .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
         px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
@@ -136,12 +140,26 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
             terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
         };
     }
+    FlightWatch watched = watch(terminal);
+    std::optional<GroundStation> ground;
+    if (options.ground.wanted) {
+        ground.emplace(options.ground, *model, terminal);
+        watched.on_tick = [&ground](Flight& flight, const EventList& events) {
+            ground->tick(flight, events);
+        };
+    }
     terminal.line(terminal.dim(event_head()));
-    const FlightResult result = fly(model, recording, watch(terminal), 0, conduct);
+    const FlightResult result = fly(model, recording, watched, 0, conduct);
+    if (ground) {
+        ground->end(result);
+    }
 
     terminal.line("");
     for (const std::string& line : flight_summary(result, terminal)) {
         terminal.line(line);
+    }
+    if (ground) {
+        terminal.line(terminal.bold("ground     ") + ground->report());
     }
     std::optional<LinkReport> link;
     if (px4) {
@@ -202,8 +220,10 @@ void add_fly(CLI::App& app, ExitCode& code) {
         ->type_name("NAME")
         ->check(CLI::IsMember({"builtin", "px4"}));
     add_options(*verb, options->px4, true);
+    add_options(*verb, options->ground);
     verb->add_option("--speed", options->px4.speed,
-                     "times real time, or max (default: as fast as it goes, on a serial wire 1)")
+                     "times real time, or max (default: as fast as it goes; 1 on a serial wire or\n"
+                     "before a ground station)")
         ->type_name("FACTOR");
     verb->add_flag("--json", options->json,
                    "one JSON object on standard output, all else on standard error; no figures");
