@@ -7,6 +7,7 @@
 #include <string>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
 #include "limpet/core/version.hpp"
 #include "verbs.hpp"
 
@@ -93,6 +94,8 @@ int main(int argc, char** argv) {
         return app.exit(help);
     } catch (const CLI::ParseError& error) {
         return fail(ExitCode::bad_input, std::string(error.what()) + " (limpet --help)");
+    } catch (const limpet::Interrupted& error) {
+        return fail(ExitCode::interrupted, error.what());
     } catch (const limpet::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
     } catch (const std::exception& error) {

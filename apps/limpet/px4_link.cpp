@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
 
 namespace limpet::app {
 namespace {
@@ -34,7 +35,7 @@ void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
         const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
         terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, wait_s));
         if (stop != nullptr && *stop) {
-            throw InputError("interrupted while waiting for PX4");
+            throw Interrupted("interrupted while waiting for PX4");
         }
         if (waited_s > wait_s) {
             throw InputError(

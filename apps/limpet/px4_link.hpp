@@ -39,7 +39,8 @@ public:
     /// Opens the wires and waits for a PX4 on them; says what it waits for and how to start it.
     /// @param flies  guidance is ours; false: a companion's
     /// @param folder  where options.record_wire writes wire.mcap
-    /// @throws InputError when a wire cannot be opened, nobody comes in time, or on `stop`
+    /// @throws InputError when a wire cannot be opened or nobody comes in time
+    /// @throws Interrupted on `stop`
     Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 

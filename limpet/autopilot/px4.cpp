@@ -67,12 +67,20 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
     if (options_.flies) {
         offboard_.update(offboard_link_, setpoint, clock_s());
     }
-    status_ =
-        hil_.exchange(readings, clock_usec_, [this](const mavlink::Frame& frame) { hear(frame); });
+    status_ = hil_.exchange(readings, clock_usec_, [this](const mavlink::Frame& frame) {
+        // Until the clocks are in step, when something is heard is a matter of the machine: its
+        // greetings are left alone.
+        if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
+            hear(frame);
+        }
+    });
     switch (status_) {
         case HilStatus::waiting:
         case HilStatus::answered: break;
-        case HilStatus::silent: failure_ = "the autopilot answers no longer"; break;
+        case HilStatus::silent:
+            failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
+                                                : "the autopilot has never answered HIL_SENSOR";
+            break;
         case HilStatus::gone: failure_ = "the autopilot closed the link"; break;
         case HilStatus::interrupted: break;  // who set the stop ends the flight
     }

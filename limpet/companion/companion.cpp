@@ -84,7 +84,7 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
         case Phase::waiting: wait(time_s); break;
         case Phase::ready: stand_ready(time_s); break;
         case Phase::flying:
-            obey(judge(look(time_s), place_of(memory_)), time_s);
+            obey(judge(look(time_s), place()), time_s);
             guide(time_s);
             break;
         case Phase::leaving: take_leave(time_s); break;
@@ -142,6 +142,13 @@ bool Companion::engaged(double time_s) const {
     return offboard_.state(time_s) == mavlink::OffboardState::engaged;
 }
 
+/// It rests once its motors are known to be off: until then set-points must not stop.
+Place Companion::place() const {
+    const Place place = place_of(memory_);
+    const bool turning = !dry_run_ && offboard_.report().armed;
+    return place == Place::at_rest && turning ? Place::on_cup : place;
+}
+
 Signs Companion::look(double time_s) const {
     Signs signs{
         .interrupted = interrupted_, .late = late_, .pose_fresh = inputs_.pose_fresh(time_s)};
@@ -166,8 +173,8 @@ void Companion::obey(const Verdict& verdict, double time_s) {
             return;
         case Action::finish:
             if (news) {
-                say(time_s, fmt::format("{}, {}: {}", to_string(verdict.cause),
-                                        to_string(place_of(memory_)), to_string(verdict.action)));
+                say(time_s, fmt::format("{}, {}: {}", to_string(verdict.cause), to_string(place()),
+                                        to_string(verdict.action)));
             }
             return;
         case Action::hold:
@@ -176,8 +183,7 @@ void Companion::obey(const Verdict& verdict, double time_s) {
             leave(verdict.action,
                   verdict.cause == Cause::interrupted ? CompanionEnd::interrupted
                                                       : CompanionEnd::handed_back,
-                  fmt::format("{}, {}", to_string(verdict.cause), to_string(place_of(memory_))),
-                  time_s);
+                  fmt::format("{}, {}", to_string(verdict.cause), to_string(place())), time_s);
             return;
     }
 }

@@ -85,6 +85,7 @@ public:
 
 private:
     [[nodiscard]] Estimate believe(double time_s) const;
+    [[nodiscard]] Place place() const;
     [[nodiscard]] Signs look(double time_s) const;
     [[nodiscard]] std::string obstacle(double time_s) const;
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;

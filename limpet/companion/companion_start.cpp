@@ -131,7 +131,8 @@ void Companion::stand_ready(double time_s) {
     const bool flies = engaged(time_s) && offboard_.report().armed;
     const Verdict verdict = judge(look(time_s), Place::in_air);
     const std::string missing = obstacle(time_s);
-    if (flies && verdict.action != Action::carry_on) {
+    const bool taken = verdict.action != Action::carry_on && verdict.cause == Cause::mode_taken;
+    if (taken || (flies && verdict.action != Action::carry_on)) {
         leave(verdict.action,
               verdict.cause == Cause::interrupted ? CompanionEnd::interrupted
                                                   : CompanionEnd::handed_back,

@@ -110,7 +110,11 @@ void Inputs::hear_sensors(const mavlink::Frame& frame, double time_s) {
     }
 }
 
+/// Of our vehicle alone; sensors whose words the autopilot passes on are components of it.
 void Inputs::hear_autopilot(const mavlink::Frame& frame, double time_s) {
+    if (frame.system != config_.system) {
+        return;
+    }
     if (config_.lidar_source == ReadingSource::autopilot) {
         hear_ranges(frame, time_s);
     }

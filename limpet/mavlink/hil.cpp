@@ -13,6 +13,12 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSlice{100};
 /// Until the first answer: long enough for one to come, short enough to go on booting.
 constexpr milliseconds kBootWait{4};
+/// One that has not answered by then is not booting but slow: it must not be left far behind, or
+/// who hears what when would depend on the machine. Source: px4.md, first answer to 22 to 34
+constexpr std::size_t kBootSensors = 50;
+constexpr milliseconds kSlowBootWait{50};
+/// It has answered earlier sensors just now: the answer to these is on its way.
+constexpr milliseconds kCatchUpWait{1000};
 
 /// A sample that has not been sent. Stamps start again when a flight begins: not only later ones
 /// are new.
@@ -77,17 +83,25 @@ bool Hil::take(const Frame& frame, const Others& others) {
     return true;
 }
 
+milliseconds Hil::patience() const {
+    if (answered_ever_) {
+        return options_.answer_limit;
+    }
+    if (count_.answers > 0) {
+        return std::min(options_.answer_limit, kCatchUpWait);
+    }
+    return sends_ > kBootSensors ? kSlowBootWait : kBootWait;
+}
+
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
+    const Clock::time_point begin = Clock::now();
     const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
-    const Clock::time_point end =
-        Clock::now() +
-        (answered_ever_ ? Clock::duration(options_.answer_limit) : Clock::duration(kBootWait));
     while (answered_usec_ != time_usec) {
-        const Clock::time_point now = Clock::now();
-        if (now >= end) {
+        const Clock::duration left = begin + patience() - Clock::now();
+        if (left <= Clock::duration::zero()) {
             break;
         }
-        if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, end - now))) {
+        if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, left))) {
             take(*frame, others);
         }
         if (options_.stop != nullptr && *options_.stop) {
@@ -103,7 +117,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
         return HilStatus::answered;
     }
     if (!answered_ever_) {
-        return HilStatus::waiting;
+        return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
     }
     ++count_.unanswered;
     return HilStatus::silent;
@@ -130,6 +144,7 @@ HilStatus Hil::in_real_time(const Others& others) {
 HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const Others& others) {
     if (sends_ == 0) {
         generation_ = link_.generation();
+        began_ = Clock::now();
     }
     send(readings, time_usec);
     return options_.timing == HilTiming::lockstep ? in_lockstep(time_usec, others)

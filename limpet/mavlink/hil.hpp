@@ -25,6 +25,7 @@ enum class HilTiming {
 struct HilOptions {
     HilTiming timing = HilTiming::lockstep;
     std::chrono::milliseconds answer_limit{5000};  ///< longest wait, of wall time
+    std::chrono::seconds boot_limit{60};           ///< lockstep: longest wait for the first answer
     double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
     GeographicOrigin origin = {};
     bool motion_capture = true;               ///< send poses too; false: a companion does
@@ -34,7 +35,7 @@ struct HilOptions {
 enum class HilStatus {
     waiting,      ///< it has not answered yet: it boots
     answered,     ///< the motors are for these sensors (real time: fresh)
-    silent,       ///< it answers no longer
+    silent,       ///< it answers no longer, or never did
     gone,         ///< it closed the link
     interrupted,  ///< stop was set
 };
@@ -54,7 +55,7 @@ struct HilCount {
 
 /// The simulator's end of PX4's HIL. In each step GPS and motion capture go first, then HIL_SENSOR,
 /// which sets the autopilot's clock; then its answer of the same time stamp is waited for. The
-/// first answers come late (it boots): until one has come, nothing is waited for long.
+/// first answers come late (it boots): until one has come, no sensors wait for long.
 /// Source: px4.md, "Simulator link"
 class Hil {
 public:
@@ -79,6 +80,8 @@ private:
     };
 
     void send(const Readings& readings, std::uint64_t time_usec);
+    /// Longest wait for the answer to the sensors that have just gone, as things stand.
+    [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
     [[nodiscard]] HilStatus in_real_time(const Others& others);
     /// @return whether it is an answer
@@ -90,6 +93,7 @@ private:
     RotorCommand command_;
     bool answered_ever_ = false;
     std::uint64_t generation_ = 0;     ///< of the link, at the first message
+    Clock::time_point began_;          ///< likewise
     std::uint64_t answered_usec_ = 0;  ///< of the last answer
     Clock::time_point answered_at_;
     std::array<Sent, 64> sent_ = {};  ///< a ring of the last ones

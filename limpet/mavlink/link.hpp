@@ -61,7 +61,7 @@ public:
 
     /// Waits for the next frame. A peer that goes shows in generation().
     /// @param timeout  longest wait; 0: what is there already
-    /// @return valid until the next call
+    /// @return valid until the next call; nothing also when what came was a flood of rubbish
     [[nodiscard]] std::optional<Frame> receive(std::chrono::nanoseconds timeout = {});
 
     [[nodiscard]] bool wait_for_peer(std::chrono::nanoseconds timeout) {

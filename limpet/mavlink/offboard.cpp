@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <variant>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/mavlink/addressed.hpp"
 #include "limpet/mavlink/translate.hpp"
 
 namespace limpet::mavlink {
@@ -18,6 +20,8 @@ constexpr std::uint8_t kOnboardController = 18;
 constexpr std::uint8_t kNoAutopilot = 8;
 constexpr std::uint8_t kStateActive = 4;
 constexpr std::uint8_t kMavlinkVersion = 3;
+/// Room in a wire is waited for no longer: a jammed one must not make guidance late.
+constexpr std::chrono::milliseconds kPatience{5};
 constexpr float kCustomMode = 1.0F;  ///< MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
 
 /// Whether it is time again, and then remembers.
@@ -71,7 +75,8 @@ void Offboard::hear(const Frame& frame, double time_s) {
             was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
         }
     } else if (const auto told = decode<Odometry>(frame)) {
-        if (const auto estimate = estimate_from(*told)) {
+        const auto estimate = estimate_from(*told);
+        if (estimate && estimate->valid) {  // one that failed by its own account is none
             estimate_ = *estimate;
             estimate_.time_s = time_s;
             estimate_s_ = time_s;
@@ -83,7 +88,9 @@ void Offboard::hear(const Frame& frame, double time_s) {
         report_.text = said.substr(0, said.find_last_not_of(" \t\r\n") + 1);
         ++report_.texts;
     } else if (const auto ack = decode<CommandAck>(frame)) {
-        hear_command_ack(*ack);
+        if (addressed_to(self_, *ack)) {  // a ground station's commands are answered too
+            hear_command_ack(*ack);
+        }
     }
 }
 
@@ -97,6 +104,7 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
         if (ack.command == kCommandArm) {  // sooner than the next heartbeat, which comes at 1 Hz
             report_.armed = asked_armed_;
         }
+        hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == kCommandSetMode);
     } else if (ack.command != kCommandMessageInterval) {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
@@ -107,7 +115,7 @@ OffboardState Offboard::state(double time_s) const {
     if (heartbeat_s_ < 0.0 || time_s - heartbeat_s_ > options_.silence_limit_s) {
         return OffboardState::silent;
     }
-    if (handed_back_ || (was_engaged_ && !report_.offboard)) {
+    if (taken_away()) {
         return OffboardState::taken_away;
     }
     if (estimate_s_ < 0.0 || time_s - estimate_s_ > options_.estimate_limit_s) {
@@ -123,7 +131,8 @@ Estimate Offboard::estimate(double time_s) const {
 }
 
 void Offboard::send_command(Link& link, std::uint16_t command, float param1, float param2,
-                            float param3) const {
+                            float param3) {
+    self_ = link.self();
     CommandLong message;
     message.target_system = options_.target_system;
     message.target_component = kAutopilotComponent;
@@ -131,7 +140,7 @@ void Offboard::send_command(Link& link, std::uint16_t command, float param1, flo
     message.param1 = param1;
     message.param2 = param2;
     message.param3 = param3;
-    (void)link.send(message);
+    (void)link.send(message, kPatience);
 }
 
 void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_s) {
@@ -139,13 +148,13 @@ void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_
         SetPositionTargetLocalNed message = position_target(target, boot_ms(time_s));
         message.target_system = options_.target_system;
         message.target_component = kAutopilotComponent;
-        (void)link.send(message);
+        (void)link.send(message, kPatience);
     };
     const auto send_attitude = [&](const AttitudeSetpoint& target) {
         SetAttitudeTarget message = attitude_target(target, boot_ms(time_s));
         message.target_system = options_.target_system;
         message.target_component = kAutopilotComponent;
-        (void)link.send(message);
+        (void)link.send(message, kPatience);
     };
     // Disarmed or idle, it is told what it is: whatever it would do for a position, it must not.
     const AttitudeSetpoint rest{.q_WB = estimate_.q_WB, .thrust = 0.0};
@@ -200,7 +209,7 @@ void Offboard::speak_up(Link& link, double time_s) {
         beat.autopilot = kNoAutopilot;
         beat.system_status = kStateActive;
         beat.mavlink_version = kMavlinkVersion;
-        (void)link.send(beat);
+        (void)link.send(beat, kPatience);
     }
     const OffboardState now = state(time_s);
     const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
@@ -211,7 +220,7 @@ void Offboard::speak_up(Link& link, double time_s) {
             origin.target_system = options_.target_system;
             origin.latitude = static_cast<std::int32_t>(std::llround(kOrigin.latitude_deg * 1e7));
             origin.longitude = static_cast<std::int32_t>(std::llround(kOrigin.longitude_deg * 1e7));
-            (void)link.send(origin);
+            (void)link.send(origin, kPatience);
         }
         request_rate(link);
     }
@@ -220,21 +229,25 @@ void Offboard::speak_up(Link& link, double time_s) {
 void Offboard::update(Link& link, const Setpoint& setpoint, double time_s) {
     speak_up(link, time_s);
     const OffboardState now = state(time_s);
-    if (now == OffboardState::silent || now == OffboardState::taken_away ||
-        (now == OffboardState::unready && !was_engaged_)) {
+    const bool there = now != OffboardState::silent && now != OffboardState::unready;
+    // One that flies us and is heard no more may still hear: without set-points it would hold, and
+    // pry at a cup that holds. Who may not fly on hands back.
+    if (taken_away() || !(there || was_engaged_)) {
         streaming_s_ = -1.0;
         return;
     }
     if (again(sent_set_point_s_, 1.0 / options_.set_point_rate_Hz, time_s)) {
         send_set_point(link, setpoint, time_s);
         streaming_s_ = streaming_s_ < 0.0 ? time_s : streaming_s_;
+        was_engaged_ = was_engaged_ || report_.offboard;
     }
     request(link, setpoint, time_s);
 }
 
 void Offboard::hand_back(Link& link, double time_s) {
     handed_back_ = true;
-    if (report_.armed && again(sent_command_s_, options_.retry_s, time_s)) {
+    const bool ours = report_.armed && report_.offboard && !hold_accepted_;
+    if (ours && again(sent_command_s_, options_.retry_s, time_s)) {
         send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeAuto),
                      static_cast<float>(kSubModeLoiter));
     }

@@ -75,8 +75,9 @@ public:
     void update(Link& link, const Setpoint& setpoint, double time_s);
     /// Heartbeat and requests of rates and origin alone, no set-points: as long as it must not fly.
     void attend(Link& link, double time_s);
-    /// Stops the set-points and asks for `hold` (AUTO.LOITER): the autopilot is on its own. For
-    /// good; update() then keeps the heartbeat alone.
+    /// Stops the set-points and asks for `hold` (AUTO.LOITER) until the autopilot is no longer in
+    /// OFFBOARD: whatever mode is chosen from then on is an operator's. For good; update() then
+    /// keeps the heartbeat alone.
     void hand_back(Link& link, double time_s);
 
     [[nodiscard]] OffboardState state(double time_s) const;
@@ -89,14 +90,18 @@ public:
 
 private:
     void hear_command_ack(const CommandAck& ack);
+    [[nodiscard]] bool taken_away() const {
+        return handed_back_ || (was_engaged_ && !report_.offboard);
+    }
     void speak_up(Link& link, double time_s);
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
     void request(Link& link, const Setpoint& setpoint, double time_s);
     void request_rate(Link& link);
     void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
-                      float param3 = 0.0F) const;
+                      float param3 = 0.0F);
 
     OffboardOptions options_;
+    Sender self_;  ///< whom answers to our commands are for
     AutopilotReport report_;
     Estimate estimate_;
     double estimate_s_ = -1.0;   ///< < 0: never told
@@ -104,6 +109,7 @@ private:
     double streaming_s_ = -1.0;  ///< since when set-points go without a break
     bool was_engaged_ = false;
     bool handed_back_ = false;
+    bool hold_accepted_ = false;
     double sent_heartbeat_s_ = -1e9;
     double sent_set_point_s_ = -1e9;
     double sent_command_s_ = -1e9;

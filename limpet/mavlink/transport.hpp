@@ -35,7 +35,7 @@ struct TransportStatistics {
     std::uint64_t void_sends = 0;  ///< nobody was there
     std::uint64_t peers = 0;       ///< that came; a change tells that a parser must start anew
     std::uint64_t peers_lost = 0;
-    std::uint64_t peers_refused = 0;        ///< TCP server: second clients
+    std::uint64_t peers_refused = 0;        ///< second TCP clients, datagrams of others
     std::uint64_t datagrams_truncated = 0;  ///< UDP: longer than the buffer of receive
     int last_error = 0;                     ///< errno of the last loss, 0: went in good order
 };
@@ -78,7 +78,7 @@ public:
 
 /// Which end of a network connection this is; a serial port has no such ends.
 enum class Role {
-    listen,   ///< TCP: accepts one client; UDP: binds, answers who spoke last
+    listen,   ///< TCP: accepts one client; UDP: binds, answers who speaks to it
     connect,  ///< TCP: connects, again and again; UDP: speaks to the address
 };
 

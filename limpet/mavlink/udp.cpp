@@ -7,6 +7,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/multicast.hpp>
 #include <boost/asio/ip/udp.hpp>
+#include <chrono>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/readiness.hpp"
@@ -22,6 +23,11 @@ using boost::system::error_code;
 using std::chrono::nanoseconds;
 namespace multicast = boost::asio::ip::multicast;
 
+/// So long after its last word a peer keeps its place, and others are not heard. Source: assumed,
+/// PX4's slowest stream is its heartbeat at 1 Hz
+constexpr std::chrono::seconds kFaithful{2};
+/// Datagrams of others, dropped after the time is up: a flood must not stop who listens.
+constexpr int kMostStrangers = 256;
 constexpr std::size_t kLongestDatagram = 65507;  // 65535 less the headers of IPv4 and UDP
 
 class UdpTransport final : public Transport {
@@ -90,10 +96,14 @@ public:
             return {TransferStatus::closed, 0};
         }
         const Deadline deadline(timeout);
+        int strangers = 0;
         do {
             const std::size_t length = take(into, MSG_TRUNC);
-            if (length == 0) {
-                continue;  // nothing there yet, or an empty datagram
+            if (length == 0) {  // nothing there yet, an empty datagram, or a stranger's
+                if (++strangers >= kMostStrangers && deadline.passed()) {
+                    break;
+                }
+                continue;
             }
             const std::size_t bytes = std::min(length, into.size());
             statistics_.datagrams_truncated += length > bytes ? 1 : 0;
@@ -135,6 +145,9 @@ public:
     const TransportStatistics& statistics() const override { return statistics_; }
 
 private:
+    /// Of a listening end on a single host: commands must not go to whoever sends rubbish.
+    bool one_at_a_time() const { return role_ == Role::listen && address_.medium == Medium::udp; }
+    bool peer_speaks() const { return std::chrono::steady_clock::now() - spoke_ < kFaithful; }
     bool group() const { return address_.medium == Medium::udp_multicast; }
 
     address_v4 interface() const {
@@ -200,8 +213,14 @@ private:
             }
             return 0;
         }
-        if (keeps_first_ && heard_ && from != peer_) {
+        if (heard_ && from != peer_ && (keeps_first_ || (one_at_a_time() && peer_speaks()))) {
+            if ((flags & MSG_PEEK) == 0) {
+                ++statistics_.peers_refused;
+            }
             return 0;
+        }
+        if (length > 0 && one_at_a_time()) {
+            spoke_ = std::chrono::steady_clock::now();
         }
         if (length > 0 && (!heard_ || from != peer_)) {
             ++statistics_.peers;
@@ -224,6 +243,7 @@ private:
     boost::asio::io_context io_;
     udp::socket socket_;
     TransportStatistics statistics_;
+    std::chrono::steady_clock::time_point spoke_;  ///< when the peer did last
     bool peer_known_ = false;
     bool connected_ = false;
     bool heard_ = false;

@@ -7,9 +7,10 @@
 
 namespace limpet {
 
-/// listen: bound to the address (for a group: joined), sends to who spoke last. connect: sends to
-/// the address; hears a single host's port alone, and for broadcast and multicast answers who spoke
-/// last.
+/// listen: bound to the address, hears and answers one at a time: another is heard, and then
+/// answered, only once the former has been silent for 2 s (for a group: joined, hears all, answers
+/// who spoke last). connect: sends to the address; hears a single host's port alone, and for
+/// broadcast and multicast answers who spoke last.
 /// @throws InputError when the port is in use, the address not of this machine, or the group not
 /// joined
 [[nodiscard]] std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
 #include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/step.hpp"
 
@@ -106,10 +107,10 @@ Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
             obstacle = std::move(now);
         }
         if (autopilot.failure()) {
-            give_up("the autopilot failed before the start", obstacle);
+            give_up("the autopilot failed before the start", std::string(*autopilot.failure()));
         }
         if (options.stop != nullptr && *options.stop) {
-            give_up("interrupted while the autopilot was brought up", obstacle);
+            throw Interrupted("interrupted while the autopilot was brought up");
         }
         if (state.ending) {
             give_up(fmt::format("{} on the way to the start", state.ending->reason), obstacle);

@@ -30,8 +30,8 @@ struct BringUp {
 /// recorded, and the flight's clock, sensors, battery and guidance begin when it is done. With
 /// guidance elsewhere that is when it leaves the stand: where it hovers then is not ours to say.
 /// @return the flight's first state: time 0, the plant as it flies
-/// @throws InputError when it is not there in time, fails or is interrupted, with what it waited
-///         for
+/// @throws InputError when it is not there in time or fails, with what it waited for
+/// @throws Interrupted on options.stop
 [[nodiscard]] Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
                                 const BringUp& options);
 

@@ -43,6 +43,19 @@ TEST(StandInVerb, WithoutItThereIsNoFlightAndNothingIsWritten) {
     }
 }
 
+TEST(StandInVerb, CtrlCEndsTheWaitForIt) {
+    const Bench bench;
+    Started fly(bench.folder(), "fly",
+                {"fly", "perch_concrete", "--autopilot", "px4", "--hil",
+                 "tcp:" + free_port(SOCK_STREAM), "--offboard", "udp:" + free_port(SOCK_DGRAM)});
+    ASSERT_TRUE(fly.says("waiting for PX4", std::chrono::seconds(30)));
+    fly.signal(SIGINT);
+    const Finished end = fly.wait(std::chrono::seconds(30));
+    EXPECT_EQ(end.exit_code, 130);
+    EXPECT_TRUE(end.one_line_of_error()) << end.err;
+    EXPECT_THAT(end.err, HasSubstr("interrupted while waiting for PX4"));
+}
+
 TEST(StandInVerb, RefusesInOneLine) {
     const Bench bench;
     const std::vector<std::vector<std::string>> wrong = {

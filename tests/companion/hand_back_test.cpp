@@ -149,6 +149,50 @@ TEST(HandBack, OnTheCupItLandsFirstAndNeverHolds) {
     finishes([](Rehearsal& r) { r.late_s = 0.4; }, handed_back, "guidance came too late");
 }
 
+TEST(HandBack, OnTheCupASilentAutopilotThatHearsIsLandedFirst) {
+    Rehearsal r({"guidance.land_limit_s=20", "guidance.land_pitch_s=6"});
+    ASSERT_TRUE(r.run_to(PerchingState::pitching_up));
+    r.stage.beats = false;
+    r.run(3.2);
+    ASSERT_EQ(r.companion->phase(), Phase::flying);
+    ASSERT_TRUE(r.said("autopilot silent, on the cup, motors on"));
+    const Since since(r);
+    r.run(1.0);
+    EXPECT_GE(since.set_points(), 45) << "without them it would hold, and pry at the cup";
+    EXPECT_EQ(since.holds(), 0);
+    EXPECT_TRUE(r.stage.mechanism.pump_on);
+}
+
+TEST(HandBack, AnOperatorWhoAnswersHoldWithAModeOfHisOwnKeepsIt) {
+    Rehearsal r;
+    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    r.stage.motion_capture_works = false;
+    while (r.stage.mode == Stage::kOffboard && r.stage.time_s() < 100.0) {
+        r.tick();
+    }
+    ASSERT_EQ(r.stage.mode, Stage::kLoiter);
+    r.stage.mode = Stage::kPosition;
+    ASSERT_TRUE(r.run_out(5.0));
+    EXPECT_EQ(r.stage.mode, Stage::kPosition);
+}
+
+TEST(HandBack, AModeTakenAwayBeforeTheStartEndsIt) {
+    Rehearsal r({"autopilot.asks_for_mode=false"});
+    while (r.companion->phase() != Phase::ready && r.stage.time_s() < 10.0) {
+        r.tick();
+    }
+    ASSERT_EQ(r.companion->phase(), Phase::ready);
+    r.stage.mode = Stage::kOffboard;  // disarmed, on the ground
+    r.run(1.0);
+    ASSERT_EQ(r.companion->phase(), Phase::ready);
+    r.stage.mode = Stage::kPosition;
+    const Since since(r);
+    ASSERT_TRUE(r.run_out(5.0)) << "it would wait without set-points, and OFFBOARD be refused";
+    EXPECT_EQ(r.result().end, CompanionEnd::handed_back);
+    EXPECT_THAT(r.result().reason, testing::HasSubstr("another mode was chosen"));
+    EXPECT_EQ(since.holds() + since.offboards() + since.arms(), 0);
+}
+
 TEST(HandBack, InterruptedWhilePressedItLeavesOrLandsFirst) {
     for (const bool seals : {true, false}) {
         Rehearsal r;
@@ -178,6 +222,24 @@ TEST(HandBack, AtRestCtrlCLetsGoAndThePumpStaysOn) {
     EXPECT_EQ(since.holds() + since.arms(), 0);
     EXPECT_TRUE(r.stage.mechanism.pump_on);
     EXPECT_EQ(r.companion->memory().state, PerchingState::resting);
+}
+
+TEST(HandBack, AtRestItIsOnlyOnceTheMotorsAreKnownToBeOff) {
+    Rehearsal r;
+    ASSERT_TRUE(r.run_to(PerchingState::unloading));
+    r.stage.obeys_arming = false;  // the first commands to disarm are lost
+    ASSERT_TRUE(r.run_to(PerchingState::resting));
+    r.interrupted = true;
+    const Since since(r);
+    r.run(1.0);
+    EXPECT_EQ(r.companion->phase(), Phase::flying);
+    EXPECT_GE(since.set_points(), 45) << "without them it would hold, motors on, and pry";
+    r.stage.obeys_arming = true;
+    ASSERT_TRUE(r.run_out(5.0));
+    EXPECT_FALSE(r.stage.armed);
+    EXPECT_EQ(r.result().end, CompanionEnd::interrupted);
+    EXPECT_TRUE(r.stage.mechanism.pump_on);
+    EXPECT_EQ(since.holds(), 0);
 }
 
 TEST(HandBack, AtRestWithoutAPoseItDoesNotTakeOff) {

@@ -148,6 +148,27 @@ TEST(Inputs, OfASourceThatIsNotChosenCountForNothing) {
     EXPECT_FALSE(inputs.pose_fresh(2.3));
 }
 
+TEST(Inputs, OfAnotherVehicleOnTheAutopilotsWireCountForNothing) {
+    Bench bench;
+    bench.config.lidar_source = ReadingSource::autopilot;
+    auto port = std::make_unique<Port>();
+    Port& wire = *port;
+    bench.wires.autopilot =
+        std::make_unique<mavlink::Link>(std::move(port), mavlink::Sender{.system = 1});
+    const auto say = [&wire](std::uint8_t system, double distance_m) {
+        mavlink::Sender from{.system = system, .component = mavlink::kAutopilotComponent};
+        mavlink::FrameBuffer buffer;
+        const RangeReading range{.distance_m = distance_m, .valid = true};
+        wire.put(
+            std::as_bytes(encode(mavlink::distance_sensor(range, 0, 0.1, 12.0, 0), from, buffer)));
+    };
+    say(2, 3.0);
+    EXPECT_FALSE(bench.poll(1.0).lidar_left.ever());
+    say(1, 2.0);
+    say(2, 3.0);
+    EXPECT_DOUBLE_EQ(bench.poll(1.1).lidar_left.value.distance_m, 2.0);
+}
+
 TEST(Inputs, TakeTheRigidBodyOutOfNatNet) {
     CompanionConfig config;
     config.autopilot = {.medium = Medium::udp};

@@ -69,6 +69,39 @@ TEST(HilLockstep, BootsWithoutAnAnswerButMissesNoneLater) {
     EXPECT_THAT(hil.count().unanswered, Eq(1U));
 }
 
+TEST(HilLockstep, AnAnswerThatComesLateBeginsTheLockstep) {
+    ScriptedLink wire;
+    Hil hil(wire.link, {});
+    ASSERT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::waiting);
+    wire.say(controls(4000, 0.0F, false));  // a slow one, behind by a step
+    const auto begin = std::chrono::steady_clock::now();
+    wire.ends->on_empty = [&wire, begin, said = false]() mutable {
+        const auto waited = std::chrono::steady_clock::now() - begin;
+        if (!said && waited > std::chrono::milliseconds(30)) {
+            wire.say(controls(8000, 0.25F));
+            said = true;
+        }
+    };
+    EXPECT_EQ(hil.exchange(at(0.004), 8000, kNobody), HilStatus::answered);
+    EXPECT_DOUBLE_EQ(hil.command().command[0], 0.25);
+}
+
+TEST(HilLockstep, WhoNeverAnswersIsGivenUp) {
+    ScriptedLink wire;
+    Hil hil(wire.link, {.boot_limit = std::chrono::seconds(0)});
+    EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::silent);
+}
+
+TEST(HilLockstep, ASlowBootIsNotLeftFarBehind) {
+    ScriptedLink wire;
+    Hil hil(wire.link, {});
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::uint64_t k = 1; k <= 70; ++k) {
+        ASSERT_EQ(hil.exchange(at(0.0), 4000 * k, kNobody), HilStatus::waiting) << k;
+    }
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1000));
+}
+
 TEST(HilLockstep, AnAnswerToOtherSensorsIsAStray) {
     ScriptedLink wire;
     answer(wire, 1);

@@ -83,6 +83,20 @@ TEST(Link, HalfAFrameOfOnePeerDoesNotSpoilTheNextOnes) {
     EXPECT_THAT(decode<Heartbeat>(*frame)->custom_mode, Eq(2U));
 }
 
+TEST(Link, AFloodOfRubbishDoesNotKeepItForEver) {
+    ScriptedLink wire;
+    std::size_t pieces = 0;
+    constexpr std::size_t kFlood = 100'000;  // as if it never ended
+    wire.ends->on_empty = [&] {
+        if (pieces < kFlood) {
+            wire.ends->to_receive.emplace_back(20, std::byte{0x55});
+            ++pieces;
+        }
+    };
+    EXPECT_FALSE(wire.link.receive());
+    EXPECT_LT(pieces, kFlood / 10);
+}
+
 TEST(Link, SignedHearsSignedAlone) {
     ScriptedLink wire;
     wire.link.sign(signing(1));

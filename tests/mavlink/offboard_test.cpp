@@ -192,6 +192,122 @@ TEST(Offboard, HandingBackStopsSetPointsAndAsksForHold) {
     EXPECT_EQ(modes[0].param3, 3.0F);
 }
 
+TEST(Offboard, HandingBackDoesNotTakeTheModeFromAnOperatorAgain) {
+    for (const bool by_answer : {true, false}) {  // which comes before the next heartbeat
+        Peer peer;
+        peer.engage();
+        peer.armed = true;
+        peer.run(1.1);
+        peer.offboard.hand_back(peer.wire.link, peer.time_s);
+        if (by_answer) {
+            CommandAck ack;
+            ack.command = kCommandSetMode;
+            peer.wire.say(ack);
+        } else {
+            peer.mode = 3;
+            peer.beat();
+        }
+        peer.hear_all();
+        peer.forget();
+        for (int k = 0; k < 100; ++k) {
+            peer.time_s += 0.02;
+            peer.offboard.hand_back(peer.wire.link, peer.time_s);
+        }
+        EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty()) << by_answer;
+    }
+}
+
+TEST(Offboard, HandingBackAsksForHoldUntilItIsSo) {
+    Peer peer;
+    peer.engage();
+    peer.armed = true;
+    peer.run(1.1);
+    peer.forget();
+    for (int k = 0; k < 100; ++k) {
+        peer.time_s += 0.02;
+        peer.offboard.hand_back(peer.wire.link, peer.time_s);
+    }
+    EXPECT_THAT(peer.commands(kCommandSetMode),
+                SizeIs(testing::AllOf(testing::Ge(6), testing::Le(8))));
+}
+
+TEST(Offboard, OneThatFliesUsAndFallsSilentIsFlownOn) {
+    Peer peer;
+    peer.engage();
+    peer.armed = true;
+    peer.run(1.1);
+    peer.beats = peer.tells_pose = false;
+    peer.run(3.5);
+    ASSERT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+    peer.forget();
+    peer.run(1.0);
+    EXPECT_GE(peer.wire.sent<SetPositionTargetLocalNed>().size(), 48U)
+        << "it may still hear: after a second without set-points it would hold";
+    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty());
+    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+}
+
+TEST(Offboard, OneThatWasTakenAwayAndFallsSilentIsLeftAlone) {
+    Peer peer;
+    peer.engage();
+    peer.mode = 3;
+    peer.beat();
+    peer.run(0.1);
+    peer.beats = false;
+    peer.run(3.5);
+    ASSERT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+    peer.forget();
+    peer.run(1.0);
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty());
+}
+
+TEST(Offboard, AModeThatStoodBeforeTheFirstSetPointCanBeTakenAwayAtTheNextHeartbeat) {
+    Peer peer;
+    peer.mode = kMainModeOffboard;
+    peer.run(0.5);  // a single heartbeat, before the stream
+    ASSERT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
+    peer.mode = 3;
+    peer.beat();
+    peer.hear_all();
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::taken_away);
+}
+
+TEST(Offboard, APoseThatFailedByItsOwnAccountIsNone) {
+    Peer peer;
+    peer.engage();
+    peer.tells_pose = false;
+    peer.run(0.3);
+    Estimate estimate;
+    estimate.valid = false;
+    peer.wire.say(odometry(estimate, 1));
+    peer.hear_all();
+    EXPECT_FALSE(peer.offboard.estimate(peer.time_s).valid);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::unready);
+}
+
+TEST(Offboard, AnswersToAGroundStationAreNotTakenForItsOwn) {
+    Peer peer;
+    peer.engage();
+    peer.run(0.5);
+    ASSERT_FALSE(peer.commands(kCommandArm).empty());
+    peer.armed = true;
+    peer.run(1.1);
+    peer.armed = false;
+    peer.beat();
+    peer.hear_all();
+    CommandAck ack;  // to the operator who has just disarmed
+    ack.command = kCommandArm;
+    ack.target_system = 255;
+    ack.target_component = kGroundStationComponent;
+    peer.wire.say(ack);
+    peer.hear_all();
+    EXPECT_FALSE(peer.offboard.report().armed);
+    ack.target_component = kCompanionComponent;  // the script's own name
+    peer.wire.say(ack);
+    peer.hear_all();
+    EXPECT_TRUE(peer.offboard.report().armed);
+}
+
 TEST(Offboard, AnOldPoseIsNotValidAndASilentAutopilotIsNoticed) {
     Peer peer;
     peer.engage();

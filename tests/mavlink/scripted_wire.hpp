@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <functional>
@@ -20,6 +21,7 @@ public:
         std::vector<std::vector<std::byte>> sent;
         std::deque<std::vector<std::byte>> to_receive;
         std::function<void(std::span<const std::byte>)> on_send;
+        std::function<void()> on_empty;  ///< nothing was there to receive: it may put something
         TransportStatistics statistics{.peers = 1};
     };
 
@@ -33,6 +35,9 @@ public:
         return {TransferStatus::done, bytes.size()};
     }
     Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
+        if (ends_->to_receive.empty() && ends_->on_empty) {
+            ends_->on_empty();
+        }
         if (ends_->to_receive.empty()) {
             return {TransferStatus::timed_out, 0};
         }

@@ -52,13 +52,31 @@ TEST_F(UdpPair, HasNobodyToAnswerBeforeSomebodySpoke) {
     EXPECT_EQ(heard(*here), "hello");  // waiting did not eat it
 }
 
-TEST_F(UdpPair, AnswersWhoSpokeLast) {
+TEST_F(UdpPair, WhoSpeaksKeepsItsPlaceWhileOthersSendRubbish) {
     RawSocket other(SOCK_DGRAM);
     ASSERT_TRUE(other.connect(port));
     EXPECT_EQ(say(*there, "first"), TransferStatus::done);
     EXPECT_EQ(heard(*here), "first");
-    other.say("second");
-    EXPECT_EQ(heard(*here), "second");
+    other.say("rubbish");
+    EXPECT_EQ(heard(*here, 10ms), "<timed out>");
+    EXPECT_EQ(say(*here, "pump on"), TransferStatus::done);
+    EXPECT_EQ(heard(*there), "pump on");
+    EXPECT_EQ(here->statistics().peers, 1U);
+    EXPECT_EQ(here->statistics().peers_refused, 1U);
+}
+
+TEST_F(UdpPair, AnswersTheNextOneOnceTheFormerIsSilent) {
+    RawSocket other(SOCK_DGRAM);
+    ASSERT_TRUE(other.connect(port));
+    EXPECT_EQ(say(*there, "first"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "first");
+    std::string now = "<timed out>";
+    const auto end = std::chrono::steady_clock::now() + 10s;
+    while (now == "<timed out>" && std::chrono::steady_clock::now() < end) {
+        other.say("second");
+        now = heard(*here, 50ms);
+    }
+    EXPECT_EQ(now, "second");
     EXPECT_EQ(say(*here, "to the second"), TransferStatus::done);
     EXPECT_EQ(other.heard(), "to the second");
     EXPECT_EQ(heard(*there, 10ms), "<timed out>");

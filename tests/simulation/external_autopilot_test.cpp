@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <filesystem>
 
 #include "flown.hpp"
 #include "limpet/autopilot/builtin.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -105,6 +107,27 @@ TEST(BringUp, GivesUpWithWhatItWaitedFor) {
         EXPECT_THAT(error.what(), HasSubstr("3 s of simulated time"));
         EXPECT_THAT(error.what(), HasSubstr("it boots"));
     }
+}
+
+TEST(BringUp, SaysWhyTheAutopilotFailed) {
+    const auto model = model_of("hover");
+    Outsider outsider(*model);
+    outsider.fail_after(0.5);
+    try {
+        (void)bring_up(*model, outsider, {});
+        FAIL() << "nobody flew";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("failed before the start: as told"));
+    }
+}
+
+TEST(BringUp, HearsCtrlC) {
+    const auto model = model_of("hover");
+    Outsider outsider(*model);
+    const std::atomic<bool> stop = true;
+    BringUp options;
+    options.stop = &stop;
+    EXPECT_THROW((void)bring_up(*model, outsider, options), Interrupted);
 }
 
 TEST(ExternalAutopilot, FliesTheMissionAsTheBuiltInOne) {
