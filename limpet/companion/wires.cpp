@@ -2,11 +2,9 @@
 #include "limpet/companion/wires.hpp"
 
 #include <chrono>
-#include <fstream>
 #include <optional>
-#include <string>
 
-#include "limpet/core/errors.hpp"
+#include "limpet/mavlink/key_file.hpp"
 
 namespace limpet {
 namespace {
@@ -14,24 +12,6 @@ namespace {
 /// UDP and multicast wait for whoever speaks; the others connect.
 Role role_of(const TransportAddress& address) {
     return address.medium == Medium::tcp ? Role::connect : Role::listen;
-}
-
-/// 64 hexadecimal digits, white space around them let go.
-mavlink::SigningKey read_key(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    std::string digits;
-    std::string more;
-    stream >> digits >> more;
-    mavlink::SigningKey key = {};
-    if (digits.size() != 2 * key.size() || !more.empty() ||
-        digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
-        throw InputError("signing_key_file: " + file.string() +
-                         ": cannot be read as 64 hexadecimal digits");
-    }
-    for (std::size_t i = 0; i < key.size(); ++i) {
-        key[i] = static_cast<std::uint8_t>(std::stoul(digits.substr(2 * i, 2), nullptr, 16));
-    }
-    return key;
 }
 
 std::uint64_t unix_us() {
@@ -66,7 +46,7 @@ std::unique_ptr<devices::NatNetClient> open_natnet(const CompanionConfig& config
 Wires open_wires(const CompanionConfig& config) {
     std::optional<mavlink::SigningKey> key;
     if (!config.signing_key_file.empty()) {
-        key = read_key(config.signing_key_file);
+        key = mavlink::read_signing_key(config.signing_key_file);
     }
     Wires wires;
     wires.autopilot = open_link(config, config.autopilot, key, 0);

@@ -3,11 +3,14 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -51,9 +54,11 @@ std::vector<std::string> Bench::files() const {
     return list;
 }
 
-Finished Bench::run(const std::vector<std::string>& arguments) const {
-    const fs::path out = folder_.string() + ".out";
-    const fs::path err = folder_.string() + ".err";
+namespace {
+
+/// @return its pid, 0 when it does not start
+pid_t spawn(const fs::path& folder, const std::vector<std::string>& arguments, const fs::path& out,
+            const fs::path& err) {
     std::vector<std::string> words = {LIMPET_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -67,20 +72,93 @@ Finished Bench::run(const std::vector<std::string>& arguments) const {
     const int flags = O_WRONLY | O_CREAT | O_TRUNC;
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), flags, 0600);
-    posix_spawn_file_actions_addchdir_np(&actions, folder_.c_str());
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     pid_t child = 0;
+    const bool there =
+        posix_spawn(&child, LIMPET_PROGRAM, &actions, nullptr, argv.data(), environ) == 0;
+    posix_spawn_file_actions_destroy(&actions);
+    return there ? child : 0;
+}
+
+}  // namespace
+
+Finished Bench::run(const std::vector<std::string>& arguments) const {
+    const fs::path out = folder_.string() + ".out";
+    const fs::path err = folder_.string() + ".err";
     Finished finished;
-    if (posix_spawn(&child, LIMPET_PROGRAM, &actions, nullptr, argv.data(), environ) == 0) {
+    if (const pid_t child = spawn(folder_, arguments, out, err); child != 0) {
         int status = 0;
         waitpid(child, &status, 0);
         finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    posix_spawn_file_actions_destroy(&actions);
     finished.out = text_of(out);
     finished.err = text_of(err);
     fs::remove(out);
     fs::remove(err);
     return finished;
+}
+
+Started::Started(const fs::path& folder, const std::string& name,
+                 const std::vector<std::string>& arguments)
+    : out_(folder / (name + ".out")),
+      err_(folder / (name + ".err")),
+      child_(spawn(folder, arguments, out_, err_)),
+      running_(child_ != 0) {}
+
+Started::~Started() {
+    if (running_) {
+        kill(child_, SIGKILL);
+        waitpid(child_, nullptr, 0);
+    }
+}
+
+void Started::signal(int number) const {
+    if (running_) {
+        kill(child_, number);
+    }
+}
+
+bool Started::ended(std::chrono::milliseconds limit) {
+    if (!running_) {
+        return true;
+    }
+    const int handle = static_cast<int>(syscall(SYS_pidfd_open, child_, 0));
+    pollfd watched{.fd = handle, .events = POLLIN, .revents = 0};
+    const bool over = poll(&watched, 1, static_cast<int>(limit.count())) > 0;
+    close(handle);
+    if (over) {
+        int status = 0;
+        waitpid(child_, &status, 0);
+        exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        running_ = false;
+    }
+    return over;
+}
+
+Finished Started::wait(std::chrono::seconds limit) {
+    Finished finished;
+    finished.exit_code = ended(limit) ? exit_code_ : -1;
+    finished.out = text_of(out_);
+    finished.err = text_of(err_);
+    return finished;
+}
+
+bool Started::says(const std::string& text, std::chrono::seconds limit) {
+    const auto end = std::chrono::steady_clock::now() + limit;
+    while (std::chrono::steady_clock::now() < end) {
+        const bool over = ended(std::chrono::milliseconds(10));
+        if (output().find(text) != std::string::npos) {
+            return true;
+        }
+        if (over) {
+            return false;
+        }
+    }
+    return false;
+}
+
+std::string Started::output() const {
+    return text_of(out_);
 }
 
 }  // namespace limpet

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,6 +16,34 @@ struct Finished {
     std::string err;
 
     [[nodiscard]] bool one_line_of_error() const;
+};
+
+/// limpet in the background; killed when this goes while it still runs.
+class Started {
+public:
+    Started(const std::filesystem::path& folder, const std::string& name,
+            const std::vector<std::string>& arguments);
+    ~Started();
+    Started(const Started&) = delete;
+    Started& operator=(const Started&) = delete;
+
+    void signal(int number) const;
+    /// @return exit code -1 when it does not end in time, or by a signal
+    [[nodiscard]] Finished wait(std::chrono::seconds limit);
+    /// @return whether its standard output comes to hold the text, before it ends and in time
+    [[nodiscard]] bool says(const std::string& text, std::chrono::seconds limit);
+    /// What it has said so far.
+    [[nodiscard]] std::string output() const;
+
+private:
+    /// @return whether it has ended by then
+    bool ended(std::chrono::milliseconds limit);
+
+    std::filesystem::path out_;
+    std::filesystem::path err_;
+    pid_t child_ = 0;
+    bool running_ = false;
+    int exit_code_ = -1;
 };
 
 /// A folder of its own for one test, gone with it.

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "limpet/record/recording.hpp"
+#include "program.hpp"
+
+// The companion as a user starts it, alone and as one of three processes.
+
+namespace limpet {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+/// A port that is free on loopback now.
+/// @param type  SOCK_DGRAM or SOCK_STREAM
+std::string free_port(int type) {
+    const int handle = socket(AF_INET, type, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof(address);
+    EXPECT_EQ(bind(handle, reinterpret_cast<sockaddr*>(&address), length), 0);
+    EXPECT_EQ(getsockname(handle, reinterpret_cast<sockaddr*>(&address), &length), 0);
+    close(handle);
+    return std::to_string(ntohs(address.sin_port));
+}
+
+/// Addresses of one set of three processes.
+struct Ports {
+    std::string hil = "tcp:127.0.0.1:" + free_port(SOCK_STREAM);
+    std::string onboard = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
+    std::string companion = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
+    std::string sensors = "udp:127.0.0.1:" + free_port(SOCK_DGRAM);
+
+    [[nodiscard]] std::vector<std::string> companion_words(
+        const std::vector<std::string>& more) const {
+        std::vector<std::string> words = {"companion", "simulation",
+                                          "--set",     "autopilot.address=" + companion,
+                                          "--set",     "sensors.address=" + sensors};
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+};
+
+TEST(CompanionVerb, CheckSaysWhatItWouldDoAndOpensNothing) {
+    const Bench bench;
+    const Finished finished = bench.run({"companion", "optitrack_px4", "--check"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    for (const char* part : {"autopilot   serial:/dev/ttyAMA0:921600", "waits until an operator",
+                             "NatNet on udp-multi", "TFmini Plus, left serial:",
+                             "lines over serial:", "signing     none", "hands back  pose"}) {
+        EXPECT_THAT(finished.out, HasSubstr(part));
+    }
+    EXPECT_TRUE(bench.files().empty());
+}
+
+TEST(CompanionVerb, RefusesBadInputInOneLine) {
+    const Bench bench;
+    const auto refused = [&](const std::vector<std::string>& words, const char* part) {
+        const Finished finished = bench.run(words);
+        EXPECT_EQ(finished.exit_code, 2) << part;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(part));
+    };
+    refused({"companion", "nobody"}, "no such companion");
+    refused({"companion", "simulation", "--set", "limits.pose_limit_s=9"}, "allowed 0.05..5 s");
+    refused({"companion", "simulation", "--speed", "0"}, "--speed 0: must be 0.01..100");
+    refused({"companion", "optitrack_px4", "--speed", "2"}, "only 1 with serial wires");
+    refused({"companion", "simulation", "--expect", "landed"}, "no such outcome");
+    refused({"companion", "optitrack_px4", "--no-record"}, "/dev/ttyAMA0");
+    bench.write("half.yaml", "vehicle: perching_uav\nmission: perch\n");
+    refused({"companion", "half.yaml", "--check"},
+            "half.yaml: is half a companion, missing lidars.source, mechanism.source, "
+            "mechanism.valve, motion_capture.source");
+    EXPECT_EQ(bench.files(), std::vector<std::string>{"half.yaml"});
+}
+
+TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
+    const Bench bench;
+    const Finished finished =
+        bench.run(Ports().companion_words({"--set", "limits.wait_limit_s=2", "--speed", "4"}));
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_THAT(finished.out, HasSubstr("waits for motion-capture pose, left LiDAR, right LiDAR, "
+                                        "force, cup pressure, no heartbeat of the autopilot"));
+    EXPECT_THAT(finished.err, HasSubstr("limpet: nothing was flown: waited 2 s for"));
+    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+    EXPECT_EQ(read_recording(bench.folder() / "out/companion/flight.mcap").damage, "");
+}
+
+TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Bench bench;
+        Started companion(bench.folder(), "companion", Ports().companion_words({"--out", "o"}));
+        ASSERT_TRUE(companion.says("waits for", 20s)) << companion.output();
+        companion.signal(signal);
+        const Finished finished = companion.wait(20s);
+        EXPECT_EQ(finished.exit_code, 130) << finished.err;
+        EXPECT_EQ(read_recording(bench.folder() / "o/flight.mcap").damage, "");
+    }
+}
+
+/// Autopilot, surroundings and companion, four times as fast as real time.
+struct ThreeProcesses : testing::Test {
+    static constexpr auto kLong = 120s;
+    Bench bench;
+    Ports ports;
+    Started autopilot{bench.folder(),
+                      "autopilot",
+                      {"stand-in", "perch_concrete", "--hil", ports.hil, "--onboard", ports.onboard,
+                       "--peer", ports.companion}};
+    Started surroundings{bench.folder(),
+                         "surroundings",
+                         {"sim-io", "perch_concrete", "--hil", ports.hil, "--sensors",
+                          ports.sensors, "--speed", "4", "--no-figures", "--out", "sim"}};
+};
+
+TEST_F(ThreeProcesses, PerchAndTakeOff) {
+    Started companion(
+        bench.folder(), "companion",
+        ports.companion_words({"--speed", "4", "--out", "companion_out", "--expect", "released"}));
+    const Finished flown = companion.wait(kLong);
+    EXPECT_EQ(flown.exit_code, 0) << flown.out << flown.err << surroundings.output();
+    EXPECT_THAT(flown.out, HasSubstr("released: back at the pre-position"));
+    const Finished seen = surroundings.wait(20s);
+    EXPECT_EQ(seen.exit_code, 0) << seen.out << seen.err;
+    EXPECT_THAT(seen.out, HasSubstr("released"));
+    for (const char* event : {"impact", "attached", "perched", "motors_off", "detached"}) {
+        EXPECT_THAT(seen.out, HasSubstr(event));
+    }
+    const Recording recording = read_recording(bench.folder() / "companion_out/flight.mcap");
+    EXPECT_EQ(recording.damage, "");
+    const Finished drawn = bench.run({"plot", "companion_out/flight.mcap"});
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+}
+
+TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
+    Started companion(bench.folder(), "companion",
+                      ports.companion_words({"--speed", "4", "--out", "companion_out"}));
+    ASSERT_TRUE(companion.says("landing_started", kLong)) << companion.output();
+    companion.signal(SIGINT);
+    const Finished flown = companion.wait(60s);
+    EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
+    EXPECT_THAT(flown.out, HasSubstr("goes on until it rests or is off the wall"));
+    EXPECT_THAT(flown.out, HasSubstr("nothing asked for; the pump stays on"));
+    EXPECT_THAT(flown.out, testing::Not(HasSubstr("motors_on")));
+    EXPECT_EQ(read_recording(bench.folder() / "companion_out/flight.mcap").damage, "");
+    const Finished seen = surroundings.wait(20s);
+    EXPECT_THAT(seen.out, HasSubstr("motors_off"));
+    EXPECT_THAT(seen.out, testing::Not(HasSubstr("detached")));
+}
+
+}  // namespace
+}  // namespace limpet
