@@ -8,6 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
+#include "signals.hpp"
 #include "verbs.hpp"
 
 namespace {
@@ -95,6 +96,8 @@ int main(int argc, char** argv) {
         return fail(ExitCode::bad_input, std::string(error.what()) + " (limpet --help)");
     } catch (const limpet::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
+    } catch (const limpet::app::Interrupted& error) {
+        return fail(ExitCode::interrupted, error.what());
     } catch (const std::exception& error) {
         return fail(ExitCode::our_fault, std::string("a fault of ours: ") + error.what());
     }

@@ -75,7 +75,7 @@ TEST(CompanionVerb, RefusesBadInputInOneLine) {
     refused({"companion", "optitrack_px4", "--speed", "2"}, "only 1 with serial wires");
     refused({"companion", "simulation", "--expect", "landed"}, "no such outcome");
     refused({"companion", "optitrack_px4", "--no-record"}, "/dev/ttyAMA0");
-    bench.write("half.yaml", "vehicle: perching_uav\nmission: perch\n");
+    (void)bench.write("half.yaml", "vehicle: perching_uav\nmission: perch\n");
     refused({"companion", "half.yaml", "--check"},
             "half.yaml: is half a companion, missing lidars.source, mechanism.source, "
             "mechanism.valve, motion_capture.source");
