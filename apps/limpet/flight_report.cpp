@@ -116,6 +116,10 @@ std::string event_head() {
 }
 
 std::string event_line(const Event& event) {
+    if (event.name == EventName::parameter_set && event.value_count == 1) {
+        return fmt::format("{:8.3f}  {:<17}  {} = {:g}", event.time_s, to_string(event.name),
+                           event.values[0].name, event.values[0].value);
+    }
     return fmt::format("{:8.3f}  {:<17}  {}  {}  {}  {}  {}", event.time_s, to_string(event.name),
                        cell(value_of(event, "distance_m"), 10, 2),
                        cell(value_of(event, "pitch_deg"), 9, 2),

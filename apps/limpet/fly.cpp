@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "flight_report.hpp"
+#include "ground_station.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
@@ -33,6 +34,7 @@ struct FlyOptions {
     std::string expect;
     std::string autopilot = "builtin";
     Px4LinkOptions px4;
+    GroundStationOptions ground;
     bool seed_given = false;
     bool json = false;
     bool quiet = false;
@@ -107,6 +109,7 @@ void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
 }
 
 void check_together(const CLI::App& verb, const FlyOptions& options) {
+    check(options.ground, options.autopilot == "builtin");
     only_with(verb, options.autopilot == "px4", {"--hil", "--offboard", "--wait", "--record-wire"},
               "--autopilot px4");
     only_with(verb, !options.px4.serial(), {"--offboard"},
@@ -119,7 +122,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
     }
-    const double speed = speed_of(options.px4.speed, 0.0);
+    const double speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0);
     const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
     if (options.autopilot == "px4") {
         check(options.px4, scenario);
@@ -147,12 +150,26 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
             terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
         };
     }
+    FlightWatch watched = watch(terminal);
+    std::optional<GroundStation> ground;
+    if (options.ground.wanted) {
+        ground.emplace(options.ground, *model, terminal);
+        watched.on_tick = [&ground](Flight& flight, const EventList& events) {
+            ground->tick(flight, events);
+        };
+    }
     terminal.line(terminal.dim(event_head()));
-    const FlightResult result = fly(model, recording, watch(terminal), 0, conduct);
+    const FlightResult result = fly(model, recording, watched, 0, conduct);
+    if (ground) {
+        ground->end(result);
+    }
 
     terminal.line("");
     for (const std::string& line : flight_summary(result, terminal)) {
         terminal.line(line);
+    }
+    if (ground) {
+        terminal.line(terminal.bold("ground     ") + ground->report());
     }
     std::optional<LinkReport> link;
     if (px4) {
@@ -213,8 +230,10 @@ void add_fly(CLI::App& app, ExitCode& code) {
         ->type_name("NAME")
         ->check(CLI::IsMember({"builtin", "px4"}));
     add_options(*verb, options->px4, true);
+    add_options(*verb, options->ground);
     verb->add_option("--speed", options->px4.speed,
-                     "times real time, or max (default: max; on a serial wire 1)")
+                     "times real time, or max (default: max; 1 on a serial wire or before a\n"
+                     "ground station)")
         ->type_name("FACTOR");
     verb->add_flag("--json", options->json,
                    "one JSON object on standard output, all else on standard error;\nno figures");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "outside_wires.hpp"
 
+#include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/devices/pseudo_terminal.hpp"
 #include "options.hpp"
@@ -59,9 +60,53 @@ std::unique_ptr<devices::NatNetSource> open_motion_capture(const OutsideWireOpti
                      ": must be mavlink, udp-multicast:GROUP:PORT[@INTERFACE] or udp:HOST:PORT");
 }
 
+void fill(std::string& option, const std::string& text) {
+    if (option.empty()) {
+        option = text;
+    }
+}
+
+/// The wires of a companion's file as this end sees them.
+void fill(OutsideWireOptions& options, const CompanionConfig& config) {
+    const auto terminal = [](const TransportAddress& address) {
+        return std::string(kPseudoTerminal) + address.device;
+    };
+    if (config.sensors) {
+        fill(options.sensors, to_text(*config.sensors));
+    }
+    if (config.pose_source == PoseSource::natnet) {
+        const bool group = config.pose_address.medium == Medium::udp_multicast;
+        require(group || config.pose_command, "unicast NatNet has a command port");
+        fill(options.motion_capture, to_text(group ? config.pose_address : *config.pose_command));
+        options.axes = config.axes;
+        options.rigid_body = config.rigid_body;
+    }
+    if (config.lidar_source == ReadingSource::serial) {
+        fill(options.lidar_left, terminal(config.lidar_left));
+        fill(options.lidar_right, terminal(config.lidar_right));
+    }
+    if (config.mechanism == MechanismWire::line) {
+        fill(options.mechanism, terminal(config.mechanism_address));
+    }
+    options.system = config.system;
+}
+
 }  // namespace
 
+OutsideWireOptions resolved(OutsideWireOptions options) {
+    if (!options.companion.empty()) {
+        fill(options, load_companion(options.companion));
+    }
+    fill(options.sensors, "udp:127.0.0.1:14600");
+    fill(options.motion_capture, "mavlink");
+    return options;
+}
+
 void add_options(CLI::App& verb, OutsideWireOptions& options) {
+    verb.add_option("companion", options.companion,
+                    "the companion's name or YAML file: all its wires, from outside;\n"
+                    "serial ports become pseudo-terminals of those names")
+        ->type_name("COMPANION");
     verb.add_option("--sensors", options.sensors,
                     "where the companion listens for MAVLink sensors and speaks to pump and\n"
                     "valve (default udp:127.0.0.1:14600)")
@@ -72,11 +117,6 @@ void add_options(CLI::App& verb, OutsideWireOptions& options) {
         ->type_name("WIRE");
     verb.add_option("--natnet", options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1")
         ->type_name("VERSION");
-    verb.add_option("--up", options.up, "axis of motion capture that points up (default y)")
-        ->type_name("AXIS")
-        ->check(CLI::IsMember({"y", "z"}));
-    verb.add_option("--rigid-body", options.rigid_body, "streaming id (default 1)")
-        ->type_name("ID");
     verb.add_option("--lidar-left", options.lidar_left,
                     "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
                     "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)")
@@ -92,7 +132,8 @@ OutsideWires open_wires(const OutsideWireOptions& options) {
     OutsideWires wires;
     wires.sensors = std::make_unique<mavlink::Link>(
         open_transport(sensors, Role::connect),
-        mavlink::Sender{.system = 1, .component = mavlink::kMechanismComponent});
+        mavlink::Sender{.system = static_cast<std::uint8_t>(options.system),
+                        .component = mavlink::kMechanismComponent});
     wires.motion_capture = open_motion_capture(options);
     wires.lidar_left = open_device("--lidar-left", options.lidar_left);
     wires.lidar_right = open_device("--lidar-right", options.lidar_right);
@@ -102,7 +143,7 @@ OutsideWires open_wires(const OutsideWireOptions& options) {
 
 OutsideOptions outside_options(const OutsideWireOptions& options, const Scenario& scenario) {
     return {
-        .axes = {.up = options.up == "z" ? devices::UpAxis::z : devices::UpAxis::y},
+        .axes = options.axes,
         .rigid_body = options.rigid_body,
         .lidar_range_min_m = scenario.sensors.lidar_range_min_m,
         .lidar_range_max_m = scenario.sensors.lidar_range_max_m,

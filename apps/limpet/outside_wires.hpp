@@ -9,19 +9,27 @@
 
 namespace limpet::app {
 
-/// The other ends of a companion's wires, as the command line names them.
+/// The other ends of a companion's wires, as the command line names them; "": as the companion's
+/// file has it, or the default.
 struct OutsideWireOptions {
-    std::string sensors = "udp:127.0.0.1:14600";
-    std::string motion_capture = "mavlink";
-    std::string up = "y";
+    std::string companion;  ///< name or file; "": none, MAVLink on default addresses
+    std::string sensors;
+    std::string motion_capture;
     std::string natnet = "3.1";
-    std::string lidar_left;   ///< "": over `sensors`
-    std::string lidar_right;  ///< likewise
-    std::string mechanism;    ///< likewise
+    std::string lidar_left;
+    std::string lidar_right;
+    std::string mechanism;
+    devices::MocapAxes axes;
     int rigid_body = 1;
+    int system = 1;
 };
 void add_options(CLI::App& verb, OutsideWireOptions& options);
+/// Fills in what the companion's file says, the other way round: where it opens a serial port there
+/// a pseudo-terminal of that name is made, where it listens this end speaks.
+/// @throws InputError as load_companion
+[[nodiscard]] OutsideWireOptions resolved(OutsideWireOptions options);
 
+/// @param options  resolved
 /// @throws InputError when an address is none, or a wire cannot be opened
 [[nodiscard]] OutsideWires open_wires(const OutsideWireOptions& options);
 [[nodiscard]] OutsideOptions outside_options(const OutsideWireOptions& options,

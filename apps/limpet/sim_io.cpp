@@ -120,6 +120,7 @@ FlightWatch watch(Terminal& terminal) {
 }
 
 void sim_io(SimIoOptions options, ExitCode& code) {
+    options.wires = resolved(std::move(options.wires));
     check(options);
     if (options.px4.speed.empty()) {
         options.px4.speed = "1";  // the companion's clock is real
@@ -188,7 +189,7 @@ void add_sim_io(CLI::App& app, ExitCode& code) {
     verb->add_flag("--no-figures", options->no_figures, "write the recording only");
     verb->footer(
         "Three terminals, as in the paper's Fig. 5:\n"
-        "  limpet sim-io perch_concrete\n"
+        "  limpet sim-io perch_concrete simulation\n"
         "  limpet stand-in perch_concrete       or PX4: docs/px4.md\n"
         "  limpet companion simulation\n"
         "The vehicle stands until the companion takes off. The flight ends when the companion\n"

@@ -21,14 +21,14 @@ std::string Companion::mechanism_obstacle(double time_s) const {
     }
     if (!drives_mechanism_) {
         return fmt::format(
-            "the cup to be free (it holds {:.0f} hPa: on a wall? the pump is left as "
+            "the cup is not free (it holds {:.0f} hPa: on a wall? the pump is left as "
             "it is)",
             readings.cup_pressure.value.pressure_Pa / 100.0);
     }
     if (inputs_.mechanism_s() < 0.0 || time_s - inputs_.mechanism_s() > kAnswer_s) {
-        return "an answer of pump and valve";
+        return "no answer of pump and valve";
     }
-    return inputs_.mechanism_refuses() ? "pump and valve, which refuse" : "";
+    return inputs_.mechanism_refuses() ? "pump and valve refuse" : "";
 }
 
 /// All that keeps it from flying; empty: nothing.
@@ -53,8 +53,8 @@ std::string Companion::obstacle(double time_s) const {
         const double apart_deg = degrees(pose.q_WB.angularDistance(estimate.q_WB));
         if (apart_m > config_.limits.agreement_m || apart_deg > config_.limits.agreement_deg) {
             add(
-                fmt::format("motion capture and the autopilot's pose to agree (now {:.2f} m and "
-                            "{:.0f} deg apart)",
+                fmt::format("motion capture and the autopilot's pose differ by {:.2f} m and "
+                            "{:.0f} deg",
                             apart_m, apart_deg));
         }
     }
@@ -81,9 +81,9 @@ void Companion::wait(double time_s) {
             dry_run_ ? "ready: all inputs are here" : "ready: inputs and autopilot are here");
     } else if (time_s - phase_s_ > config_.limits.wait_limit_s) {
         leave(Action::let_go, CompanionEnd::absent,
-              fmt::format("waited {:g} s for {}", config_.limits.wait_limit_s, missing), time_s);
+              fmt::format("waited {:g} s: {}", config_.limits.wait_limit_s, missing), time_s);
     } else if (missing != told_obstacle_ || time_s - told_obstacle_s_ >= kObstacleEvery_s) {
-        say(time_s, fmt::format("waits for {}", missing));
+        say(time_s, fmt::format("waits: {}", missing));
         told_obstacle_ = missing;
         told_obstacle_s_ = time_s;
     }

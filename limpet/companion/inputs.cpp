@@ -42,7 +42,7 @@ void drain(mavlink::Link& link, Hear&& hear) {
 }
 
 void name(std::string& list, const char* what) {
-    list += list.empty() ? "" : ", ";
+    list += list.empty() ? "no " : ", no ";
     list += what;
 }
 

@@ -26,7 +26,7 @@ public:
     void poll(Wires& wires, mavlink::Offboard& offboard, double time_s);
 
     [[nodiscard]] const Readings& readings() const { return readings_; }
-    /// Whether what guidance needs is here and fresh; else "left LiDAR, force" of what is not.
+    /// Empty: what guidance needs is here and fresh. Else "no left LiDAR, no force".
     [[nodiscard]] std::string missing(double time_s) const;
     [[nodiscard]] bool pose_fresh(double time_s) const;
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/flight.hpp"
 
-#include <optional>
+#include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight_log.hpp"
 #include "limpet/simulation/pace.hpp"
@@ -49,6 +53,7 @@ const EventList& Flight::tick() {
         return events_;
     }
     step(*model_, state_, plant_, events_, autopilot_, guidance_);
+    report_parameters();
     if (autopilot_ != nullptr && autopilot_->failure()) {
         // In the air it falls; on the wall the cup still holds it.
         stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
@@ -63,6 +68,36 @@ void Flight::stop(Outcome outcome, std::string_view reason) {
     if (!ended()) {
         state_.ending = Ending{.outcome = outcome, .reason = reason};
     }
+}
+
+void Flight::set_autopilot(const AutopilotParameters& parameters) {
+    require(autopilot_ == nullptr, "an autopilot behind a wire has its own parameters");
+    for (const auto& row : autopilot_table()) {
+        const double value = row.get(parameters);
+        if (!(value >= row.minimum && value <= row.maximum)) {
+            throw InputError(fmt::format("autopilot.{} = {:g} is out of range, allowed {:g}..{:g}",
+                                         row.name, value, row.minimum, row.maximum));
+        }
+    }
+    for (const auto& row : autopilot_table()) {
+        if (row.get(parameters) != row.get(model_->autopilot.parameters)) {
+            parameters_set_.push_back({row.name, row.get(parameters)});
+        }
+    }
+    auto own = std::make_shared<SimulationModel>(*model_);
+    own->autopilot.parameters = parameters;
+    own->scenario.autopilot = parameters;
+    model_ = std::move(own);
+}
+
+void Flight::report_parameters() {
+    std::size_t reported = 0;
+    while (reported < parameters_set_.size() && events_.count < events_.events.size()) {
+        events_.add(make_event(seconds(state_.tick), "autopilot", EventName::parameter_set, {},
+                               {parameters_set_[reported++]}));
+    }
+    parameters_set_.erase(parameters_set_.begin(),
+                          parameters_set_.begin() + static_cast<std::ptrdiff_t>(reported));
 }
 
 void Flight::restore(const Snapshot& snapshot) {

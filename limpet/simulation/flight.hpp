@@ -30,6 +30,11 @@ public:
     const EventList& tick();
     /// Ends it from outside, with a reason (a literal). Nothing when it has ended already.
     void stop(Outcome outcome, std::string_view reason);
+    /// From the next tick on the built-in autopilot flies with these; the model becomes a copy of
+    /// this flight's own. Each one that changes is an event of the next ticks, so that the
+    /// recording tells.
+    /// @throws InputError naming the first that is out of its range; then nothing has changed
+    void set_autopilot(const AutopilotParameters& parameters);
     [[nodiscard]] bool ended() const { return state_.ending.has_value(); }
 
     [[nodiscard]] const SimulationModel& model() const { return *model_; }
@@ -41,10 +46,13 @@ public:
     void restore(const Snapshot& snapshot);
 
 private:
+    void report_parameters();
+
     std::shared_ptr<const SimulationModel> model_;
     MujocoPlant plant_;
     SimulationState state_;
     EventList events_;
+    std::vector<EventValue> parameters_set_;  ///< not reported yet
     ExternalAutopilot* autopilot_ = nullptr;
     RemoteGuidance* guidance_ = nullptr;
 };

@@ -20,17 +20,16 @@ namespace limpet {
 
 /// The wires of a companion computer, held from outside. What is null goes over `sensors`.
 struct OutsideWires {
-    std::unique_ptr<mavlink::Link> sensors;                 ///< MAVLink, speaks to the companion
-    std::unique_ptr<devices::NatNetSource> motion_capture;  ///< null: ODOMETRY
-    std::unique_ptr<Transport> lidar_left;                  ///< TFmini Plus; null: DISTANCE_SENSOR
-    std::unique_ptr<Transport> lidar_right;
-    std::unique_ptr<Transport> mechanism;  ///< lines; null: NAMED_VALUE_FLOAT, DO_SET_ACTUATOR
+    std::unique_ptr<mavlink::Link> sensors;  ///< MAVLink, speaks to the companion
+    std::unique_ptr<devices::NatNetSource> motion_capture = {};  ///< null: ODOMETRY
+    std::unique_ptr<Transport> lidar_left = {};  ///< TFmini Plus; null: DISTANCE_SENSOR
+    std::unique_ptr<Transport> lidar_right = {};
+    std::unique_ptr<Transport> mechanism = {};  ///< lines; null: NAMED_VALUE_FLOAT, DO_SET_ACTUATOR
 };
 
 struct OutsideOptions {
     devices::MocapAxes axes;
     std::int32_t rigid_body = 1;
-    std::uint8_t system = 1;  ///< of the vehicle, on MAVLink
     double lidar_range_min_m = 0.1;
     double lidar_range_max_m = 12.0;
 };

@@ -54,11 +54,11 @@ TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     r.stage.puppet.force_works = false;
     r.stage.tells_pose = false;
     r.run(5.0);
-    EXPECT_TRUE(r.said("waits for force, the autopilot tells no fresh pose"))
+    EXPECT_TRUE(r.said("waits: no force, the autopilot tells no fresh pose"))
         << testing::PrintToString(r.lines);
     ASSERT_TRUE(r.run_out(6.0));
     EXPECT_EQ(r.result().end, CompanionEnd::absent);
-    EXPECT_THAT(r.result().reason, testing::HasSubstr("waited 10 s for force"));
+    EXPECT_THAT(r.result().reason, testing::HasSubstr("waited 10 s: no force"));
     EXPECT_EQ(r.stage.autopilot.set_points, 0);
     EXPECT_EQ(r.stage.autopilot.arms, 0);
 }
@@ -72,18 +72,18 @@ TEST(Companion, WaitsForEachOfItsInputs) {
         EXPECT_TRUE(r.said(what)) << what << testing::PrintToString(r.lines);
         EXPECT_EQ(r.stage.autopilot.set_points, 0) << what;
     };
-    waits([](Stage& s) { s.motion_capture_works = false; }, "motion-capture pose");
-    waits([](Stage& s) { s.puppet.lidar_works = false; }, "left LiDAR, right LiDAR");
-    waits([](Stage& s) { s.puppet.force_works = false; }, "force");
-    waits([](Stage& s) { s.puppet.pressure_works = false; }, "cup pressure");
+    waits([](Stage& s) { s.motion_capture_works = false; }, "no motion-capture pose");
+    waits([](Stage& s) { s.puppet.lidar_works = false; }, "no left LiDAR, no right LiDAR");
+    waits([](Stage& s) { s.puppet.force_works = false; }, "no force");
+    waits([](Stage& s) { s.puppet.pressure_works = false; }, "no cup pressure");
     waits([](Stage& s) { s.beats = false; }, "no heartbeat of the autopilot");
     waits([](Stage& s) { s.tells_pose = false; }, "no fresh pose");
-    waits([](Stage& s) { s.mechanism_answers = false; }, "an answer of pump and valve");
+    waits([](Stage& s) { s.mechanism_answers = false; }, "no answer of pump and valve");
     waits(
         [](Stage& s) {
             s.motion_capture_off_m = {0.0, 0.5, 0.0};
         },
-        "motion capture and the autopilot's pose to agree (now 0.50 m and 0 deg apart)");
+        "motion capture and the autopilot's pose differ by 0.50 m and 0 deg");
 }
 
 TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
@@ -96,7 +96,7 @@ TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
     }
     r.run(3.0);
     EXPECT_EQ(r.companion->phase(), Phase::waiting);
-    EXPECT_TRUE(r.said("the cup to be free (it holds 60")) << testing::PrintToString(r.lines);
+    EXPECT_TRUE(r.said("the cup is not free (it holds 60")) << testing::PrintToString(r.lines);
     EXPECT_EQ(r.stage.sensors.commands, 0);
     EXPECT_TRUE(r.stage.mechanism.pump_on);
 }
@@ -132,6 +132,21 @@ TEST(Companion, ThatComesToAVehicleInTheAirNeverStopsItsMotors) {
     EXPECT_EQ(r.companion->phase(), Phase::flying);
     EXPECT_EQ(r.stage.autopilot.disarms, 0);
     EXPECT_EQ(r.stage.autopilot.drops, 0);
+}
+
+TEST(Companion, WithAKeyHearsOnlyWhatIsSigned) {
+    const mavlink::LinkSigning signing{
+        .key = {1, 2, 3}, .link_id = 5, .unix_us = [] { return 1'700'000'000'000'000ULL; }};
+    for (const bool stage_signs : {true, false}) {
+        Rehearsal r;
+        r.wires.autopilot->sign(signing);
+        if (stage_signs) {
+            r.stage.sign_autopilot(signing);
+        }
+        r.run(2.0);
+        EXPECT_EQ(r.companion->phase(), stage_signs ? Phase::ready : Phase::waiting);
+        EXPECT_EQ(r.wires.autopilot->count().unsigned_ > 0, !stage_signs);
+    }
 }
 
 TEST(Companion, IsNotWaitedForLongerThanTheOperatorsLimit) {

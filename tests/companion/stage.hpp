@@ -78,6 +78,7 @@ public:
         tell();
     }
 
+    void sign_autopilot(const mavlink::LinkSigning& signing) { autopilot_.sign(signing); }
     [[nodiscard]] double time_s() const { return puppet.time_s; }
 
 private:

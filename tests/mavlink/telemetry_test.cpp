@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/mavlink/telemetry.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,7 @@
 #include <numbers>
 
 #include "../support/allocations.hpp"
-#include "station.hpp"
+#include "watched.hpp"
 
 namespace limpet::mavlink {
 namespace {
@@ -19,66 +17,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
-
-/// A vehicle that a ground station watches at 50 Hz.
-class Watched : public testing::Test {
-protected:
-    Watched() {
-        estimate_.valid = true;
-        estimate_.p_WB_m = {1.0, -2.0, -0.5};
-        readings_.imu.time_s = 0.0;
-        readings_.battery = {0.0, {.voltage_V = 22.2, .current_A = 20.5, .remaining = 0.756}};
-        readings_.lidar_left = {0.0, {.distance_m = 1.234, .valid = true}};
-        readings_.lidar_right = {0.0, {.distance_m = 0.0, .valid = false}};
-    }
-
-    /// Runs on by so many updates.
-    void fly(int updates) {
-        for (int i = 0; i < updates; ++i) {
-            telemetry_.update(view());
-            time_s_ = 0.02 * ++updates_;
-            readings_.imu.time_s = time_s_;
-            station_.collect();  // as a ground station does, before its buffer is full
-        }
-    }
-    VehicleView view() const {
-        return {.time_s = time_s_, .estimate = estimate_, .readings = readings_, .armed = armed_};
-    }
-    template <class Message>
-    Message last() {
-        const auto heard = station_.heard<Message>();
-        EXPECT_FALSE(heard.empty()) << Message::kName;
-        return heard.empty() ? Message{} : heard.back();
-    }
-    CommandAck command(std::uint16_t command, float param1 = 0.0F, float param2 = 0.0F) {
-        station_.forget();
-        station_.ask(CommandLong{.target_system = 1,
-                                 .target_component = 1,
-                                 .command = command,
-                                 .param1 = param1,
-                                 .param2 = param2});
-        fly(1);
-        const auto acks = station_.heard<CommandAck>();
-        EXPECT_EQ(acks.size(), 1U);
-        return acks.empty() ? CommandAck{} : acks.front();
-    }
-
-    Station station_;
-    Estimate estimate_;
-    Readings readings_;
-    bool armed_ = true;
-    double time_s_ = 0.0;
-    int updates_ = 0;
-    std::vector<std::pair<std::string, double>> sets_;
-    Telemetry telemetry_{
-        station_.vehicle,
-        {.battery_cells = 6,
-         .lidar_minimum_m = 0.1,
-         .lidar_maximum_m = 12.0,
-         .software_version = 0x00010000},
-        {{.name = "MPC_XY_P", .value = 0.95, .minimum = 0.0, .maximum = 2.0}},
-        [this](std::string_view name, double value) { sets_.emplace_back(name, value); }};
-};
 
 TEST_F(Watched, SendsEveryStreamAtItsRateOfSimulatedTime) {
     fly(501);  // 0 to 10 s, both ends included
@@ -343,78 +281,6 @@ TEST_F(Watched, NothingIsAllocated) {
     }
     telemetry_.event(event);
     EXPECT_EQ(allocations(), before);
-}
-
-/// Both ends of a link that is signed.
-class Signed : public Watched {
-protected:
-    static constexpr std::uint64_t kNow_us = 1'800'000'000'000'000;
-    void SetUp() override {
-        key_.fill(0xA5);
-        station_.vehicle.sign({.key = key_, .link_id = 1, .unix_us = [] { return kNow_us; }});
-        fly(1);  // the vehicle has spoken; an unsigned ground station reads it all the same
-        ASSERT_FALSE(station_.heard<Heartbeat>().empty());
-        station_.forget();
-    }
-    static ParamSet set_to(float value) {
-        ParamSet set{
-            .target_system = 1, .target_component = 1, .param_value = value, .param_type = 9};
-        set_text(set.param_id, "MPC_XY_P");
-        return set;
-    }
-    SigningKey key_ = {};
-};
-
-TEST_F(Signed, APeerWithTheKeyIsServed) {
-    station_.ground.sign({.key = key_, .link_id = 2, .unix_us = [] { return kNow_us; }});
-    station_.ask(set_to(1.5F));
-    fly(1);
-    EXPECT_THAT(sets_, ElementsAre(testing::Pair("MPC_XY_P", 1.5)));
-    EXPECT_EQ(station_.heard<ParamValue>().size(), 1U);
-    EXPECT_EQ(station_.vehicle.count().unsigned_, 0U);
-}
-
-TEST_F(Signed, UnsignedOrWronglySignedSetsAreRefusedAndCounted) {
-    station_.ask(set_to(1.5F));
-    SigningKey other = key_;
-    other[31] ^= 1U;
-    station_.ground.sign({.key = other, .link_id = 2, .unix_us = [] { return kNow_us; }});
-    station_.ask(set_to(1.6F));
-    station_.ask(CommandLong{.target_system = 1, .command = 512, .param1 = 148.0F});
-    fly(1);
-    EXPECT_THAT(sets_, IsEmpty());
-    EXPECT_THAT(station_.heard<ParamValue>(), IsEmpty());
-    EXPECT_THAT(station_.heard<CommandAck>(), IsEmpty());
-    EXPECT_EQ(station_.vehicle.count().unsigned_, 3U);
-}
-
-TEST_F(Signed, AReplayIsRefused) {
-    // Somebody who listens records a signed set and sends its bytes again.
-    Sender sender{.system = 255, .component = kGroundStationComponent};
-    Signing signing(key_, 2);
-    FrameBuffer buffer;
-    const ByteView frame =
-        signing.sign(buffer, encode(set_to(1.5F), sender, buffer), signing_time(kNow_us));
-    const std::vector<std::uint8_t> recorded(frame.begin(), frame.end());
-    auto wire = open_transport({.medium = Medium::udp}, Role::listen);
-    Link vehicle(
-        open_transport({.medium = Medium::udp, .port = wire->address().port}, Role::connect),
-        {.system = 1, .component = kAutopilotComponent});
-    vehicle.sign({.key = key_, .link_id = 1, .unix_us = [] { return kNow_us; }});
-    int sets = 0;
-    Telemetry telemetry(vehicle, {.battery_cells = 6},
-                        {{.name = "MPC_XY_P", .value = 0.95, .minimum = 0.0, .maximum = 2.0}},
-                        [&sets](std::string_view, double) { ++sets; });
-    telemetry.update(view());
-    std::array<std::byte, 512> hello = {};
-    ASSERT_EQ(wire->receive(hello, std::chrono::seconds(10)).status, TransferStatus::done);
-    for (int i = 0; i < 2; ++i) {
-        ASSERT_EQ(wire->send(std::as_bytes(std::span(recorded)), std::chrono::seconds(10)).status,
-                  TransferStatus::done);
-    }
-    telemetry.update(view());
-    EXPECT_EQ(sets, 1);
-    EXPECT_EQ(vehicle.count().unsigned_, 1U);
 }
 
 }  // namespace

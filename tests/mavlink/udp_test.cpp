@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/mavlink/udp.hpp"
+
 #include <gmock/gmock.h>
 
 #include "../support/allocations.hpp"
@@ -73,6 +75,21 @@ TEST_F(UdpPair, WhoSpeaksToOneHostHearsItAlone) {
     ASSERT_TRUE(stranger.connect(theirs));
     stranger.say("disarm!");
     EXPECT_EQ(heard(*there, 20ms), "<timed out>");
+}
+
+TEST_F(UdpPair, OneThatCallsKeepsTheFirstThatSpeaks) {
+    const auto caller = open_udp_between(at(0), at(port));
+    EXPECT_EQ(say(*caller, "hello"), TransferStatus::done);
+    EXPECT_EQ(heard(*here), "hello");
+    RawSocket first(SOCK_DGRAM);
+    ASSERT_TRUE(first.connect(caller->address().port));
+    first.say("I am the first");
+    EXPECT_EQ(heard(*caller), "I am the first");
+    EXPECT_EQ(say(*here, "too late"), TransferStatus::done);
+    EXPECT_EQ(heard(*caller, 20ms), "<timed out>");
+    EXPECT_EQ(say(*caller, "to you"), TransferStatus::done);
+    EXPECT_EQ(first.heard(), "to you");
+    EXPECT_THROW((void)open_udp_between(caller->address(), at(port)), InputError);
 }
 
 TEST_F(UdpPair, CountsWhatDidNotFitTheBuffer) {

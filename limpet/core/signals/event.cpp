@@ -25,6 +25,7 @@ std::string_view to_string(EventName name) {
         case EventName::detached: return "detached";
         case EventName::backed_off: return "backed_off";
         case EventName::aborted: return "aborted";
+        case EventName::parameter_set: return "parameter_set";
     }
     throw InternalError("event name out of range");
 }

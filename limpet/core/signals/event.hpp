@@ -28,6 +28,7 @@ enum class EventName {
     detached,
     backed_off,
     aborted,
+    parameter_set,  ///< from outside, of the autopilot: its name and value
 };
 
 [[nodiscard]] std::string_view to_string(EventName name);

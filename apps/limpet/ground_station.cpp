@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ground_station.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/version.hpp"
+#include "limpet/mavlink/key_file.hpp"
+#include "options.hpp"
+
+namespace limpet::app {
+namespace {
+
+constexpr const char* kDefaultAddress = "udp:127.0.0.1:14550";  // where QGroundControl listens
+constexpr int kUpdates_Hz = 100;
+constexpr std::size_t kLongestName = 16;  // on the wire
+
+TransportAddress address(const GroundStationOptions& options) {
+    return address_of("--ground-station", options.address,
+                      {Medium::udp, Medium::udp_broadcast, Medium::tcp, Medium::serial});
+}
+
+mavlink::Link open(const GroundStationOptions& options) {
+    mavlink::Link link(open_transport(address(options), Role::connect),
+                       {.system = 1, .component = mavlink::kAutopilotComponent});
+    if (!options.signing_key.empty()) {
+        link.sign(
+            {.key = mavlink::read_signing_key(options.signing_key), .link_id = 0, .unix_us = [] {
+                 using namespace std::chrono;
+                 return static_cast<std::uint64_t>(
+                     duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
+             }});
+    }
+    return link;
+}
+
+/// "0.1.0" as MAVLink has it, a byte each from the top; a development version.
+std::uint32_t software_version() {
+    std::uint32_t version = 0;
+    std::uint32_t part = 0;
+    for (const char letter : std::string(kVersion) + ".") {
+        if (letter == '.') {
+            version = version << 8U | part;
+            part = 0;
+        } else {
+            part = part * 10U + static_cast<std::uint32_t>(letter - '0');
+        }
+    }
+    return version << 8U;
+}
+
+mavlink::TelemetrySetup setup(const SimulationModel& model) {
+    const Scenario& scenario = model.scenario;
+    return {.battery_cells = static_cast<int>(std::lround(scenario.airframe.battery.cells)),
+            .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
+            .lidar_maximum_m = scenario.sensors.lidar_range_max_m,
+            .software_version = software_version()};
+}
+
+}  // namespace
+
+void add_options(CLI::App& verb, GroundStationOptions& options) {
+    verb.add_option_function<std::string>(
+            "--ground-station",
+            [&options](const std::string& address) {
+                options.wanted = true;
+                options.address = address.empty() ? kDefaultAddress : address;
+            },
+            "let a ground station watch and set the autopilot's parameters, at --speed 1\n"
+            "unless given; where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
+        ->type_name("ADDRESS")
+        ->expected(0, 1);
+    verb.add_option("--signing-key", options.signing_key,
+                    "sign the ground station's link and refuse what it does not sign; 64 hex\n"
+                    "digits or 32 bytes, for its owner's eyes (chmod 600)")
+        ->type_name("FILE");
+}
+
+void check(const GroundStationOptions& options, bool builtin) {
+    if (options.wanted && !builtin) {
+        throw InputError(
+            "--ground-station is for the built-in autopilot; a PX4 speaks to its ground station "
+            "itself");
+    }
+    (void)address(options);
+    if (!options.signing_key.empty() && !options.wanted) {
+        throw InputError(
+            "--signing-key: there is no ground station's link to sign; give "
+            "--ground-station too");
+    }
+}
+
+GroundStation::GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+                             Terminal& terminal)
+    : terminal_(terminal),
+      wanted_(model.autopilot.parameters),
+      link_(open(options)),
+      telemetry_(link_, setup(model), served(),
+                 [this](std::string_view name, double value) { set(name, value); }) {
+    terminal_.line(fmt::format("to a ground station on {}{}", options.address,
+                               options.signing_key.empty() ? "" : ", signed"));
+}
+
+std::vector<mavlink::ServedParameter> GroundStation::served() const {
+    std::vector<mavlink::ServedParameter> parameters;
+    for (const auto& row : autopilot_table()) {
+        if (row.name.size() <= kLongestName) {
+            parameters.push_back({.name = std::string(row.name),
+                                  .value = row.get(wanted_),
+                                  .minimum = row.minimum,
+                                  .maximum = row.maximum,
+                                  .whole = row.unit == "count"});
+        }
+    }
+    return parameters;
+}
+
+void GroundStation::set(std::string_view name, double value) {
+    for (const auto& row : autopilot_table()) {
+        if (row.name == name) {
+            row.field(wanted_) = value;
+            changed_ = true;
+        }
+    }
+}
+
+void GroundStation::tick(Flight& flight, const EventList& events) {
+    for (std::size_t k = 0; k < events.count; ++k) {
+        telemetry_.event(events.events[k]);
+    }
+    const SimulationState& state = flight.state();
+    if (!due(state.tick, kUpdates_Hz)) {
+        return;
+    }
+    telemetry_.update({.time_s = seconds(state.tick),
+                       .estimate = state.autopilot.estimate,
+                       .readings = state.sensors.readings,
+                       .armed = state.command.armed});
+    if (changed_) {
+        flight.set_autopilot(wanted_);
+        changed_ = false;
+    }
+    tell_of_refusals();
+}
+
+void GroundStation::tell_of_refusals() {
+    if (!refusals_told_ && link_.count().unsigned_ > 0) {
+        refusals_told_ = true;
+        terminal_.line(terminal_.dim(
+            "          ground station: refused what has no right signature of our key"));
+    }
+}
+
+void GroundStation::end(const FlightResult& result) {
+    const bool amiss = result.outcome == Outcome::crashed || result.outcome == Outcome::timed_out;
+    telemetry_.text(amiss ? mavlink::Severity::error : mavlink::Severity::info,
+                    fmt::format("{}: {}", to_string(result.outcome), result.reason));
+}
+
+std::string GroundStation::report() const {
+    const mavlink::LinkCount count = link_.count();
+    return fmt::format("{} sent, {} received, {} refused for their signature, {} damaged",
+                       count.sent, count.received, count.unsigned_, count.damaged);
+}
+
+}  // namespace limpet::app

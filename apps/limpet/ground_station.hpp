@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "limpet/mavlink/telemetry.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "terminal.hpp"
+
+namespace limpet::app {
+
+struct GroundStationOptions {
+    bool wanted = false;
+    std::string address = "udp:127.0.0.1:14550";
+    std::string signing_key;  ///< file; empty: nothing is signed
+};
+void add_options(CLI::App& verb, GroundStationOptions& options);
+/// @param builtin  the built-in autopilot flies
+/// @throws InputError when the options do not go together
+void check(const GroundStationOptions& options, bool builtin);
+
+/// Shows a flight of the built-in autopilot to a ground station, and lets that set its parameters.
+class GroundStation {
+public:
+    /// @throws InputError for an address or a key that cannot be used
+    GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+                  Terminal& terminal);
+    GroundStation(const GroundStation&) = delete;
+    GroundStation& operator=(const GroundStation&) = delete;
+
+    /// After every tick of the flight.
+    void tick(Flight& flight, const EventList& events);
+    /// Tells how it ended.
+    void end(const FlightResult& result);
+    /// @return one line: what went, what came, what was refused
+    [[nodiscard]] std::string report() const;
+
+private:
+    [[nodiscard]] std::vector<mavlink::ServedParameter> served() const;
+    void set(std::string_view name, double value);
+    void tell_of_refusals();
+
+    Terminal& terminal_;
+    AutopilotParameters wanted_;
+    bool changed_ = false;
+    bool refusals_told_ = false;
+    mavlink::Link link_;
+    mavlink::Telemetry telemetry_;
+};
+
+}  // namespace limpet::app

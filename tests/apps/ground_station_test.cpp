@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ground station watches the real program over UDP.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <future>
+#include <map>
+
+#include "limpet/mavlink/key_file.hpp"
+#include "limpet/mavlink/link.hpp"
+#include "limpet/record/recording.hpp"
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using namespace mavlink;
+using testing::Contains;
+using testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+/// What a ground station has gathered.
+class GroundView {
+public:
+    GroundView()
+        : link(open_transport({.medium = Medium::udp}, Role::listen),
+               {.system = 255, .component = kGroundStationComponent}) {}
+
+    [[nodiscard]] std::string address() const {
+        return "udp:127.0.0.1:" + std::to_string(link.transport().address().port);
+    }
+    /// Reads until something is so, or for as long as no healthy flight here takes.
+    bool until(const std::function<bool()>& so) {
+        const auto end = Clock::now() + std::chrono::seconds(60);
+        while (!so()) {
+            if (Clock::now() > end) {
+                return false;
+            }
+            if (const auto frame = link.receive(std::chrono::milliseconds(50))) {
+                take(*frame);
+            }
+        }
+        return true;
+    }
+    [[nodiscard]] bool said(const std::string& text) const {
+        return texts.find(text) != std::string::npos;
+    }
+    void set(const char* name, float value) {
+        ParamSet message{
+            .target_system = 1, .target_component = 1, .param_value = value, .param_type = 9};
+        set_text(message.param_id, name);
+        EXPECT_EQ(link.send(message), TransferStatus::done);
+    }
+
+    Link link;
+    std::map<std::uint32_t, int> heard;
+    std::map<std::string, float> parameters;
+    int parameter_count = -1;
+    std::string texts;
+    bool armed = false;
+
+private:
+    void take(const Frame& frame) {
+        ++heard[frame.id];
+        if (const auto value = decode<ParamValue>(frame)) {
+            parameters[std::string(text_of(value->param_id))] = value->param_value;
+            parameter_count = value->param_count;
+        } else if (const auto text = decode<StatusText>(frame)) {
+            texts += text_of(text->text);
+            texts += text->id == 0 ? "\n" : "";
+        } else if (const auto beat = decode<Heartbeat>(frame)) {
+            armed = (beat->base_mode & 128) != 0;
+        }
+    }
+};
+
+std::future<Finished> start(const Bench& bench, std::vector<std::string> arguments) {
+    return std::async(std::launch::async,
+                      [&bench, arguments = std::move(arguments)] { return bench.run(arguments); });
+}
+
+TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
+    const Bench bench;
+    GroundView view;
+    auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
+                                "--no-figures", "--out", ".", "--ground-station", view.address()});
+    ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
+    EXPECT_TRUE(view.armed);
+    EXPECT_EQ(view.link.send(ParamRequestList{.target_system = 1}), TransferStatus::done);
+    // All but the earth's field: its names do not fit the wire.
+    EXPECT_TRUE(view.until([&] {
+        return view.parameter_count > 0 &&
+               view.parameters.size() == static_cast<std::size_t>(view.parameter_count);
+    }));
+    EXPECT_EQ(view.parameters.at("MC_PITCHRATE_P"), 0.15F);
+    EXPECT_EQ(view.parameters.count("mag_field_down_gauss"), 0U);
+    view.set("MC_PITCHRATE_P", 0.125F);
+    EXPECT_TRUE(view.until([&] { return view.parameters["MC_PITCHRATE_P"] == 0.125F; }));
+    view.set("MPC_THR_HOVER", 7.0F);
+    EXPECT_TRUE(view.until([&] { return view.said("MPC_THR_HOVER = 7 refused"); }));
+    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
+    EXPECT_TRUE(view.said("parameter_set, MC_PITCHRATE_P 0.125\n"));
+    for (const std::uint32_t id :
+         {SysStatus::kId, Attitude::kId, LocalPositionNed::kId, GlobalPositionInt::kId,
+          HomePosition::kId, BatteryStatus::kId, DistanceSensor::kId, ExtendedSysState::kId}) {
+        EXPECT_GT(view.heard[id], 3) << id;
+    }
+
+    const Finished finished = flight.get();
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("parameter_set      MC_PITCHRATE_P = 0.125"));
+    const Recording recording = read_recording(bench.folder() / "flight.mcap");
+    EXPECT_EQ(recording.damage, "");
+    std::vector<std::string> names;
+    for (const RecordedEvent& event : recording.events) {
+        names.push_back(event.name);
+    }
+    EXPECT_THAT(names, Contains("parameter_set"));
+}
+
+TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
+    const Bench bench;
+    const auto file = bench.write("key", std::string(64, '7') + "\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+    GroundView view;
+    auto flight =
+        start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
+                      "--no-record", "--ground-station", view.address(), "--signing-key", "key"});
+    ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
+    view.set("MC_PITCHRATE_P", 0.1F);  // unsigned
+    view.link.sign({.key = read_signing_key(file), .link_id = 3, .unix_us = [] {
+                        return static_cast<std::uint64_t>(
+                            std::chrono::duration_cast<std::chrono::microseconds>(
+                                std::chrono::system_clock::now().time_since_epoch())
+                                .count());
+                    }});
+    view.set("MC_ROLLRATE_P", 0.1F);
+    EXPECT_TRUE(view.until([&] { return view.parameters["MC_ROLLRATE_P"] == 0.1F; }));
+    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
+    EXPECT_EQ(view.parameters.count("MC_PITCHRATE_P"), 0U);
+    const Finished finished = flight.get();
+    EXPECT_THAT(finished.out, HasSubstr("refused what has no right signature"));
+    EXPECT_THAT(finished.out, HasSubstr("1 refused for their signature"));
+    EXPECT_THAT(finished.out, Not(HasSubstr("MC_PITCHRATE_P")));
+}
+
+TEST(GroundStation, ThatIsNotThereChangesNothing) {
+    const Bench bench;
+    const std::string nobody = GroundView().address();  // free again
+    const Finished with = bench.run({"fly", "perch_concrete", "--json", "--out", "a", "--speed",
+                                     "max", "--ground-station", nobody});
+    ASSERT_EQ(with.exit_code, 0) << with.err;
+    ASSERT_EQ(bench.run({"fly", "perch_concrete", "--json", "--out", "b"}).exit_code, 0);
+    EXPECT_TRUE(text_of(bench.folder() / "a/flight.mcap") ==
+                text_of(bench.folder() / "b/flight.mcap"));
+}
+
+TEST(GroundStation, RefusesInOneLine) {
+    const Bench bench;
+    (void)bench.write("open_key", std::string(64, '7'));
+    std::filesystem::permissions(bench.folder() / "open_key", std::filesystem::perms::all);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+        {{"--ground-station", "udp:nowhere:14550"}, "nowhere"},
+        {{"--ground-station", "smoke:127.0.0.1:1"}, "smoke"},
+        {{"--signing-key", "open_key"}, "--ground-station"},
+        {{"--ground-station", "--signing-key", "open_key"}, "mode 0777"},
+        {{"--ground-station", "udp:14550", "--signing-key", "none"}, "No such file"},
+        {{"--ground-station", "udp:14550", "--autopilot", "px4"}, "built-in"},
+    };
+    for (const auto& [arguments, part] : wrong) {
+        std::vector<std::string> all = {"fly", "hover", "--no-record"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Finished done = bench.run(all);
+        EXPECT_EQ(done.exit_code, 2) << part;
+        EXPECT_TRUE(done.one_line_of_error()) << done.err;
+        EXPECT_THAT(done.err, HasSubstr(part));
+    }
+}
+
+}  // namespace
+}  // namespace limpet

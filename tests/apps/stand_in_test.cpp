@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <csignal>
+
+#include "free_port.hpp"
+#include "program.hpp"
+
+using namespace limpet;
+using testing::HasSubstr;
+
+TEST(StandInVerb, FliesWhatAPx4Would) {
+    const Bench bench;
+    const std::string hil = "tcp:" + free_port(SOCK_STREAM);
+    const std::string onboard = "udp:" + free_port(SOCK_DGRAM);
+    const std::string offboard = "udp:" + free_port(SOCK_DGRAM);
+    Started stand_in(
+        bench.folder(), "stand_in",
+        {"stand-in", "perch_concrete", "--hil", hil, "--onboard", onboard, "--peer", offboard});
+    const Finished flight =
+        bench.run({"fly", "perch_concrete", "--autopilot", "px4", "--hil", hil, "--offboard",
+                   offboard, "--expect", "released", "--quiet", "--wait", "30"});
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    EXPECT_TRUE(std::filesystem::exists(bench.folder() / "out/perch_concrete/flight.mcap"));
+    EXPECT_TRUE(std::filesystem::exists(bench.folder() / "out/perch_concrete/link.json"));
+    stand_in.signal(SIGINT);
+    const Finished end = stand_in.wait(std::chrono::seconds(30));
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_THAT(end.out, HasSubstr("a simulator is there"));
+    EXPECT_THAT(end.out, HasSubstr("answers"));
+}
+
+TEST(StandInVerb, WithoutItThereIsNoFlightAndNothingIsWritten) {
+    const Bench bench;
+    const Finished flight = bench.run({"fly", "perch_concrete", "--autopilot", "px4", "--hil",
+                                       "tcp:" + free_port(SOCK_STREAM), "--offboard",
+                                       "udp:" + free_port(SOCK_DGRAM), "--quiet", "--wait", "0.3"});
+    EXPECT_EQ(flight.exit_code, 2);
+    EXPECT_TRUE(flight.one_line_of_error()) << flight.err;
+    EXPECT_THAT(flight.err, HasSubstr("no PX4 came"));
+    for (const std::string& file : bench.files()) {
+        EXPECT_EQ(file.find("flight.mcap"), std::string::npos) << file;
+    }
+}
+
+TEST(StandInVerb, RefusesInOneLine) {
+    const Bench bench;
+    const std::vector<std::vector<std::string>> wrong = {
+        {"stand-in", "nowhere"},
+        {"stand-in", "hover", "--hil", "udp:127.0.0.1:4560"},
+        {"stand-in", "hover", "--hil", "serial:/dev/not_there:921600"},
+        {"stand-in", "hover", "--onboard", "tcp:127.0.0.1:14580"},
+        {"stand-in", "hover", "--param", "FD_FAIL_P"},
+        {"stand-in", "hover", "--param", "FD_FAIL_P=much"},
+        {"stand-in", "hover", "--param", "FD_FAIL_P=1000"},
+        {"stand-in", "hover", "--param", "NO_SUCH=1"},
+    };
+    for (const auto& arguments : wrong) {
+        const Finished done = bench.run(arguments);
+        EXPECT_EQ(done.exit_code, 2) << arguments.back();
+        EXPECT_TRUE(done.one_line_of_error()) << done.err;
+    }
+}

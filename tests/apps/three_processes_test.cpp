@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paper's Fig. 5: simulator, autopilot and companion as three programs on loopback.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "free_port.hpp"
+#include "limpet/record/recording.hpp"
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct Ports {
+    std::string hil = "tcp:" + free_port(SOCK_STREAM);
+    std::string onboard = "udp:" + free_port(SOCK_DGRAM);
+    std::string autopilot = "udp:" + free_port(SOCK_DGRAM);
+    std::string sensors = "udp:" + free_port(SOCK_DGRAM);
+    std::string motive = "udp:" + free_port(SOCK_DGRAM);
+};
+
+struct OverDevices : testing::Test {
+    Bench bench;
+    Ports ports;
+    std::optional<Started> stand_in;
+    std::optional<Started> sim_io;
+    std::optional<Started> companion;
+
+    void write_companion(const std::string& sources) const {
+        (void)bench.write("beside.yaml",
+                          "description: three processes\n"
+                          "vehicle: perching_uav\n"
+                          "mission: perch_and_take_off\n"
+                          "autopilot:\n"
+                          "  address: " +
+                              ports.autopilot +
+                              "\n"
+                              "  asks_for_mode: true\n"
+                              // a busy machine is no reason to hand back
+                              "limits: {late_limit_s: 0.9, pose_limit_s: 1, estimate_limit_s: 1, "
+                              "silence_limit_s: 10}\n"
+                              "guidance: {sensor_limit_s: 1}\n"
+                              "sensors:\n"
+                              "  address: " +
+                              ports.sensors + "\n" + sources);
+    }
+
+    void start(const std::string& speed) {
+        sim_io.emplace(
+            bench.folder(), "sim_io",
+            std::vector<std::string>{"sim-io", "perch_metal_valve", "beside.yaml", "--hil",
+                                     ports.hil, "--speed", speed, "--no-figures", "--expect",
+                                     "released", "--out", "sim"});
+        stand_in.emplace(
+            bench.folder(), "stand_in",
+            std::vector<std::string>{"stand-in", "perch_metal_valve", "--hil", ports.hil,
+                                     "--onboard", ports.onboard, "--peer", ports.autopilot});
+        companion.emplace(bench.folder(), "companion",
+                          std::vector<std::string>{"companion", "beside.yaml", "--speed", speed,
+                                                   "--expect", "released", "--out", "beside"});
+    }
+
+    void expect_released(std::chrono::seconds limit) {
+        const Finished flown = sim_io->wait(limit);
+        const Finished guided = companion->wait(30s);
+        EXPECT_EQ(flown.exit_code, 0) << flown.out << flown.err << guided.out << guided.err;
+        EXPECT_EQ(guided.exit_code, 0) << guided.out << guided.err;
+        // The simulator's recording holds what guidance told and what the cup did, in order.
+        const Recording recording = read_recording(bench.folder() / "sim" / "flight.mcap");
+        std::vector<std::string> wanted = {"approach_started", "attached",  "perched",
+                                           "motors_off",       "motors_on", "pump_off",
+                                           "valve_open",       "detached",  "backed_off"};
+        for (const auto& event : recording.events) {
+            if (!wanted.empty() && event.name == wanted.front()) {
+                wanted.erase(wanted.begin());
+            }
+        }
+        EXPECT_TRUE(wanted.empty()) << "no " << wanted.front();
+    }
+};
+
+TEST_F(OverDevices, ThreeProcessesPerchOverNatNetRangeFindersAndTheMechanismsLine) {
+    const std::string folder = bench.folder().string();
+    write_companion(
+        "motion_capture:\n"
+        "  source: natnet\n"
+        "  address: " +
+        ("udp:" + free_port(SOCK_DGRAM)) +
+        "\n"
+        "  command: " +
+        ports.motive +
+        "\n"
+        "  rigid_body: 3\n"
+        "  up: y\n"
+        "  x_axis_yaw_deg: 40\n"
+        "  nose_yaw_deg: -25\n"
+        "  pivot_z_m: -0.05\n"
+        "lidars:\n"
+        "  source: tfmini\n"
+        "  left: serial:" +
+        folder +
+        "/left:115200\n"
+        "  right: serial:" +
+        folder +
+        "/right:115200\n"
+        "mechanism:\n"
+        "  source: line\n"
+        "  address: serial:" +
+        folder +
+        "/mechanism:115200\n"
+        "  valve: true\n");
+    start("1");
+    expect_released(180s);
+}
+
+TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {
+    write_companion(
+        "motion_capture:\n"
+        "  source: mavlink\n"
+        "lidars:\n"
+        "  source: mavlink\n"
+        "mechanism:\n"
+        "  source: mavlink\n");
+    start("2");
+    ASSERT_TRUE(sim_io->says("approach_started", 60s));
+    sim_io->signal(SIGINT);
+    const Finished flown = sim_io->wait(30s);
+    EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
+    EXPECT_NE(flown.out.find("the recording is whole"), std::string::npos);
+    EXPECT_FALSE(read_recording(bench.folder() / "sim" / "flight.mcap").events.empty());
+}
+
+TEST(SimIo, WhatItCannotUseIsSaidInOneLine) {
+    const Bench bench;
+    const auto refused = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> words = {"sim-io", "perch_concrete"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const Finished finished = bench.run(words);
+        EXPECT_EQ(finished.exit_code, 2) << finished.out;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        return finished.err;
+    };
+    EXPECT_NE(refused({"--speed", "max"}).find("--speed max"), std::string::npos);
+    EXPECT_NE(refused({"--sensors", "tcp:127.0.0.1:9"}).find("udp:HOST:PORT"), std::string::npos);
+    EXPECT_NE(refused({"--motion-capture", "tcp:127.0.0.1:9"}).find("--motion-capture"),
+              std::string::npos);
+    EXPECT_NE(refused({"--motion-capture", "udp:127.0.0.1:9000", "--natnet", "2.9"}).find("2.9"),
+              std::string::npos);
+    EXPECT_NE(refused({"--lidar-left", "/dev/ttyUSB0"}).find("--lidar-left"), std::string::npos);
+    EXPECT_NE(refused({"--mechanism", "pty:/no/such/folder/x"}).find("/no/such/folder/x"),
+              std::string::npos);
+    EXPECT_NE(
+        refused({"--hil", "tcp:" + free_port(SOCK_STREAM), "--wait", "0.2"}).find("no PX4 came"),
+        std::string::npos);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "limpet/autopilot/px4.hpp"
+#include "limpet/autopilot/stand_in.hpp"
+#include "limpet/simulation/model.hpp"
+
+namespace limpet {
+
+using namespace std::chrono_literals;
+
+/// A stand-in in a thread of its own, as if it were another program.
+class StandInThread {
+public:
+    StandInThread(const AutopilotModel& model, const StandInOptions& options)
+        : stand_in_(model, options), thread_([this] { serve(); }) {}
+    ~StandInThread() { end(); }
+    StandInThread(const StandInThread&) = delete;
+    StandInThread& operator=(const StandInThread&) = delete;
+
+    /// Answers no longer, but its sockets stay open.
+    void fall_silent() {
+        stop_ = true;
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+    void end() { fall_silent(); }
+    /// After fall_silent().
+    [[nodiscard]] const StandIn& stand_in() const { return stand_in_; }
+
+private:
+    void serve() {
+        while (!stop_) {
+            (void)stand_in_.serve(5ms);
+        }
+    }
+
+    StandIn stand_in_;
+    std::atomic<bool> stop_ = false;
+    std::thread thread_;
+};
+
+/// The simulator's wires with a stand-in at their end.
+class Loopback {
+public:
+    explicit Loopback(const SimulationModel& model, StandInOptions options = perching())
+        : hil_(listen(Medium::tcp)), offboard_(listen(Medium::udp)), options_(std::move(options)) {
+        options_.hil = hil_.transport().address();
+        options_.onboard.port = 0;
+        options_.onboard_peer = offboard_.transport().address();
+        start_stand_in(model);
+        connect(model);
+    }
+
+    /// As `limpet px4-params` sets up a vehicle that perches.
+    static StandInOptions perching() {
+        StandInOptions options;
+        options.parameters.FD_FAIL_P = options.parameters.FD_FAIL_R = 0.0;
+        return options;
+    }
+
+    void start_stand_in(const SimulationModel& model) {
+        stand_in_ = std::make_unique<StandInThread>(model.autopilot, options_);
+    }
+    void kill_stand_in() { stand_in_.reset(); }
+
+    [[nodiscard]] StandInThread& stand_in() { return *stand_in_; }
+    [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
+    [[nodiscard]] const mavlink::Link& hil() const { return hil_; }
+    [[nodiscard]] const mavlink::Link& offboard() const { return offboard_; }
+
+    std::string last_text;  ///< STATUSTEXT
+
+private:
+    static mavlink::Link listen(Medium medium) {
+        return {open_transport({.medium = medium, .port = 0}, Role::listen),
+                {.system = 255, .component = mavlink::kCompanionComponent}};
+    }
+    void connect(const SimulationModel& model) {
+        if (!hil_.wait_for_peer(10s)) {
+            throw std::runtime_error("the stand-in does not come");
+        }
+        Px4Options px4;
+        px4.hil.answer_limit = 2000ms;
+        px4.control_rate_Hz = model.control_rate_Hz;
+        px4.on_text = [this](const std::string& text) { last_text = text; };
+        autopilot_.emplace(hil_, offboard_, std::move(px4));
+    }
+
+    mavlink::Link hil_;
+    mavlink::Link offboard_;
+    StandInOptions options_;
+    std::unique_ptr<StandInThread> stand_in_;
+    std::optional<Px4Autopilot> autopilot_;
+};
+
+}  // namespace limpet
