@@ -69,13 +69,13 @@ void add_options(CLI::App& verb, GroundStationOptions& options) {
                 options.wanted = true;
                 options.address = address.empty() ? kDefaultAddress : address;
             },
-            "let a ground station watch and set the autopilot's parameters, at --speed 1\n"
-            "unless given; where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
+            "let a ground station watch and set the autopilot's parameters;\n"
+            "where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
         ->type_name("ADDRESS")
         ->expected(0, 1);
     verb.add_option("--signing-key", options.signing_key,
-                    "sign the ground station's link and refuse what it does not sign; 64 hex\n"
-                    "digits or 32 bytes, for its owner's eyes (chmod 600)")
+                    "sign the ground station's link and refuse what it does not sign;\n"
+                    "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)")
         ->type_name("FILE");
 }
 

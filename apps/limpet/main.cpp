@@ -95,9 +95,9 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return fail(ExitCode::bad_input, std::string(error.what()) + " (limpet --help)");
     } catch (const limpet::InputError& error) {
-        return fail(ExitCode::bad_input, error.what());
-    } catch (const limpet::app::Interrupted& error) {
-        return fail(ExitCode::interrupted, error.what());
+        // work that cannot go on once it is interrupted says so as an error
+        return fail(limpet::app::interrupted() ? ExitCode::interrupted : ExitCode::bad_input,
+                    error.what());
     } catch (const std::exception& error) {
         return fail(ExitCode::our_fault, std::string("a fault of ours: ") + error.what());
     }

@@ -9,7 +9,6 @@
 
 #include "limpet/core/errors.hpp"
 #include "options.hpp"
-#include "signals.hpp"
 
 namespace limpet::app {
 namespace {
@@ -62,7 +61,7 @@ void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
         const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
         terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, wait_s));
         if (stop != nullptr && *stop) {
-            throw Interrupted("while waiting for PX4");
+            throw InputError("interrupted while waiting for PX4");
         }
         if (waited_s > wait_s) {
             throw InputError(
@@ -155,10 +154,21 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bo
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
 }
 
+Px4Link::~Px4Link() {
+    if (wire_log_ && autopilot_ && !wire_finished_) {
+        try {
+            wire_log_->finish();  // what led to no flight is what one wants to see
+        } catch (const InputError&) {
+            return;  // a full disk: the error that is on its way tells more
+        }
+    }
+}
+
 std::filesystem::path Px4Link::finish_wire_log() {
     if (!wire_log_) {
         return {};
     }
+    wire_finished_ = true;
     wire_log_->finish();
     return wire_log_->path();
 }

@@ -43,10 +43,15 @@ public:
     /// @param options  checked
     /// @param flies  guidance is ours; false: a companion's
     /// @param folder  where options.record_wire writes wire.mcap
-    /// @throws InputError when a wire cannot be opened or nobody comes in time; Interrupted on
-    ///         `stop`; nothing is then left in the folder
+    /// @throws InputError when a wire cannot be opened, nobody comes in time, or on `stop`; nothing
+    ///         is then left in the folder
     Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
+
+    /// Closes wire.mcap, when no flight came of it.
+    ~Px4Link();
+    Px4Link(const Px4Link&) = delete;
+    Px4Link& operator=(const Px4Link&) = delete;
 
     [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
     [[nodiscard]] double speed() const { return speed_; }
@@ -62,6 +67,7 @@ private:
     std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
     std::unique_ptr<Px4Autopilot> autopilot_;
     double speed_ = 0.0;
+    bool wire_finished_ = false;
 };
 
 }  // namespace limpet::app

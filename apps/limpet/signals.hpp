@@ -2,8 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <stdexcept>
-#include <string>
 
 namespace limpet::app {
 
@@ -11,9 +9,7 @@ namespace limpet::app {
 /// second ends the program as ever.
 [[nodiscard]] const std::atomic<bool>* stop_on_signals();
 
-/// Thrown where the flag ends work of which nothing is kept.
-struct Interrupted : std::runtime_error {
-    explicit Interrupted(const std::string& during) : std::runtime_error("interrupted " + during) {}
-};
+/// Whether the flag is set.
+[[nodiscard]] bool interrupted();
 
 }  // namespace limpet::app
