@@ -11,10 +11,11 @@ function(limpet_room name)
   limpet_compile_options(limpet_${name})
 endfunction()
 
-# limpet_test(ROOM SOURCES files... LINKS targets... [LABEL label]): one test program a room.
+# limpet_test(ROOM SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a room.
+# ALONE: nothing else runs beside it, for it lives in real time.
 # The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
 function(limpet_test room)
-  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(TEST "ALONE" "LABEL" "SOURCES;LINKS" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
   endif()
@@ -23,7 +24,7 @@ function(limpet_test room)
   target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   limpet_compile_options(${room}_test)
   gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL})
+    PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
 endfunction()
 
 # A compiler that nobody has tried may see more than these do, and GCC sees ghosts in instrumented

@@ -2,9 +2,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "flight_report.hpp"
@@ -40,11 +43,20 @@ void check_speed(const CompanionOptions& options, const CompanionConfig& config)
     }
 }
 
+/// A terminal that is gone (a closed pipe, a lost connection) must not end a flight.
+void tell(Terminal& terminal, const std::string& text) {
+    try {
+        terminal.line(text);
+    } catch (const std::system_error&) {
+        std::clearerr(stdout);
+    }
+}
+
 CompanionWatch watch(Terminal& terminal) {
-    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+    return {.on_event = [&terminal](const Event& event) { tell(terminal, event_line(event)); },
             .on_line =
                 [&terminal](double time_s, const std::string& text) {
-                    terminal.line(fmt::format("{:8.3f}  {}", time_s, text));
+                    tell(terminal, fmt::format("{:8.3f}  {}", time_s, text));
                 }};
 }
 
@@ -63,17 +75,17 @@ void introduce(const CompanionOptions& options, const CompanionConfig& config, T
 
 void conclude(const CompanionResult& result, const std::filesystem::path& recording,
               Terminal& terminal) {
-    terminal.line("");
+    tell(terminal, "");
     const std::string outcome =
         result.outcome ? std::string(to_string(*result.outcome)) + ": " : "";
-    terminal.line(terminal.bold("ended      ") + outcome + result.reason);
-    terminal.line(terminal.bold("loop       ") +
-                  fmt::format("{} ticks, {} of them late by more than a period, the latest by "
-                              "{:.1f} ms",
-                              result.ticks, result.late_ticks, 1e3 * result.latest_s));
+    tell(terminal, terminal.bold("ended      ") + outcome + result.reason);
+    tell(terminal, terminal.bold("loop       ") +
+                       fmt::format("{} ticks, {} of them late by more than a period, the latest by "
+                                   "{:.1f} ms",
+                                   result.ticks, result.late_ticks, 1e3 * result.latest_s));
     if (!recording.empty()) {
-        terminal.line(terminal.bold("written    ") + recording.string() + " (limpet plot " +
-                      recording.string() + ")");
+        tell(terminal, terminal.bold("written    ") + recording.string() + " (limpet plot " +
+                           recording.string() + ")");
     }
 }
 
@@ -106,6 +118,7 @@ void companion(const CompanionOptions& options, ExitCode& code) {
         terminal.line("  good; nothing was opened");
         return;
     }
+    std::signal(SIGPIPE, SIG_IGN);
     const std::atomic<bool>* stop = stop_on_signals();
     Wires wires = open_wires(config);
     CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};

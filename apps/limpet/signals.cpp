@@ -17,6 +17,7 @@ const std::atomic<bool>* stop_on_signals() {
     action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGHUP, &action, nullptr);  // the terminal is gone
     return &stop;
 }
 

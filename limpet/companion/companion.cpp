@@ -56,12 +56,27 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, CompanionLog* 
     result_.events.reserve(256);
 }
 
+/// A disk that is full must not end a flight: what has been written stays, the rest is not.
+template <class Write>
+void Companion::log(double time_s, Write&& write) {
+    if (log_ == nullptr) {
+        return;
+    }
+    try {
+        write(*log_);
+    } catch (const InputError& error) {
+        log_ = nullptr;
+        say(time_s, fmt::format("nothing is recorded any more: {}", error.what()));
+    }
+}
+
 void Companion::tick(double time_s, double late_s, bool interrupted) {
     ++result_.ticks;
     result_.last_s = time_s;
     result_.late_ticks += late_s > 1.0 / config_.limits.guidance_rate_Hz ? 1 : 0;
     result_.latest_s = std::max(result_.latest_s, late_s);
-    late_ = late_ || (late_s > config_.limits.late_limit_s && phase_ == Phase::flying);
+    const bool flies_us = phase_ == Phase::flying || (phase_ == Phase::ready && steers());
+    late_ = late_ || (late_s > config_.limits.late_limit_s && flies_us);
     interrupted_ = interrupted_ || interrupted;
 
     poll(time_s);
@@ -116,6 +131,11 @@ Estimate Companion::believe(double time_s) const {
     Estimate estimate = offboard_.estimate(time_s);
     estimate.valid = estimate.valid && pose_fresh;
     return estimate;
+}
+
+/// By its last heartbeat.
+bool Companion::steers() const {
+    return offboard_.report().offboard && offboard_.report().armed;
 }
 
 bool Companion::engaged(double time_s) const {
@@ -286,21 +306,18 @@ mavlink::StatusText Companion::last_word() const {
 }
 
 void Companion::record(double time_s) {
-    if (log_ == nullptr) {
-        return;
-    }
-    log_->readings(inputs_.readings());
-    log_->estimate(dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s));
-    if (phase_ == Phase::flying || phase_ == Phase::leaving) {
-        log_->guidance(time_s, setpoint_, memory_);
-    }
+    log(time_s, [&](CompanionLog& to) {
+        to.readings(inputs_.readings());
+        to.estimate(dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s));
+        if (phase_ == Phase::flying || phase_ == Phase::leaving) {
+            to.guidance(time_s, setpoint_, memory_);
+        }
+    });
 }
 
 void Companion::report(const Event& event) {
     result_.events.push_back(event);
-    if (log_ != nullptr) {
-        log_->event(event);
-    }
+    log(event.time_s, [&](CompanionLog& to) { to.event(event); });
     if (wires_.sensors && !dry_run_) {
         send_sensors(mavlink::event_text(event));
     }

@@ -89,6 +89,7 @@ private:
     [[nodiscard]] std::string obstacle(double time_s) const;
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     [[nodiscard]] bool engaged(double time_s) const;
+    [[nodiscard]] bool steers() const;
     void wait(double time_s);
     void stay(double time_s);
     void stand_ready(double time_s);
@@ -108,6 +109,8 @@ private:
     }
     [[nodiscard]] mavlink::StatusText last_word() const;
     void record(double time_s);
+    template <class Write>
+    void log(double time_s, Write&& write);
     void report(const Event& event);
     void say(double time_s, const std::string& text) const;
     void say_changes(double time_s);

@@ -262,7 +262,7 @@ void Reader::read_mechanism(CompanionConfig& config) {
     }
 }
 
-/// After all that may need it.
+/// After all that may need it. One that is named and not needed is told how the mission goes.
 void Reader::read_sensors(CompanionConfig& config) {
     const YamlNode* node = section("sensors");
     if (node != nullptr) {
@@ -272,8 +272,7 @@ void Reader::read_sensors(CompanionConfig& config) {
                         config.lidar_source == ReadingSource::mavlink ||
                         config.load_source == ReadingSource::mavlink ||
                         config.mechanism == MechanismWire::mavlink;
-    only_with(needed, "sensors", "address", "a source: mavlink");
-    if (!needed) {
+    if (!needed && find("sensors", "address") == nullptr) {
         return;
     }
     config.sensors = parse_address(kSensorsAddress);

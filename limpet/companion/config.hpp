@@ -44,7 +44,7 @@ struct CompanionConfig {
     TransportAddress autopilot;
     int system = 1;
     bool asks_for_mode = false;
-    std::optional<TransportAddress> sensors;  ///< nothing: no source needs it
+    std::optional<TransportAddress> sensors;  ///< nothing: neither needed nor named
 
     PoseSource pose_source = PoseSource::natnet;
     TransportAddress pose_address;                 ///< NatNet: where its frames come

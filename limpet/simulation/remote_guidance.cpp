@@ -88,19 +88,15 @@ void RemoteGuidance::send_loads(const Readings& readings) {
         (void)wires_.sensors->send(message, kNoWait);
     };
     const bool pressure = is_new(readings.cup_pressure, last_.cup_pressure);
-    if (wires_.mechanism != nullptr) {
-        if (pressure) {  // a line carries both: at the slower one's rate
-            ++count_.loads;
-            devices::MechanismBuffer buffer;
-            const std::string_view line =
-                devices::encode({.pump_on = mechanism_.pump_on,
-                                 .valve_open = mechanism_.valve_open,
-                                 .force_N = readings.force.value.axial_N,
-                                 .pressure_Pa = readings.cup_pressure.value.pressure_Pa},
-                                buffer);
-            send_bytes(*wires_.mechanism, std::as_bytes(std::span(line)));
-        }
-        return;
+    if (wires_.mechanism != nullptr && pressure) {
+        devices::MechanismBuffer buffer;  // a line carries both: at the slower one's rate
+        const std::string_view line =
+            devices::encode({.pump_on = mechanism_.pump_on,
+                             .valve_open = mechanism_.valve_open,
+                             .force_N = readings.force.value.axial_N,
+                             .pressure_Pa = readings.cup_pressure.value.pressure_Pa},
+                            buffer);
+        send_bytes(*wires_.mechanism, std::as_bytes(std::span(line)));
     }
     if (is_new(readings.force, last_.force)) {
         send_value(mavlink::kForceName, readings.force.value.axial_N);
@@ -112,7 +108,7 @@ void RemoteGuidance::send_loads(const Readings& readings) {
 
 void RemoteGuidance::send_heartbeat() {
     constexpr int kHeartbeat_Hz = 1;
-    if (due(clock_, kHeartbeat_Hz)) {
+    if (due(clock_ - 1, kHeartbeat_Hz)) {  // at once: who listens learns where we are
         mavlink::Heartbeat heartbeat;
         constexpr std::uint8_t kOnboardController = 18;  // MAV_TYPE
         constexpr std::uint8_t kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
@@ -186,6 +182,7 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
 
 void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& guidance,
                           EventList& events) {
+    companion_heard_ = true;
     if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
         hear_command(frame, *command);
     } else if (const auto text = mavlink::decode<mavlink::StatusText>(frame)) {
@@ -198,7 +195,6 @@ void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& gui
             state_since_s_ = time_s;
         }
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
-        companion_heard_ = true;
         if (heartbeat->system_status == mavlink::kStatePowerOff) {
             end(Outcome::timed_out, last_words_);
         }

@@ -18,13 +18,14 @@
 
 namespace limpet {
 
-/// The wires of a companion computer, held from outside. What is null goes over `sensors`.
+/// The wires of a companion computer, held from outside. What is null goes over
+/// `sensors`; force and pressure go there always, over the mechanism's line too.
 struct OutsideWires {
     std::unique_ptr<mavlink::Link> sensors;  ///< MAVLink, speaks to the companion
     std::unique_ptr<devices::NatNetSource> motion_capture = {};  ///< null: ODOMETRY
     std::unique_ptr<Transport> lidar_left = {};  ///< TFmini Plus; null: DISTANCE_SENSOR
     std::unique_ptr<Transport> lidar_right = {};
-    std::unique_ptr<Transport> mechanism = {};  ///< lines; null: NAMED_VALUE_FLOAT, DO_SET_ACTUATOR
+    std::unique_ptr<Transport> mechanism = {};  ///< lines; null: DO_SET_ACTUATOR
 };
 
 struct OutsideOptions {

@@ -81,7 +81,7 @@ TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
 }
 
 TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Bench bench;
         Started companion(bench.folder(), "companion", Ports().companion_words({"--out", "o"}));
         ASSERT_TRUE(companion.says("waits: no", 20s)) << companion.output();

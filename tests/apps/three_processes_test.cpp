@@ -48,7 +48,7 @@ struct OverDevices : testing::Test {
                               "guidance: {sensor_limit_s: 1}\n"
                               "sensors:\n"
                               "  address: " +
-                              ports.sensors + "\n" + sources);
+                              ports.sensors + "\n" + sources +);
     }
 
     void start(const std::string& speed) {
@@ -61,6 +61,8 @@ struct OverDevices : testing::Test {
             bench.folder(), "stand_in",
             std::vector<std::string>{"stand-in", "perch_metal_valve", "--hil", ports.hil,
                                      "--onboard", ports.onboard, "--peer", ports.autopilot});
+        // its serial ports are there once it waits for the autopilot
+        EXPECT_TRUE(sim_io->says("waiting for PX4", 30s)) << sim_io->output();
         companion.emplace(bench.folder(), "companion",
                           std::vector<std::string>{"companion", "beside.yaml", "--speed", speed,
                                                    "--expect", "released", "--out", "beside"});
@@ -114,6 +116,7 @@ TEST_F(OverDevices, ThreeProcessesPerchOverNatNetRangeFindersAndTheMechanismsLin
         "  address: serial:" +
         folder +
         "/mechanism:115200\n"
+        "  readings: mavlink\n"
         "  valve: true\n");
     start("1");
     expect_released(180s);

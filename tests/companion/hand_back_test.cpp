@@ -66,6 +66,21 @@ TEST(HandBack, InTheAirAsksForHold) {
                                 "interrupted");
 }
 
+TEST(HandBack, ALateTickOnTheWayToItsStartCountsToo) {
+    Rehearsal r;
+    while (!r.stage.armed && r.stage.time_s() < 20.0) {
+        r.tick();
+    }
+    r.run(0.5);
+    ASSERT_EQ(r.companion->phase(), Phase::ready);
+    r.late_s = 0.4;
+    r.tick();
+    EXPECT_EQ(r.companion->phase(), Phase::leaving);
+    ASSERT_TRUE(r.run_out(5.0));
+    EXPECT_EQ(r.stage.mode, Stage::kLoiter);
+    EXPECT_EQ(r.result().end, CompanionEnd::handed_back);
+}
+
 TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
     Rehearsal r;
     ASSERT_TRUE(r.run_to(PerchingState::approaching));
