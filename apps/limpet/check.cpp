@@ -54,11 +54,10 @@ void check_file(const std::string& file) {
 void add_check(CLI::App& app) {
     auto file = std::make_shared<std::string>();
     CLI::App* verb = app.add_subcommand(
-        "check",
-        "Check a scenario, a vehicle, a campaign, surfaces.yaml or a recording without flying");
+        "check", "Check a scenario, vehicle, campaign, surfaces.yaml or recording");
     verb->add_option(
             "file", *file,
-            "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml, surfaces.yaml, *.mcap")
+            "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\nsurfaces.yaml, *.mcap")
         ->required()
         ->type_name("FILE");
     verb->footer("Exits with 0 when all is good, 2 when not.\n");

@@ -143,7 +143,7 @@ void add_companion(CLI::App& app, ExitCode& code) {
         ->type_name("CONFIG");
     verb->add_flag("--check", options->check, "say what it would do, open nothing");
     verb->add_flag("--dry-run", options->dry_run,
-                   "hear all, command nothing, say what it would do: carry the vehicle by hand");
+                   "hear all, command nothing, say what it would do: carry the vehicle\nby hand");
     verb->add_option("--set", options->overrides,
                      "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)")
         ->type_name("KEY=VALUE")

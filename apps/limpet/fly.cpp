@@ -16,6 +16,7 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
+#include "options.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"
 #include "signals.hpp"
@@ -107,30 +108,39 @@ void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
     }
 }
 
+void check_together(const CLI::App& verb, const FlyOptions& options) {
+    check(options.ground, options.autopilot == "builtin");
+    only_with(verb, options.autopilot == "px4", {"--hil", "--offboard", "--wait", "--record-wire"},
+              "--autopilot px4");
+    only_with(verb, !options.px4.serial(), {"--offboard"},
+              "--hil tcp:...; over serial all goes over the one wire");
+    only_with(verb, !options.no_record, {"--out", "--csv", "--record-wire"},
+              "a recording, not with --no-record");
+}
+
 void fly_one(const FlyOptions& options, ExitCode& code) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
     }
+    const double speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0);
     const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
+    if (options.autopilot == "px4") {
+        check(options.px4, scenario);
+    }
     const auto model = build_model(scenario);
 
+    std::optional<OutFolder> folder;
     std::filesystem::path recording;
     if (!options.no_record) {
-        const std::filesystem::path folder = options.out.empty()
-                                                 ? std::filesystem::path("out") / scenario.name
-                                                 : std::filesystem::path(options.out);
-        recording = make_folder(folder) / "flight.mcap";
+        folder.emplace(options.out.empty() ? std::filesystem::path("out") / scenario.name
+                                           : std::filesystem::path(options.out));
+        recording = folder->path() / "flight.mcap";
     }
-    if (options.px4.record_wire && (options.no_record || options.autopilot != "px4")) {
-        throw InputError("--record-wire needs a recording's folder and --autopilot px4");
-    }
-    check(options.ground, options.autopilot == "builtin");
     Terminal terminal(voice(options));
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
     const std::atomic<bool>* stop = stop_on_signals();
-    FlightConduct conduct{.speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0),
-                          .stop = stop};
+    FlightConduct conduct{.speed = speed, .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
         px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
@@ -202,7 +212,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
         ->type_name("SCENARIO");
     verb->add_option("--set", options->overrides,
                      "turn one number: guidance.dock_speed_m_s=0.8, wall.surface=metal,\n"
-                     "vehicle.slider.stiffness_N_m=400, autopilot.MC_PITCHRATE_I=0 (repeatable)")
+                     "vehicle.slider.stiffness_N_m=400, autopilot.MC_PITCHRATE_I=0\n(repeatable)")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->take_all();
@@ -212,8 +222,8 @@ void add_fly(CLI::App& app, ExitCode& code) {
     verb->add_option("--out", options->out, "folder for recording and figures (default out/NAME)")
         ->type_name("DIR");
     verb->add_option("--expect", options->expect,
-                     "exit with 1 unless the flight ends so: perched, released, failed_to_seal,\n"
-                     "release_aborted, crashed, timed_out")
+                     "exit with 1 unless the flight ends so: perched, released,\n"
+                     "failed_to_seal, release_aborted, crashed, timed_out")
         ->type_name("OUTCOME");
     verb->add_option("--autopilot", options->autopilot,
                      "builtin, or px4: a real one in the loop (docs/px4.md)")
@@ -222,11 +232,11 @@ void add_fly(CLI::App& app, ExitCode& code) {
     add_options(*verb, options->px4, true);
     add_options(*verb, options->ground);
     verb->add_option("--speed", options->px4.speed,
-                     "times real time, or max (default: as fast as it goes; 1 on a serial wire or\n"
-                     "before a ground station)")
+                     "times real time, or max (default: max; 1 on a serial wire or before a\n"
+                     "ground station)")
         ->type_name("FACTOR");
     verb->add_flag("--json", options->json,
-                   "one JSON object on standard output, all else on standard error; no figures");
+                   "one JSON object on standard output, all else on standard error;\nno figures");
     verb->add_flag("--quiet", options->quiet, "say nothing but errors; no figures");
     verb->add_flag("--csv", options->csv, "write the recording as CSV as well");
     verb->add_flag("--no-record", options->no_record, "write nothing");
@@ -238,6 +248,7 @@ void add_fly(CLI::App& app, ExitCode& code) {
         "A flight that runs to any outcome exits with 0; judge it with --expect.\n");
     verb->callback([options, verb, &code] {
         options->seed_given = verb->count("--seed") > 0;
+        check_together(*verb, *options);
         fly_one(*options, code);
     });
 }

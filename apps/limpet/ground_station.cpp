@@ -9,6 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/mavlink/key_file.hpp"
+#include "options.hpp"
 
 namespace limpet::app {
 namespace {
@@ -17,8 +18,13 @@ constexpr const char* kDefaultAddress = "udp:127.0.0.1:14550";  // where QGround
 constexpr int kUpdates_Hz = 100;
 constexpr std::size_t kLongestName = 16;  // on the wire
 
+TransportAddress address(const GroundStationOptions& options) {
+    return address_of("--ground-station", options.address,
+                      {Medium::udp, Medium::udp_broadcast, Medium::tcp, Medium::serial});
+}
+
 mavlink::Link open(const GroundStationOptions& options) {
-    mavlink::Link link(open_transport(parse_address(options.address), Role::connect),
+    mavlink::Link link(open_transport(address(options), Role::connect),
                        {.system = 1, .component = mavlink::kAutopilotComponent});
     if (!options.signing_key.empty()) {
         link.sign(
@@ -63,13 +69,13 @@ void add_options(CLI::App& verb, GroundStationOptions& options) {
                 options.wanted = true;
                 options.address = address.empty() ? kDefaultAddress : address;
             },
-            "let a ground station watch and set the autopilot's parameters, at --speed 1\n"
-            "unless given; where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
+            "let a ground station watch and set the autopilot's parameters;\n"
+            "where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
         ->type_name("ADDRESS")
         ->expected(0, 1);
     verb.add_option("--signing-key", options.signing_key,
-                    "sign the ground station's link and refuse what it does not sign; 64 hex\n"
-                    "digits or 32 bytes, for its owner's eyes (chmod 600)")
+                    "sign the ground station's link and refuse what it does not sign;\n"
+                    "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)")
         ->type_name("FILE");
 }
 
@@ -79,6 +85,7 @@ void check(const GroundStationOptions& options, bool builtin) {
             "--ground-station is for the built-in autopilot; a PX4 speaks to its ground station "
             "itself");
     }
+    (void)address(options);
     if (!options.signing_key.empty() && !options.wanted) {
         throw InputError(
             "--signing-key: there is no ground station's link to sign; give "

@@ -256,7 +256,7 @@ void identify(const IdentifyOptions& options) {
 void add_identify(CLI::App& app) {
     auto options = std::make_shared<IdentifyOptions>();
     CLI::App* verb = app.add_subcommand(
-        "identify", "Fit P_vac, tau_1 and tau_2 of eqs. (5), (6) to a log of the cup's pressure");
+        "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure");
     verb->add_option("log", options->log, "CSV with columns t_s and pressure_Pa among any others")
         ->required()
         ->type_name("CSV");

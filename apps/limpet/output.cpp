@@ -27,6 +27,22 @@ fs::path make_folder(const fs::path& folder) {
     return folder;
 }
 
+OutFolder::OutFolder(const fs::path& folder) : path_(folder) {
+    std::error_code ignored;
+    for (fs::path above = folder; !above.empty() && !fs::exists(above, ignored);
+         above = above.parent_path()) {
+        made_.push_back(above);
+    }
+    (void)make_folder(folder);
+}
+
+OutFolder::~OutFolder() {
+    for (const fs::path& folder : made_) {
+        std::error_code not_empty;
+        fs::remove(folder, not_empty);
+    }
+}
+
 void write_file(const fs::path& path, const std::string& text) {
     const fs::path part = path.string() + ".part";
     std::error_code error;

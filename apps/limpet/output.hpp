@@ -3,12 +3,30 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace limpet::app {
 
 /// Makes the folder of --out before any work is done for it.
 /// @throws InputError naming it and why it cannot be
 std::filesystem::path make_folder(const std::filesystem::path& folder);
+
+/// The same for work that may end before it begins: when nothing has come into it, what was made
+/// goes with this.
+class OutFolder {
+public:
+    /// @throws InputError as make_folder
+    explicit OutFolder(const std::filesystem::path& folder);
+    ~OutFolder();
+    OutFolder(const OutFolder&) = delete;
+    OutFolder& operator=(const OutFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    std::vector<std::filesystem::path> made_;  ///< innermost first
+};
 
 /// Writes a file whole or not at all.
 /// @throws InputError naming it

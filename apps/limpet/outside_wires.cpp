@@ -4,6 +4,7 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/devices/pseudo_terminal.hpp"
+#include "options.hpp"
 
 namespace limpet::app {
 namespace {
@@ -127,10 +128,7 @@ void add_options(CLI::App& verb, OutsideWireOptions& options) {
 }
 
 OutsideWires open_wires(const OutsideWireOptions& options) {
-    const TransportAddress sensors = parse_address(options.sensors);
-    if (sensors.medium == Medium::serial || sensors.medium == Medium::tcp) {
-        throw InputError("--sensors " + options.sensors + ": must be udp:HOST:PORT");
-    }
+    const TransportAddress sensors = address_of("--sensors", options.sensors, {Medium::udp});
     OutsideWires wires;
     wires.sensors = std::make_unique<mavlink::Link>(
         open_transport(sensors, Role::connect),

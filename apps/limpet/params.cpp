@@ -79,8 +79,8 @@ void add_params(CLI::App& app) {
     CLI::App* verb =
         app.add_subcommand("params", "Print every number that can be set: default, range, source");
     verb->add_option("room", options->room,
-                     "one room or section only: guidance, autopilot, sensors, suction, vehicle, "
-                     "companion, ...")
+                     "one room or section only: guidance, autopilot, sensors, suction,\n"
+                     "vehicle, companion, ...")
         ->type_name("ROOM");
     verb->add_option("--format", options->format, "text or markdown")
         ->type_name("FORMAT")

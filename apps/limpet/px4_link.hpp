@@ -25,6 +25,9 @@ struct Px4LinkOptions {
 
     [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
 };
+/// Before any work, and whether or not a wire is there.
+/// @throws InputError naming the option that cannot be, alone or beside the others
+void check(const Px4LinkOptions& options, const Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
 void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
 
@@ -37,12 +40,19 @@ void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
 class Px4Link {
 public:
     /// Opens the wires and waits for a PX4 on them; says what it waits for and how to start it.
+    /// @param options  checked
     /// @param flies  guidance is ours; false: a companion's
     /// @param folder  where options.record_wire writes wire.mcap
-    /// @throws InputError when a wire cannot be opened or nobody comes in time
+    /// @throws InputError when a wire cannot be opened or nobody comes in time; nothing is then
+    ///         left in the folder
     /// @throws Interrupted on `stop`
     Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
+
+    /// Closes wire.mcap, when no flight came of it.
+    ~Px4Link();
+    Px4Link(const Px4Link&) = delete;
+    Px4Link& operator=(const Px4Link&) = delete;
 
     [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
     [[nodiscard]] double speed() const { return speed_; }
@@ -58,6 +68,7 @@ private:
     std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
     std::unique_ptr<Px4Autopilot> autopilot_;
     double speed_ = 0.0;
+    bool wire_finished_ = false;
 };
 
 }  // namespace limpet::app

@@ -111,8 +111,8 @@ void add_px4_params(CLI::App& app) {
     CLI::App* verb = app.add_subcommand(
         "px4-params", "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe");
     verb->add_option("vehicle", options->wanted,
-                     "vehicle or scenario, by name or YAML file; a scenario brings its autopilot\n"
-                     "section along")
+                     "vehicle or scenario, by name or YAML file; a scenario brings its\n"
+                     "autopilot section along")
         ->required()
         ->type_name("VEHICLE");
     verb->add_option("--set", options->overrides, "turn one number, as in limpet fly (repeatable)")

@@ -79,8 +79,7 @@ void run(const Options& options) {
 void add_reproduce(CLI::App& app, ExitCode& code) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand(
-        "reproduce",
-        "Fly the paper's experiments and write its tables, figures and claims as a page");
+        "reproduce", "Fly the paper's experiments; its tables, figures, claims on one page");
     std::vector<std::string> names;
     std::string footer = "Parts:\n";
     for (const auto& [name, title] : part_titles()) {

@@ -139,8 +139,8 @@ void add_rotor(CLI::App& app) {
     verb->add_option("--density", options->density_kg_m3, "of the air in the result, 1.225 kg/m3")
         ->type_name("RHO");
     verb->add_option("--rpm", options->speed_rpm,
-                     "take the coefficients at this speed, as at hover; else a fit over all rows,\n"
-                     "in which a row counts with the fourth power of its speed")
+                     "take the coefficients at this speed, as at hover; else a fit over\n"
+                     "all rows, in which a row counts with the fourth power of its speed")
         ->type_name("R");
     verb->add_flag("--json", options->json, "one JSON object on standard output");
     verb->footer(

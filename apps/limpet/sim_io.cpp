@@ -13,6 +13,7 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
+#include "options.hpp"
 #include "output.hpp"
 #include "outside_wires.hpp"
 #include "px4_link.hpp"
@@ -89,14 +90,22 @@ void conclude(const SimIoOptions& options, const FlightResult& result, Px4Link& 
     }
     terminal.line(terminal.bold("companion  ") + report_line(guidance));
     write_file(folder / "link.json", json_of(link) + "\n");
+    std::vector<std::filesystem::path> files = {folder / "link.json"};
+    const auto add = [&files](const std::vector<std::filesystem::path>& more) {
+        files.insert(files.end(), more.begin(), more.end());
+    };
     if (!options.no_figures && !options.json) {
         terminal.progress("drawing figures ...");
-        (void)plot(read_recording(result.recording), folder);
+        add(plot(read_recording(result.recording), folder).files);
+        add(draw(link, folder));
     }
     if (options.px4.record_wire) {
-        (void)px4.finish_wire_log();
+        add({px4.finish_wire_log()});
     }
     terminal.line(terminal.bold("written    ") + result.recording.string());
+    for (const auto& file : files) {
+        terminal.line("           " + file.string());
+    }
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
@@ -117,14 +126,12 @@ void sim_io(SimIoOptions options, ExitCode& code) {
         options.px4.speed = "1";  // the companion's clock is real
     }
     const Scenario scenario = load_scenario(options.scenario, {.overrides = options.overrides});
-    if (scenario.mount != Mount::free) {
-        throw InputError(scenario.name + ": hangs on a mount; sim-io is for what flies");
-    }
+    check(options.px4, scenario);
     const auto model = build_model(scenario);
     RemoteGuidance guidance(open_wires(options.wires), outside_options(options.wires, scenario));
-    const std::filesystem::path folder =
-        make_folder(options.out.empty() ? std::filesystem::path("out") / scenario.name
-                                        : std::filesystem::path(options.out));
+    const OutFolder out(options.out.empty() ? std::filesystem::path("out") / scenario.name
+                                            : std::filesystem::path(options.out));
+    const std::filesystem::path& folder = out.path();
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
@@ -157,8 +164,7 @@ void sim_io(SimIoOptions options, ExitCode& code) {
 void add_sim_io(CLI::App& app, ExitCode& code) {
     auto options = std::make_shared<SimIoOptions>();
     CLI::App* verb = app.add_subcommand(
-        "sim-io",
-        "Simulate what is around a companion computer: vehicle, wall, sensors, PX4's HIL");
+        "sim-io", "Simulate what is around a companion computer: vehicle, sensors, HIL");
     verb->add_option("scenario", options->scenario, "name (limpet list scenarios) or YAML file")
         ->required()
         ->type_name("SCENARIO");
@@ -175,9 +181,9 @@ void add_sim_io(CLI::App& app, ExitCode& code) {
     verb->add_option("--start-limit", options->start_limit_s,
                      "longest wait for the take-off [s of simulated time] (default 300)")
         ->type_name("SECONDS")
-        ->check(CLI::Range(1.0, 86400.0));
+        ->check(between(1.0, 86400.0));
     verb->add_option("--speed", options->px4.speed,
-                     "times real time (default 1); the companion needs the same, see its --speed")
+                     "times real time (default 1); the companion needs the same --speed")
         ->type_name("FACTOR");
     verb->add_flag("--json", options->json, "one JSON object on standard output; no figures");
     verb->add_flag("--no-figures", options->no_figures, "write the recording only");

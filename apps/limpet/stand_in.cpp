@@ -15,6 +15,7 @@
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
+#include "options.hpp"
 #include "signals.hpp"
 #include "verbs.hpp"
 
@@ -39,14 +40,6 @@ Scenario scenario_of(const std::string& what) {
                    : load_scenario(what);
 }
 
-TransportAddress onboard_address(const std::string& option, const std::string& text) {
-    const TransportAddress address = parse_address(text);
-    if (address.medium != Medium::udp) {
-        throw InputError(option + " " + text + ": must be udp:HOST:PORT");
-    }
-    return address;
-}
-
 void set(const WireParameters& parameters, const std::string& text) {
     const std::size_t at = text.find('=');
     const std::string name = text.substr(0, at);
@@ -65,12 +58,9 @@ void set(const WireParameters& parameters, const std::string& text) {
 void serve(const Options& options) {
     AutopilotModel model = autopilot_model(scenario_of(options.what));
     StandInOptions stand_in;
-    stand_in.hil = parse_address(options.hil);
-    if (stand_in.hil.medium != Medium::tcp && stand_in.hil.medium != Medium::serial) {
-        throw InputError("--hil " + options.hil + ": must be tcp:HOST:PORT or serial:DEVICE:BAUD");
-    }
-    stand_in.onboard = onboard_address("--onboard", options.onboard);
-    stand_in.onboard_peer = onboard_address("--peer", options.peer);
+    stand_in.hil = address_of("--hil", options.hil, {Medium::tcp, Medium::serial});
+    stand_in.onboard = address_of("--onboard", options.onboard, {Medium::udp});
+    stand_in.onboard_peer = address_of("--peer", options.peer, {Medium::udp});
     // as `limpet px4-params` has them: else a perched vehicle may not arm
     stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0.0;
     for (const std::string& text : options.parameters) {
@@ -102,8 +92,7 @@ void serve(const Options& options) {
 void add_stand_in(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand(
-        "stand-in",
-        "The built-in autopilot behind PX4's wire, to try what flies a PX4 without one");
+        "stand-in", "The built-in autopilot behind PX4's wire, in place of a PX4");
     verb->add_option("what", options->what, "scenario (name or file) or vehicle (name) to fly")
         ->required()
         ->type_name("SCENARIO");

@@ -16,7 +16,8 @@ void refuse_address(const TransportAddress& address, const boost::system::error_
             why = fmt::format("port {} is in use by another program", address.port);
             break;
         case EADDRNOTAVAIL:
-            why = fmt::format("{} is no address of this machine", address.host);
+            why = fmt::format("{} is no address of this machine",
+                              address.interface.empty() ? address.host : address.interface);
             break;
         case EACCES: why = fmt::format("port {} is not allowed to this user", address.port); break;
         case ENODEV: why = "no network card leads there; name one: @INTERFACE"; break;

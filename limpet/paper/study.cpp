@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/study.hpp"
 
-#include "limpet/paper/interrupted.hpp"
+#include "limpet/core/interrupted.hpp"
 
 namespace limpet {
 
@@ -18,7 +18,7 @@ PageFigure Study::figure(const Chart& chart, const std::string& id, const std::s
 
 void Study::say(const std::string& what) const {
     if (stop != nullptr && *stop) {
-        throw Interrupted();
+        throw Interrupted("interrupted");
     }
     if (tell && !what.empty()) {
         tell(what);

@@ -96,6 +96,51 @@ TEST(BadInput, UnwritableOut) {
     expect_refused(bench, {"export", "iris", "--out", "nowhere/iris.xml"}, {"nowhere/iris.xml"});
 }
 
+TEST(BadInput, AddressesOfTheWireNameTheirOption) {
+    const Bench bench;
+    const std::vector<std::string> px4 = {"fly", "hover", "--autopilot", "px4"};
+    const auto with = [&px4](const char* option, const char* value) {
+        std::vector<std::string> words = px4;
+        words.insert(words.end(), {option, value});
+        return words;
+    };
+    expect_refused(bench, with("--hil", ""), {"--hil", "tcp:HOST:PORT or serial:DEVICE:BAUD"});
+    expect_refused(bench, with("--hil", "udp:127.0.0.1:4560"), {"--hil", "tcp:HOST:PORT"});
+    expect_refused(bench, with("--hil", "tcp:127.0.0.1:0"), {"--hil", "'0'", "1 to 65535"});
+    expect_refused(bench, with("--offboard", "tcp:127.0.0.1:1"), {"--offboard", "udp:HOST:PORT"});
+    expect_refused(bench, {"stand-in", "hover", "--peer", "tcp:1"}, {"--peer", "udp:HOST:PORT"});
+    expect_refused(bench, {"sim-io", "hover", "--sensors", "tcp:1"},
+                   {"--sensors", "udp:HOST:PORT"});
+    expect_refused(bench, {"sim-io", "hover", "--sensors", "x"}, {"--sensors", "udp:HOST:PORT"});
+}
+
+TEST(BadInput, NoWaitOrSpeedIsNaN) {
+    const Bench bench;
+    for (const char* option : {"--wait", "--speed"}) {
+        for (const char* value : {"nan", "inf", "0", "-1", "soon"}) {
+            expect_refused(bench, {"fly", "hover", "--autopilot", "px4", option, value}, {option});
+            expect_refused(bench, {"sim-io", "hover", option, value}, {option});
+        }
+    }
+    expect_refused(bench, {"sim-io", "hover", "--start-limit", "nan"}, {"--start-limit"});
+}
+
+TEST(BadInput, OptionsThatWouldDoNothing) {
+    const Bench bench;
+    for (const char* option : {"--hil", "--offboard", "--wait"}) {
+        expect_refused(bench, {"fly", "hover", option, "1"}, {option, "--autopilot px4"});
+    }
+    expect_refused(bench, {"fly", "hover", "--record-wire"}, {"--record-wire", "--autopilot px4"});
+    expect_refused(bench, {"fly", "hover", "--no-record", "--csv"}, {"--csv", "--no-record"});
+    expect_refused(bench, {"fly", "hover", "--no-record", "--out", "x"}, {"--out", "--no-record"});
+    expect_refused(bench,
+                   {"fly", "hover", "--autopilot", "px4", "--hil", "serial:/dev/null:57600",
+                    "--offboard", "udp:127.0.0.1:14540"},
+                   {"--offboard", "serial"});
+    expect_refused(bench, {"fly", "pendulum_concrete", "--autopilot", "px4"}, {"mount"});
+    expect_refused(bench, {"sim-io", "pendulum_concrete"}, {"mount"});
+}
+
 TEST(BadInput, UnknownVerbAndOption) {
     const Bench bench;
     expect_refused(bench, {"flie"}, {"flie"});

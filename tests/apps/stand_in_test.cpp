@@ -38,8 +38,30 @@ TEST(StandInVerb, WithoutItThereIsNoFlightAndNothingIsWritten) {
     EXPECT_EQ(flight.exit_code, 2);
     EXPECT_TRUE(flight.one_line_of_error()) << flight.err;
     EXPECT_THAT(flight.err, HasSubstr("no PX4 came"));
-    for (const std::string& file : bench.files()) {
-        EXPECT_EQ(file.find("flight.mcap"), std::string::npos) << file;
+    EXPECT_EQ(bench.files(), std::vector<std::string>());
+}
+
+TEST(StandInVerb, WhoWaitsForItSaysHowToStartItAndLeavesNothingOnCtrlC) {
+    for (const std::string verb : {"fly", "sim-io"}) {
+        const Bench bench;
+        const std::string hil = "tcp:" + free_port(SOCK_STREAM);
+        std::vector<std::string> words = {verb,    "hover", "--hil",        hil,
+                                          "--out", "a/b",   "--record-wire"};
+        if (verb == "fly") {
+            words.insert(words.end(),
+                         {"--autopilot", "px4", "--offboard", "udp:" + free_port(SOCK_DGRAM)});
+        } else {
+            words.insert(words.end(), {"--sensors", "udp:" + free_port(SOCK_DGRAM)});
+        }
+        Started waiting(bench.folder(), "waiting", words);
+        ASSERT_TRUE(waiting.says("limpet stand-in hover --hil " + hil, std::chrono::seconds(20)))
+            << waiting.output();
+        waiting.signal(SIGINT);
+        const Finished end = waiting.wait(std::chrono::seconds(20));
+        EXPECT_EQ(end.exit_code, 130) << end.err;
+        EXPECT_TRUE(end.one_line_of_error()) << end.err;
+        EXPECT_THAT(end.err, HasSubstr("interrupted while waiting for PX4"));
+        EXPECT_FALSE(std::filesystem::exists(bench.folder() / "a"));
     }
 }
 
@@ -54,6 +76,27 @@ TEST(StandInVerb, CtrlCEndsTheWaitForIt) {
     EXPECT_EQ(end.exit_code, 130);
     EXPECT_TRUE(end.one_line_of_error()) << end.err;
     EXPECT_THAT(end.err, HasSubstr("interrupted while waiting for PX4"));
+}
+
+TEST(StandInVerb, CtrlCBeforeTheFlightKeepsTheWireThatLedThere) {
+    const Bench bench;
+    const std::string hil = "tcp:" + free_port(SOCK_STREAM);
+    const std::string offboard = "udp:" + free_port(SOCK_DGRAM);
+    Started stand_in(bench.folder(), "stand_in",
+                     {"stand-in", "hover", "--hil", hil, "--onboard",
+                      "udp:" + free_port(SOCK_DGRAM), "--peer", offboard});
+    Started flight(bench.folder(), "flight",
+                   {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
+                    "--record-wire", "--speed", "0.1", "--out", "o"});
+    ASSERT_TRUE(flight.says("the autopilot boots", std::chrono::seconds(20))) << flight.output();
+    flight.signal(SIGINT);
+    const Finished end = flight.wait(std::chrono::seconds(20));
+    EXPECT_EQ(end.exit_code, 130) << end.err;
+    EXPECT_TRUE(end.one_line_of_error()) << end.err;
+    EXPECT_THAT(text_of(bench.folder() / "o/wire.mcap"),
+                testing::EndsWith("\x89"
+                                  "MCAP0\r\n"));  // whole: MCAP's last magic
+    EXPECT_FALSE(std::filesystem::exists(bench.folder() / "o/flight.mcap"));
 }
 
 TEST(StandInVerb, RefusesInOneLine) {

@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "program.hpp"
 
 namespace limpet {
@@ -9,15 +12,28 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Verbs, EachHasAHelpThatNamesItsOptions) {
+/// Letters of the longest line.
+std::size_t width(const std::string& text) {
+    std::size_t longest = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        longest = std::max(longest, line.size());
+    }
+    return longest;
+}
+
+TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
     const Bench bench;
-    EXPECT_THAT(bench.run({"--help"}).out, HasSubstr("limpet fly perch_concrete"));
-    for (const char* verb :
-         {"fly", "check", "list", "params", "px4-params", "plot", "film", "csv", "export",
-          "campaign", "replay", "summary", "rotor", "identify", "reproduce"}) {
+    const Finished all = bench.run({"--help"});
+    EXPECT_THAT(all.out, HasSubstr("limpet fly perch_concrete"));
+    EXPECT_LE(width(all.out), 100U);
+    for (const char* verb : {"fly", "check", "list", "params", "px4-params", "plot", "film", "csv",
+                             "export", "campaign", "replay", "summary", "rotor", "identify",
+                             "reproduce", "companion", "sim-io", "stand-in"}) {
         const Finished help = bench.run({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("--help"));
+        EXPECT_LE(width(help.out), 100U) << help.out;
         EXPECT_EQ(help.err, "");
     }
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct Form {
+    std::string_view scheme;
+    std::string_view text;
+};
+
+Form form_of(Medium medium) {
+    switch (medium) {
+        case Medium::tcp: return {"tcp:", "tcp:HOST:PORT"};
+        case Medium::udp: return {"udp:", "udp:HOST:PORT"};
+        case Medium::udp_broadcast: return {"udp-broadcast:", "udp-broadcast:HOST:PORT"};
+        case Medium::udp_multicast:
+            return {"udp-multicast:", "udp-multicast:GROUP:PORT[@INTERFACE]"};
+        case Medium::serial: return {"serial:", "serial:DEVICE:BAUD"};
+    }
+    throw InternalError("unknown medium");
+}
+
+}  // namespace
+
+CLI::Validator between(double least, double most) {
+    return CLI::Validator(
+        [least, most](std::string& text) {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            return number && value >= least && value <= most  // false for NaN
+                       ? std::string()
+                       : fmt::format("must be {:g} to {:g}, not '{}'", least, most, text);
+        },
+        "");
+}
+
+TransportAddress address_of(const std::string& option, const std::string& text,
+                            std::initializer_list<Medium> media) {
+    std::string forms;
+    for (const Medium medium : media) {
+        const Form form = form_of(medium);
+        if (text.rfind(form.scheme, 0) == 0) {
+            try {
+                return parse_address(text);
+            } catch (const InputError& error) {
+                throw InputError(option + ": " + error.what());
+            }
+        }
+        forms += (forms.empty() ? "" : " or ") + std::string(form.text);
+    }
+    throw InputError(fmt::format("{} '{}': must be {}", option, text, forms));
+}
+
+void only_with(const CLI::App& verb, bool used, std::initializer_list<const char*> options,
+               const std::string& with) {
+    for (const char* option : options) {
+        if (!used && verb.count(option) > 0) {
+            throw InputError(fmt::format("{} is of use only with {}", option, with));
+        }
+    }
+}
+
+}  // namespace limpet::app
