@@ -196,8 +196,11 @@ bool swings(const Scene& s) {
 bool release_too_long(const Scene& s) {
     return s.elapsed_s() > s.parameters.release_limit_s;
 }
-bool reseal_too_long(const Scene& s) {
-    return s.elapsed_s() > s.parameters.reseal_limit_s;
+bool no_vacuum(const Scene& s) {
+    return s.elapsed_s() > s.parameters.reseal_limit_s && s.pressure_known();
+}
+bool reseals_blind(const Scene& s) {
+    return s.elapsed_s() > s.parameters.reseal_limit_s && !s.pressure_known();
 }
 
 }  // namespace limpet::guards

@@ -86,6 +86,8 @@ struct Scene {
 [[nodiscard]] bool pressure_safe(const Scene& s);
 [[nodiscard]] bool swings(const Scene& s);
 [[nodiscard]] bool release_too_long(const Scene& s);
-[[nodiscard]] bool reseal_too_long(const Scene& s);
+[[nodiscard]] bool no_vacuum(const Scene& s);
+/// Nothing tells of the vacuum: to let go would be a guess, to rest with the pump on is none.
+[[nodiscard]] bool reseals_blind(const Scene& s);
 
 }  // namespace limpet::guards

@@ -112,7 +112,9 @@ constexpr std::array kTable = {
 
     Transition{resealing, came_off, backing_off, "came off the wall"},
     Transition{resealing, sealed, pitching_up, "vacuum is back", landing_started},
-    Transition{resealing, reseal_too_long, backing_off, "no vacuum to rest on"},
+    Transition{resealing, no_vacuum, backing_off, "no vacuum to rest on"},
+    Transition{resealing, reseals_blind, pitching_up, "pressure unknown: rests with the pump on",
+               landing_started},
 
     ends(backing_off, estimate_lost, "off the wall, position estimate lost", Outcome::released),
     done(backing_off, back_unperched, "back without having perched", Outcome::failed_to_seal,

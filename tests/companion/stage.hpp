@@ -150,7 +150,7 @@ private:
 
     void hear_sensors(const mavlink::Frame& frame) {
         if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
-            if (const auto asked = mavlink::mechanism_command(*command)) {
+            if (const auto asked = mavlink::mechanism_command(*command, {})) {
                 ++sensors.commands;
                 if (mechanism_answers) {
                     mechanism = *asked;

@@ -132,6 +132,24 @@ TEST(Faults, ACupThatStaysStuckIsReportedAndReseals) {
     EXPECT_EQ(reason_of_abort(puppet), "the cup does not come off");
 }
 
+TEST(Faults, APumpThatMayHoldTheVehicleIsNotSwitchedOffBlind) {
+    Puppet puppet;
+    puppet.leak_tau_s = 16.0;
+    puppet.vacuum_Pa = 27500.0;
+    ASSERT_TRUE(puppet.run_to(PerchingState::releasing));
+    puppet.run(2.0);
+    puppet.pressure_works = false;
+    ASSERT_TRUE(puppet.run_to(PerchingState::resealing, 30.0));
+    bool off = false;
+    for (int k = 0; k < 3000; ++k) {
+        puppet.tick();
+        off = off || !puppet.memory.setpoint.pump_on;
+    }
+    EXPECT_FALSE(off) << "whoever hangs there would fall";
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+    EXPECT_FALSE(puppet.memory.setpoint.armed);
+}
+
 TEST(Faults, ACupThatComesOffWhileLandingOrTakingOffIsNoticed) {
     for (const PerchingState state : {PerchingState::pitching_up, PerchingState::pitching_down}) {
         Puppet puppet;
