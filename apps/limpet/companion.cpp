@@ -13,6 +13,7 @@
 #include "flight_report.hpp"
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/mavlink/key_file.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
@@ -115,6 +116,9 @@ void companion(const CompanionOptions& options, ExitCode& code) {
     Terminal terminal(Terminal::Voice::normal);
     introduce(options, config, terminal);
     if (options.check) {
+        if (!config.signing_key_file.empty()) {
+            (void)mavlink::read_signing_key(config.signing_key_file);
+        }
         terminal.line("  good; nothing was opened");
         return;
     }

@@ -26,7 +26,9 @@ mavlink::OffboardOptions options_of(const CompanionConfig& config) {
             .set_point_rate_Hz = limits.guidance_rate_Hz,
             .estimate_limit_s = limits.estimate_limit_s,
             .silence_limit_s = limits.silence_limit_s,
-            .asks_for_mode = config.asks_for_mode};
+            .asks_for_mode = config.asks_for_mode,
+            .hears_texts = config.hears_texts,
+            .sets_origin = config.sets_origin};
 }
 
 }  // namespace

@@ -83,6 +83,7 @@ private:
     void read_lidars(CompanionConfig& config);
     void read_mechanism(CompanionConfig& config);
     void read_sensors(CompanionConfig& config);
+    void refuse_shared_wires(const CompanionConfig& config) const;
 
     const YamlNode& root_;
     fs::path data_;
@@ -171,7 +172,7 @@ void Reader::read_vehicle(CompanionConfig& config) {
 void Reader::read_autopilot(CompanionConfig& config) {
     AutopilotNumbers numbers;
     read_rows(section("autopilot"), bind(autopilot_wire_table(), numbers),
-              {"address", "asks_for_mode"});
+              {"address", "asks_for_mode", "hears_texts", "sets_origin"});
     config.system = static_cast<int>(numbers.system);
     config.autopilot = parse_address(kAutopilotAddress);
     if (const YamlNode* node = find("autopilot", "address")) {
@@ -179,9 +180,14 @@ void Reader::read_autopilot(CompanionConfig& config) {
                                    "udp:HOST:PORT (listens), tcp:HOST:PORT (connects), "
                                    "serial:DEVICE:BAUD");
     }
-    if (const YamlNode* node = find("autopilot", "asks_for_mode")) {
-        config.asks_for_mode = read_flag(*node);
-    }
+    const auto flag = [&](std::string_view key, bool& value) {
+        if (const YamlNode* node = find("autopilot", key)) {
+            value = read_flag(*node);
+        }
+    };
+    flag("asks_for_mode", config.asks_for_mode);
+    flag("hears_texts", config.hears_texts);
+    flag("sets_origin", config.sets_origin);
 }
 
 void Reader::read_motion_capture(CompanionConfig& config) {
@@ -306,6 +312,34 @@ void Reader::read(CompanionConfig& config) {
         std::sort(missing_.begin(), missing_.end());
         missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
         fail(root_, fmt::format("is half a companion, missing {}", fmt::join(missing_, ", ")));
+    }
+    refuse_shared_wires(config);
+}
+
+/// One port, one wire.
+void Reader::refuse_shared_wires(const CompanionConfig& config) const {
+    std::vector<std::pair<std::string_view, std::string>> wires = {
+        {"autopilot.address", to_text(config.autopilot)}};
+    if (config.sensors) {
+        wires.emplace_back("sensors.address", to_text(*config.sensors));
+    }
+    if (config.pose_source == PoseSource::natnet) {
+        wires.emplace_back("motion_capture.address", to_text(config.pose_address));
+    }
+    if (config.lidar_source == ReadingSource::serial) {
+        wires.emplace_back("lidars.left", to_text(config.lidar_left));
+        wires.emplace_back("lidars.right", to_text(config.lidar_right));
+    }
+    if (config.mechanism == MechanismWire::line) {
+        wires.emplace_back("mechanism.address", to_text(config.mechanism_address));
+    }
+    for (std::size_t i = 0; i < wires.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (wires[i].second == wires[k].second) {
+                fail(root_, fmt::format("{} and {} are both {}, each needs a wire of its own",
+                                        wires[k].first, wires[i].first, wires[i].second));
+            }
+        }
     }
 }
 

@@ -44,6 +44,8 @@ struct CompanionConfig {
     TransportAddress autopilot;
     int system = 1;
     bool asks_for_mode = false;
+    bool hears_texts = false;  ///< beats as a ground station, whose loss PX4 then does not notice
+    bool sets_origin = true;   ///< gives the local origin a place on earth
     std::optional<TransportAddress> sensors;  ///< nothing: neither needed nor named
 
     PoseSource pose_source = PoseSource::natnet;

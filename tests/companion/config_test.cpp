@@ -178,6 +178,13 @@ TEST(CompanionConfig, RefusesAVehicleThatCannotPerchOrHover) {
                 HasSubstr("guidance.hover_thrust follows from it as"));
 }
 
+TEST(CompanionConfig, RefusesOneWireForTwo) {
+    EXPECT_THAT(refusal(replaced(kGood, "source: autopilot",
+                                 "source: tfmini\n  left: serial:/dev/ttyUSB0:115200\n"
+                                 "  right: serial:/dev/ttyUSB0:115200")),
+                HasSubstr("lidars.left and lidars.right are both serial:/dev/ttyUSB0:115200"));
+}
+
 TEST(CompanionConfig, RefusesAKeyFileThatIsNone) {
     const CompanionConfig config =
         load(replaced(kGood, "mission: perch", "mission: perch\nsigning_key_file: no_key"));
