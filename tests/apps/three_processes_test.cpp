@@ -129,7 +129,8 @@ TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {
         "lidars:\n"
         "  source: mavlink\n"
         "mechanism:\n"
-        "  source: mavlink\n");
+        "  source: mavlink\n"
+        "  valve: false\n");
     start("2");
     ASSERT_TRUE(sim_io->says("approach_started", 60s));
     sim_io->signal(SIGINT);
