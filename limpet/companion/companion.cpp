@@ -33,13 +33,13 @@ mavlink::OffboardOptions options_of(const CompanionConfig& config) {
 
 }  // namespace
 
-std::string_view to_string(Phase phase) {
+std::string_view to_string(CompanionPhase phase) {
     switch (phase) {
-        case Phase::waiting: return "waiting";
-        case Phase::ready: return "ready";
-        case Phase::flying: return "flying";
-        case Phase::leaving: return "leaving";
-        case Phase::over: return "over";
+        case CompanionPhase::waiting: return "waiting";
+        case CompanionPhase::ready: return "ready";
+        case CompanionPhase::flying: return "flying";
+        case CompanionPhase::leaving: return "leaving";
+        case CompanionPhase::over: return "over";
     }
     throw InternalError("phase out of range");
 }
@@ -77,20 +77,21 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
     result_.last_s = time_s;
     result_.late_ticks += late_s > 1.0 / config_.limits.guidance_rate_Hz ? 1 : 0;
     result_.latest_s = std::max(result_.latest_s, late_s);
-    const bool flies_us = phase_ == Phase::flying || (phase_ == Phase::ready && steers());
+    const bool flies_us =
+        phase_ == CompanionPhase::flying || (phase_ == CompanionPhase::ready && steers());
     late_ = late_ || (late_s > config_.limits.late_limit_s && flies_us);
     interrupted_ = interrupted_ || interrupted;
 
     poll(time_s);
     switch (phase_) {
-        case Phase::waiting: wait(time_s); break;
-        case Phase::ready: stand_ready(time_s); break;
-        case Phase::flying:
+        case CompanionPhase::waiting: wait(time_s); break;
+        case CompanionPhase::ready: stand_ready(time_s); break;
+        case CompanionPhase::flying:
             obey(judge(look(time_s), place()), time_s);
             guide(time_s);
             break;
-        case Phase::leaving: take_leave(time_s); break;
-        case Phase::over: return;
+        case CompanionPhase::leaving: take_leave(time_s); break;
+        case CompanionPhase::over: return;
     }
     steer(time_s);
     actuate(time_s);
@@ -164,7 +165,7 @@ Signs Companion::look(double time_s) const {
 
 // --- the flight -------------------------------------------------------------------------------
 
-void Companion::obey(const Verdict& verdict, double time_s) {
+void Companion::obey(const Judgement& verdict, double time_s) {
     const bool news = verdict.action != pending_.action || verdict.cause != pending_.cause;
     pending_ = verdict;
     switch (verdict.action) {
@@ -191,7 +192,7 @@ void Companion::obey(const Verdict& verdict, double time_s) {
 }
 
 void Companion::guide(double time_s) {
-    if (phase_ != Phase::flying) {
+    if (phase_ != CompanionPhase::flying) {
         return;
     }
     PerchingTask task = config_.task;
@@ -223,7 +224,7 @@ void Companion::guide(double time_s) {
 // --- after it ---------------------------------------------------------------------------------
 
 void Companion::leave(Action action, CompanionEnd end, std::string reason, double time_s) {
-    const bool flew = phase_ == Phase::flying;
+    const bool flew = phase_ == CompanionPhase::flying;
     const Place place = flew ? place_of(memory_) : Place::in_air;
     const bool on_wall =
         place == Place::at_rest || place == Place::on_cup || place == Place::pressed;
@@ -236,7 +237,7 @@ void Companion::leave(Action action, CompanionEnd end, std::string reason, doubl
     result_.attempts = flew ? memory_.attempt : 0;
     leaving_by_ = action;
     const bool flies = !dry_run_ && (flew || action == Action::hold);
-    phase_ = flies ? Phase::leaving : Phase::over;
+    phase_ = flies ? CompanionPhase::leaving : CompanionPhase::over;
     phase_s_ = time_s;
     if (flies) {
         say(time_s,
@@ -247,7 +248,7 @@ void Companion::leave(Action action, CompanionEnd end, std::string reason, doubl
 /// Until all who must have heard it have.
 void Companion::take_leave(double time_s) {
     if (time_s - phase_s_ >= config_.limits.hand_back_s) {
-        phase_ = Phase::over;
+        phase_ = CompanionPhase::over;
     }
 }
 
@@ -258,21 +259,21 @@ void Companion::steer(double time_s) {
         return;
     }
     switch (phase_) {
-        case Phase::ready:
-        case Phase::flying: offboard_.update(*wires_.autopilot, setpoint_, time_s); return;
-        case Phase::leaving:
+        case CompanionPhase::ready:
+        case CompanionPhase::flying: offboard_.update(*wires_.autopilot, setpoint_, time_s); return;
+        case CompanionPhase::leaving:
             if (leaving_by_ == Action::hold) {
                 offboard_.hand_back(*wires_.autopilot, time_s);
             }
             offboard_.attend(*wires_.autopilot, time_s);
             return;
-        case Phase::waiting: offboard_.attend(*wires_.autopilot, time_s); return;
-        case Phase::over: return;
+        case CompanionPhase::waiting: offboard_.attend(*wires_.autopilot, time_s); return;
+        case CompanionPhase::over: return;
     }
 }
 
 void Companion::actuate(double time_s) {
-    if (dry_run_ || !drives_mechanism_ || phase_ == Phase::over) {
+    if (dry_run_ || !drives_mechanism_ || phase_ == CompanionPhase::over) {
         return;
     }
     mechanism_.update(wires_, {.pump_on = setpoint_.pump_on, .valve_open = setpoint_.valve_open},
@@ -286,10 +287,10 @@ void Companion::tell(double time_s) {
         return;
     }
     told_s_ = time_s;
-    if (phase_ == Phase::flying) {
+    if (phase_ == CompanionPhase::flying) {
         const auto boot_ms = static_cast<std::uint32_t>(std::llround(time_s * 1e3));
         send_sensors(mavlink::guidance_state(static_cast<int>(memory_.state), boot_ms));
-    } else if (phase_ == Phase::leaving) {
+    } else if (phase_ == CompanionPhase::leaving) {
         constexpr std::uint8_t kOnboardController = 18;
         constexpr std::uint8_t kNoAutopilot = 8;
         send_sensors(last_word());
@@ -317,7 +318,7 @@ void Companion::record(double time_s) {
     log(time_s, [&](CompanionLog& to) {
         to.readings(inputs_.readings());
         to.estimate(dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s));
-        if (phase_ == Phase::flying || phase_ == Phase::leaving) {
+        if (phase_ == CompanionPhase::flying || phase_ == CompanionPhase::leaving) {
             to.guidance(time_s, setpoint_, memory_);
         }
     });
@@ -346,7 +347,7 @@ void Companion::say_changes(double time_s) {
         told_texts_ = offboard_.report().texts;
         say(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
     }
-    if (phase_ == Phase::ready) {
+    if (phase_ == CompanionPhase::ready) {
         const std::string waits_for = offboard_.obstacle(time_s);
         if (waits_for != told_obstacle_) {
             told_obstacle_ = waits_for;
@@ -355,7 +356,7 @@ void Companion::say_changes(double time_s) {
             }
         }
     }
-    const bool deaf = !dry_run_ && drives_mechanism_ && phase_ == Phase::flying &&
+    const bool deaf = !dry_run_ && drives_mechanism_ && phase_ == CompanionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&
                       inputs_.mechanism_s() < mechanism_.asked_s();
     if (deaf && !told_deaf_) {

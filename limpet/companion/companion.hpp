@@ -27,14 +27,14 @@ namespace limpet {
 //      └──────────── an input went away ───────────┘ │ operator_limit_s     mission over, watchdog
 //      │ wait_limit_s                                │                                 ▼
 //      └──────────────► over ◄───────────────────────┴──────── hand_back_s ─────── leaving
-enum class Phase {
+enum class CompanionPhase {
     waiting,  ///< for inputs; no set-points go
     ready,    ///< set-points say: stay; waits for OFFBOARD, armed, in the air (or rises itself)
     flying,   ///< guidance
     leaving,  ///< asks for hold, or lets go; tells the sensors' wire that the mission is over
     over,
 };
-[[nodiscard]] std::string_view to_string(Phase phase);
+[[nodiscard]] std::string_view to_string(CompanionPhase phase);
 
 /// Why a companion ended.
 enum class CompanionEnd {
@@ -78,8 +78,8 @@ public:
     /// @param interrupted  Ctrl-C: stays true
     void tick(double time_s, double late_s, bool interrupted);
 
-    [[nodiscard]] bool over() const { return phase_ == Phase::over; }
-    [[nodiscard]] Phase phase() const { return phase_; }
+    [[nodiscard]] bool over() const { return phase_ == CompanionPhase::over; }
+    [[nodiscard]] CompanionPhase phase() const { return phase_; }
     [[nodiscard]] const PerchingMemory& memory() const { return memory_; }
     [[nodiscard]] const CompanionResult& result() const { return result_; }
 
@@ -96,7 +96,7 @@ private:
     void stand_ready(double time_s);
     [[nodiscard]] bool at_start(double time_s);
     void begin(double time_s);
-    void obey(const Verdict& verdict, double time_s);
+    void obey(const Judgement& verdict, double time_s);
     void guide(double time_s);
     void leave(Action action, CompanionEnd end, std::string reason, double time_s);
     void take_leave(double time_s);
@@ -127,7 +127,7 @@ private:
     PoseEstimate carried_;
     DryRun dry_;
 
-    Phase phase_ = Phase::waiting;
+    CompanionPhase phase_ = CompanionPhase::waiting;
     double phase_s_ = 0.0;  ///< since when
     PerchingMemory memory_;
     Setpoint setpoint_;  ///< what autopilot and mechanism are told
@@ -135,7 +135,7 @@ private:
     bool interrupted_ = false;
     bool late_ = false;
     ArmingWatch arming_;
-    Verdict pending_;  ///< why it finishes, where it does
+    Judgement pending_;  ///< why it finishes, where it does
     Action leaving_by_ = Action::let_go;
     double steady_since_s_ = -1.0;
     double forwarded_s_ = -1e9;  ///< when a pose was due to go on

@@ -74,7 +74,7 @@ void Companion::wait(double time_s) {
     if (interrupted_) {
         leave(Action::let_go, CompanionEnd::interrupted, "interrupted before the flight", time_s);
     } else if (missing.empty()) {
-        phase_ = Phase::ready;
+        phase_ = CompanionPhase::ready;
         phase_s_ = time_s;
         stay(time_s);
         say(time_s,
@@ -129,7 +129,7 @@ void Companion::stand_ready(double time_s) {
     }
     stay(time_s);
     const bool flies = engaged(time_s) && offboard_.report().armed;
-    const Verdict verdict = judge(look(time_s), Place::in_air);
+    const Judgement verdict = judge(look(time_s), Place::in_air);
     const std::string missing = obstacle(time_s);
     const bool taken = verdict.action != Action::carry_on && verdict.cause == Cause::mode_taken;
     if (taken || (flies && verdict.action != Action::carry_on)) {
@@ -140,7 +140,7 @@ void Companion::stand_ready(double time_s) {
     } else if (interrupted_) {
         leave(Action::let_go, CompanionEnd::interrupted, "interrupted before the flight", time_s);
     } else if (!flies && !missing.empty()) {
-        phase_ = Phase::waiting;
+        phase_ = CompanionPhase::waiting;
         phase_s_ = time_s;
         setpoint_ = {};
     } else if (at_start(time_s)) {
@@ -155,7 +155,7 @@ void Companion::stand_ready(double time_s) {
 }
 
 void Companion::begin(double time_s) {
-    phase_ = Phase::flying;
+    phase_ = CompanionPhase::flying;
     phase_s_ = time_s;
     memory_ = start_perching(config_.task, believe(time_s), time_s);
     arming_ = {.asked_s = time_s, .seen = !dry_run_};

@@ -110,7 +110,7 @@ Action action_for(Cause cause, Place place) {
     throw InternalError("a cause without a row");
 }
 
-Verdict judge(const Signs& signs, Place place) {
+Judgement judge(const Signs& signs, Place place) {
     for (const Row& row : kTable) {
         const Action action = row.at[static_cast<std::size_t>(place)];
         if (row.applies(signs) && action != Action::carry_on) {

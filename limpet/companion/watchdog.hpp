@@ -72,13 +72,13 @@ struct Signs {
     bool estimate_fresh = true;
 };
 
-struct Verdict {
+struct Judgement {
     Action action = Action::carry_on;
     Cause cause = Cause::mode_taken;  ///< means something unless action is carry_on
 };
 
 /// @return the first row that applies and does not carry on
-[[nodiscard]] Verdict judge(const Signs& signs, Place place);
+[[nodiscard]] Judgement judge(const Signs& signs, Place place);
 
 /// A cell of the table.
 [[nodiscard]] Action action_for(Cause cause, Place place);

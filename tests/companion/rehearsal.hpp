@@ -61,7 +61,8 @@ struct Rehearsal {
     bool run_to(PerchingState state, double limit_s = 60.0) {
         for (const double end_s = stage.time_s() + limit_s;
              stage.time_s() < end_s && !companion->over();) {
-            if (companion->phase() == Phase::flying && companion->memory().state == state) {
+            if (companion->phase() == CompanionPhase::flying &&
+                companion->memory().state == state) {
                 return true;
             }
             tick();

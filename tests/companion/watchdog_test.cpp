@@ -53,7 +53,7 @@ const std::array kLines = {
 TEST(Watchdog, EveryCellIsAsDecided) {
     for (const Line& line : kLines) {
         for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-            const Verdict verdict = judge(line.signs, kPlaces[i]);
+            const Judgement verdict = judge(line.signs, kPlaces[i]);
             EXPECT_EQ(verdict.action, line.expected[i])
                 << line.name << ", " << to_string(kPlaces[i]);
             EXPECT_EQ(action_for(line.cause, kPlaces[i]), line.expected[i]) << line.name;
