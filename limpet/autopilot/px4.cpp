@@ -41,7 +41,11 @@ void Px4Autopilot::listen() {
         return;
     }
     listened_s_ = clock_s();
-    while (const auto frame = offboard_link_.receive()) {
+    for (int k = 0; k < mavlink::kFramesAtOnce; ++k) {
+        const auto frame = offboard_link_.receive();
+        if (!frame) {
+            break;
+        }
         hear(*frame);
     }
     const bool follows = options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;

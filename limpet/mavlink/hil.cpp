@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/hil.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace limpet::mavlink {
@@ -13,6 +14,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSlice{100};
 /// Until the first answer: long enough for one to come, short enough to go on booting.
 constexpr milliseconds kBootWait{4};
+/// Half a period at 250 Hz: the motors are then for these sensors, not for the last ones.
+constexpr milliseconds kRealTimeWait{2};
 /// One that has not answered by then is not booting but slow: it must not be left far behind, or
 /// who hears what when would depend on the machine. Source: px4.md, first answer to 22 to 34
 constexpr std::size_t kBootSensors = 50;
@@ -56,6 +59,13 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec) {
     ++sends_;
 }
 
+const Hil::Sent* Hil::sent_at(std::uint64_t time_usec) const {
+    const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& sent) {
+        return sent.time_usec == time_usec && time_usec != 0;
+    });
+    return found == sent_.end() ? nullptr : &*found;
+}
+
 bool Hil::take(const Frame& frame, const Others& others) {
     const auto controls = decode<HilActuatorControls>(frame);
     if (!controls) {
@@ -63,12 +73,7 @@ bool Hil::take(const Frame& frame, const Others& others) {
         return false;
     }
     const Clock::time_point now = Clock::now();
-    const Sent* question = nullptr;
-    for (const Sent& sent : sent_) {
-        if (sent.time_usec == controls->time_usec && sent.time_usec != 0) {
-            question = &sent;
-        }
-    }
+    const Sent* question = sent_at(controls->time_usec);
     if (question == nullptr && options_.timing == HilTiming::lockstep) {
         ++count_.strays;  // a clock that is not ours
         return false;
@@ -123,9 +128,20 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
     return HilStatus::silent;
 }
 
-HilStatus Hil::in_real_time(const Others& others) {
-    while (const auto frame = link_.receive()) {
-        answered_ever_ = take(*frame, others) || answered_ever_;
+HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
+    const Clock::time_point end = sent_[(sends_ - 1) % sent_.size()].at + kRealTimeWait;
+    bool settled = false;
+    for (int k = 0; k < kFramesAtOnce; ++k) {
+        const auto left = settled ? Clock::duration::zero() : end - Clock::now();
+        const auto frame = link_.receive(std::max(Clock::duration::zero(), left));
+        if (!frame) {
+            break;
+        }
+        const bool answer = take(*frame, others);
+        answered_ever_ = answer || answered_ever_;
+        // a board with a clock of its own answers no one question
+        settled = settled ||
+                  (answer && (answered_usec_ == time_usec || sent_at(answered_usec_) == nullptr));
     }
     if (options_.stop != nullptr && *options_.stop) {
         return HilStatus::interrupted;
@@ -148,7 +164,7 @@ HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const
     }
     send(readings, time_usec);
     return options_.timing == HilTiming::lockstep ? in_lockstep(time_usec, others)
-                                                  : in_real_time(others);
+                                                  : in_real_time(time_usec, others);
 }
 
 }  // namespace limpet::mavlink

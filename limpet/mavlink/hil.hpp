@@ -83,7 +83,9 @@ private:
     /// Longest wait for the answer to the sensors that have just gone, as things stand.
     [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
-    [[nodiscard]] HilStatus in_real_time(const Others& others);
+    [[nodiscard]] HilStatus in_real_time(std::uint64_t time_usec, const Others& others);
+    /// @return when the sensors of that stamp went; nullptr when none of the last ones has it
+    [[nodiscard]] const Sent* sent_at(std::uint64_t time_usec) const;
     /// @return whether it is an answer
     bool take(const Frame& frame, const Others& others);
 

@@ -23,7 +23,9 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
     : writer_(path), range_sensor_(info.range_sensor) {
     mcap::StringMap about = info.numbers;
     about["scenario"] = info.scenario;
-    about["seed"] = std::to_string(info.seed);
+    if (info.seed) {
+        about["seed"] = std::to_string(*info.seed);
+    }
     about["version"] = info.version;
     writer_.add_metadata({"limpet", about});
     for (const mcap::Attachment& attachment : info.attachments) {

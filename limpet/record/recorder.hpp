@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,8 @@ namespace limpet {
 /// What a recording says of itself. Nothing in it may depend on the wall clock or the machine.
 struct RecordingInfo {
     std::string scenario;
-    std::uint64_t seed = 0;
-    std::string version;  ///< of limpet
+    std::optional<std::uint64_t> seed = {};  ///< of a simulation
+    std::string version;                     ///< of limpet
     /// Numbers that a reader of the recording needs: {"land_pressure_Pa", "88000"}.
     mcap::StringMap numbers = {};
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"

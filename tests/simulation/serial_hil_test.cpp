@@ -51,7 +51,7 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
     const FlightResult result = fly(model, {}, {}, 0, {.autopilot = &autopilot, .speed = 1.0});
     EXPECT_EQ(result.outcome, Outcome::released) << result.reason;
     EXPECT_NEAR(result.performance.wall_s, result.performance.simulated_s,
-                0.05 * result.performance.simulated_s);
+                0.2 * result.performance.simulated_s);
     // the last answer may still be on its way
     const mavlink::HilCount& count = autopilot.count();
     board.end();
@@ -66,7 +66,7 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
         EXPECT_EQ(link.damaged, 0U);
         EXPECT_EQ(link.not_sent, 0U);
     }
-    // an answer is seen when the next sensors go, a period of 4 ms later
+    // half a period is waited for an answer; what comes later is seen a period later
     EXPECT_LT(count.round_trip.quantile_s(0.5), 0.008);
 }
 
