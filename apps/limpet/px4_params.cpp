@@ -124,11 +124,12 @@ void add_px4_params(CLI::App& app) {
     verb->add_option("--airframe-id", options->airframe_id,
                      "PX4's number of this airframe, 22000 .. 22999 (default 22001)")
         ->type_name("N");
-    verb->add_option("--target", options->target,
-                     "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
-                     "simulator; flight: the vehicle itself, with its companion on TELEM 2")
+    verb->add_option_function<std::string>(
+            "--target", [options](const std::string& text) { options->target = kTargets.at(text); },
+            "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
+            "simulator; flight: the vehicle itself, with its companion on TELEM 2")
         ->type_name("TARGET")
-        ->transform(CLI::CheckedTransformer(kTargets).description(""));
+        ->check(CLI::IsMember({"sitl", "hitl", "flight"}).description(""));
     CLI::Option* mocap = verb->add_flag("--mocap", options->mocap,
                                         "position by motion capture (default unless the\n"
                                         "scenario's EKF2_EV_CTRL is 0)");

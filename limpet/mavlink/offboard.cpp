@@ -71,7 +71,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
             heartbeat_s_ = time_s;
             report_.armed = (beat->base_mode & kArmedFlag) != 0;
             report_.custom_mode = beat->custom_mode;
-            report_.offboard = ((beat->custom_mode >> 16U) & 0xFFU) == kMainModeOffboard;
+            report_.offboard = main_mode(beat->custom_mode) == kMainModeOffboard;
             was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
         }
     } else if (const auto told = decode<Odometry>(frame)) {

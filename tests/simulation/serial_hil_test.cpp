@@ -50,8 +50,9 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
 
     const FlightResult result = fly(model, {}, {}, 0, {.autopilot = &autopilot, .speed = 1.0});
     EXPECT_EQ(result.outcome, Outcome::released) << result.reason;
-    EXPECT_NEAR(result.performance.wall_s, result.performance.simulated_s,
-                0.2 * result.performance.simulated_s);
+    // never ahead of real time; a machine that stalls is behind it by its stalls
+    EXPECT_GE(result.performance.wall_s, 0.99 * result.performance.simulated_s);
+    EXPECT_LE(result.performance.wall_s, 1.2 * result.performance.simulated_s);
     // the last answer may still be on its way
     const mavlink::HilCount& count = autopilot.count();
     board.end();
@@ -66,8 +67,8 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
         EXPECT_EQ(link.damaged, 0U);
         EXPECT_EQ(link.not_sent, 0U);
     }
-    // half a period is waited for an answer; what comes later is seen a period later
-    EXPECT_LT(count.round_trip.quantile_s(0.5), 0.008);
+    // half a period is waited for an answer: most must come in it
+    EXPECT_LT(count.round_trip.quantile_s(0.5), 0.002);
 }
 
 }  // namespace
