@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/step.hpp"

@@ -1,12 +1,14 @@
 # One target a room; its link list is the dependency rule of the house (docs/design.md).
 
+get_filename_component(LIMPET_ROOT "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
+
 # limpet_room(NAME SOURCES files... LINKS targets...)
 # A room `suction` becomes the target limpet_suction; LINKS takes rooms by their target names.
 function(limpet_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(limpet_${name} STATIC ${ROOM_SOURCES})
   add_library(limpet::${name} ALIAS limpet_${name})
-  target_include_directories(limpet_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(limpet_${name} PUBLIC ${LIMPET_ROOT})
   target_link_libraries(limpet_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
   limpet_compile_options(limpet_${name})
 endfunction()
@@ -21,7 +23,7 @@ function(limpet_test room)
   endif()
   add_executable(${room}_test ${TEST_SOURCES})
   target_link_libraries(${room}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${LIMPET_ROOT}")
   limpet_compile_options(${room}_test)
   gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})

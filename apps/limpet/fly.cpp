@@ -144,7 +144,7 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
         px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
-        conduct.autopilot = &px4->autopilot();
+        conduct.outside.autopilot = &px4->autopilot();
         conduct.speed = px4->speed();
         conduct.on_obstacle = [&terminal](const std::string& obstacle) {
             terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));

@@ -139,8 +139,7 @@ void sim_io(SimIoOptions options, ExitCode& code) {
     const std::atomic<bool>* stop = stop_on_signals();
     Px4Link px4(options.px4, *model, false, folder, terminal, stop);
     terminal.line(terminal.dim(event_head()));
-    FlightConduct conduct{.autopilot = &px4.autopilot(),
-                          .guidance = &guidance,
+    FlightConduct conduct{.outside = {.autopilot = &px4.autopilot(), .guidance = &guidance},
                           .start_limit_s = options.start_limit_s,
                           .speed = px4.speed(),
                           .stop = stop};

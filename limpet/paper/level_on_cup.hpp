@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/simulation/model.hpp"
 
 namespace limpet {

@@ -10,6 +10,7 @@
 #include "limpet/campaign/plant_cache.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/parallel.hpp"
+#include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/flight.hpp"

@@ -7,6 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/parallel.hpp"
+#include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/vehicle/links.hpp"

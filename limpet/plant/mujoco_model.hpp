@@ -4,13 +4,15 @@
 #include <memory>
 #include <string>
 
+#include "limpet/plant/plant.hpp"
+
 struct mjModel_;
 
 namespace limpet {
 
 /// A vehicle and its surroundings as MuJoCo compiled them. Immutable: any number of plants in any
 /// number of threads share one.
-class MujocoModel {
+class MujocoModel final : public PlantModel, public std::enable_shared_from_this<MujocoModel> {
 public:
     /// Where the parts that the plant talks to are. Without a cup only the base is there.
     struct Places {
@@ -32,9 +34,12 @@ public:
     /// @param mjcf  text, without references to files
     /// @throws InputError with MuJoCo's message when the text does not compile or a part is missing
     explicit MujocoModel(const std::string& mjcf);
-    ~MujocoModel();
+    ~MujocoModel() override;
     MujocoModel(const MujocoModel&) = delete;
     MujocoModel& operator=(const MujocoModel&) = delete;
+
+    /// @throws std::bad_weak_ptr unless a shared_ptr owns the model
+    [[nodiscard]] std::unique_ptr<Plant> make() const override;
 
     [[nodiscard]] const mjModel_& get() const { return *model_; }
     [[nodiscard]] const Places& places() const { return places_; }

@@ -31,6 +31,12 @@ void for_each_state(const mjModel& model, mjData& data, Vector3& contact_force_N
     visit(contact_force_N.data(), 3);
 }
 
+std::shared_ptr<const MujocoModel> own_model(const std::shared_ptr<const PlantModel>& model) {
+    auto own = std::dynamic_pointer_cast<const MujocoModel>(model);
+    require(own != nullptr, "a model of MuJoCo's");
+    return own;
+}
+
 }  // namespace
 
 MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
@@ -41,7 +47,14 @@ MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
     refresh();
 }
 
+MujocoPlant::MujocoPlant(const std::shared_ptr<const PlantModel>& model)
+    : MujocoPlant(own_model(model)) {}
+
 MujocoPlant::~MujocoPlant() = default;
+
+std::unique_ptr<Plant> MujocoModel::make() const {
+    return std::make_unique<MujocoPlant>(shared_from_this());
+}
 
 void MujocoPlant::Delete::operator()(mjData_* data) const {
     mj_deleteData(data);

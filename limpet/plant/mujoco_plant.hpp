@@ -23,6 +23,8 @@ class MujocoPlant final : public Plant {
 public:
     /// Starts at the model's initial state: B at the origin of W, level, at rest.
     explicit MujocoPlant(std::shared_ptr<const MujocoModel> model);
+    /// @throws InternalError when the model is another engine's
+    explicit MujocoPlant(const std::shared_ptr<const PlantModel>& model);
     ~MujocoPlant() override;
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
@@ -36,13 +38,11 @@ public:
     [[nodiscard]] Vector3 contact_force_W() const override { return contact_force_W_N_; }
 
     [[nodiscard]] PlantState save() const override;
-    /// @throws InternalError when the state is of another model
     void restore(const PlantState& state) override;
 
-    /// Puts the vehicle somewhere, joints as they are, not turning.
     void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB,
                   const Vector3& v_WB_W_m_s = Vector3::Zero(),
-                  const Vector3& w_WB_B_rad_s = Vector3::Zero());
+                  const Vector3& w_WB_B_rad_s = Vector3::Zero()) override;
     /// MuJoCo's own coordinates (qpos), for pictures: position and quaternion of the base in
     /// MuJoCo's axes, slider, cup_pitch, cup_yaw.
     [[nodiscard]] std::span<const double> positions() const;

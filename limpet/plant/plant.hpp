@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,22 @@ public:
     [[nodiscard]] virtual Vector3 contact_force_W() const = 0;
 
     [[nodiscard]] virtual PlantState save() const = 0;
+    /// @throws InternalError when the state is of another model
     virtual void restore(const PlantState& state) = 0;
+    /// Puts the vehicle somewhere, joints as they are.
+    virtual void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB,
+                          const Vector3& v_WB_W_m_s = Vector3::Zero(),
+                          const Vector3& w_WB_B_rad_s = Vector3::Zero()) = 0;
+};
+
+/// What plants are made of: immutable, shared by many runs.
+class PlantModel {
+public:
+    virtual ~PlantModel() = default;
+
+    /// A plant at its first state: B at the origin of W, level, at rest, unless the engine holds
+    /// it elsewhere already.
+    [[nodiscard]] virtual std::unique_ptr<Plant> make() const = 0;
 };
 
 }  // namespace limpet

@@ -29,16 +29,18 @@ SliderStatus apply_slider_stops(const SimulationModel& model, Plant& plant) {
 
 /// The cup between wall and mechanism: its wrench goes to the plant, its events to the list.
 void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plant, double time_s,
-               double dt_s, EventList& events) {
+               double dt_s, EventList& events, ExternalCup* external) {
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
-    const CupOutput output =
-        step(model.cup, state.cup, surface_under_cup(model, state.cup), cup,
-             {.time_s = time_s,
-              .press_N = -state.truth.slider.force_N,
-              .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
-              .valve_open = state.guidance.setpoint.valve_open},
-             dt_s);
+    const Surface& surface = surface_under_cup(model, state.cup);
+    const CupInput input{
+        .time_s = time_s,
+        .press_N = -state.truth.slider.force_N,
+        .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
+        .valve_open = state.guidance.setpoint.valve_open};
+    const CupOutput output = external != nullptr
+                                 ? external->step(model.cup, state.cup, surface, cup, input, dt_s)
+                                 : step(model.cup, state.cup, surface, cup, input, dt_s);
     if (state.cup.status.phase != CupPhase::free) {
         plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
     }
@@ -88,8 +90,8 @@ void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant) 
     }
 }
 
-void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
-             EventList& events) {
+void advance(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+             ExternalCup* external_cup) {
     const bool has_cup = model.scenario.airframe.has_cup;
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
@@ -107,7 +109,7 @@ void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
         }
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
-            apply_cup(model, state, plant, time_s, mode.step_s, events);
+            apply_cup(model, state, plant, time_s, mode.step_s, events, external_cup);
             observe_contact(state.metrics, state.guidance.state, state.truth.slider,
                             state.cup.status);
         }

@@ -25,7 +25,7 @@ SimulationModel hovering(const SimulationModel& model) {
     return waiting;
 }
 
-void rest_on_stand(const SimulationModel& model, const Vector3& stand_W_m, MujocoPlant& plant,
+void rest_on_stand(const SimulationModel& model, const Vector3& stand_W_m, Plant& plant,
                    Truth& truth) {
     plant.set_pose(stand_W_m, attitude(model.scenario.start));
     truth.base = plant.kinematics(Body::base);
@@ -40,12 +40,9 @@ bool stands_still(const Scenario& scenario, const Truth& truth) {
 }
 
 /// A flight's first state with the vehicle, rotors and autopilot as they are.
-Snapshot first_state(const SimulationModel& model, const SimulationState& now,
-                     const MujocoPlant& plant, std::uint32_t run) {
-    MujocoPlant scratch(model.plant);
-    SimulationState state = start(model, scratch, run);
-    state.truth.base = now.truth.base;
-    state.truth.cup = now.truth.cup;
+Snapshot first_state(const SimulationModel& model, const SimulationState& now, const Plant& plant,
+                     std::uint32_t run) {
+    SimulationState state = start(model, now.truth.base, now.truth.cup, run);
     state.truth.rotor_speed_rad_s = now.truth.rotor_speed_rad_s;
     state.rotors = now.rotors;
     state.command = now.command;
@@ -56,7 +53,7 @@ Snapshot first_state(const SimulationModel& model, const SimulationState& now,
     return {.state = state, .plant = plant.save()};
 }
 
-std::string obstacle_of(const ExternalAutopilot& autopilot, const RemoteGuidance* guidance,
+std::string obstacle_of(const ExternalAutopilot& autopilot, const ExternalGuidance* guidance,
                         bool on_stand) {
     std::string obstacle = autopilot.obstacle();
     if (obstacle.empty() && guidance != nullptr) {
@@ -74,14 +71,15 @@ std::string obstacle_of(const ExternalAutopilot& autopilot, const RemoteGuidance
 
 }  // namespace
 
-Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
-                  const BringUp& options) {
+Snapshot bring_up(const SimulationModel& model, const Outside& outside, const BringUp& options) {
+    ExternalAutopilot& autopilot = *outside.autopilot;
     const Scenario& scenario = model.scenario;
     const SimulationModel waiting = hovering(model);
     const Vector3 stand_W_m = scenario.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
     const double weight_N = scenario.airframe.mass_kg * kGravity_m_s2;
 
-    MujocoPlant plant(model.plant);
+    const std::unique_ptr<Plant> made = model.plant->make();
+    Plant& plant = *made;
     SimulationState state = start(waiting, plant, options.run);
     state.rotors = {};
     state.command = {};
@@ -94,13 +92,13 @@ Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
     Tick still_since = -1;
     std::string obstacle;
     while (seconds(state.tick) < options.limit_s) {
-        step(waiting, state, plant, events, &autopilot, options.guidance);
+        step(waiting, state, plant, events, outside);
         on_stand = on_stand && state.truth.thrust_N < weight_N;
         if (on_stand) {
             rest_on_stand(model, stand_W_m, plant, state.truth);
         }
         if (due(state.tick, model.control_rate_Hz)) {
-            std::string now = obstacle_of(autopilot, options.guidance, on_stand);
+            std::string now = obstacle_of(autopilot, outside.guidance, on_stand);
             if (options.on_obstacle && now != obstacle) {
                 options.on_obstacle(now);
             }
@@ -115,7 +113,7 @@ Snapshot bring_up(const SimulationModel& model, ExternalAutopilot& autopilot,
         if (state.ending) {
             give_up(fmt::format("{} on the way to the start", state.ending->reason), obstacle);
         }
-        if (options.guidance != nullptr && !on_stand) {
+        if (outside.guidance != nullptr && !on_stand) {
             return first_state(model, state, plant, options.run);
         }
         const bool still =

@@ -34,17 +34,20 @@ FlightResult result_of(const Flight& flight, double wall_s) {
 
 }  // namespace
 
-Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run)
-    : model_(std::move(model)), plant_(model_->plant), state_(start(*model_, plant_, run)) {}
+Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run,
+               const Outside& outside)
+    : model_(std::move(model)),
+      plant_(model_->plant->make()),
+      state_(start(*model_, *plant_, run)),
+      outside_(outside) {}
 
 Flight::Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
-               ExternalAutopilot& autopilot, RemoteGuidance* guidance)
+               const Outside& outside)
     : model_(std::move(model)),
-      plant_(model_->plant),
+      plant_(model_->plant->make()),
       state_(airborne.state),
-      autopilot_(&autopilot),
-      guidance_(guidance) {
-    plant_.restore(airborne.plant);
+      outside_(outside) {
+    plant_->restore(airborne.plant);
 }
 
 const EventList& Flight::tick() {
@@ -52,12 +55,12 @@ const EventList& Flight::tick() {
     if (ended()) {
         return events_;
     }
-    step(*model_, state_, plant_, events_, autopilot_, guidance_);
+    step(*model_, state_, *plant_, events_, outside_);
     report_parameters();
-    if (autopilot_ != nullptr && autopilot_->failure()) {
+    if (outside_.autopilot != nullptr && outside_.autopilot->failure()) {
         // In the air it falls; on the wall the cup still holds it.
         stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
-             *autopilot_->failure());
+             *outside_.autopilot->failure());
     } else if (seconds(state_.tick) >= model_->scenario.simulation.time_limit_s) {
         stop(Outcome::timed_out, "the scenario's time is over");
     }
@@ -71,7 +74,7 @@ void Flight::stop(Outcome outcome, std::string_view reason) {
 }
 
 void Flight::set_autopilot(const AutopilotParameters& parameters) {
-    require(autopilot_ == nullptr, "an autopilot behind a wire has its own parameters");
+    require(outside_.autopilot == nullptr, "an autopilot behind a wire has its own parameters");
     for (const auto& row : autopilot_table()) {
         const double value = row.get(parameters);
         if (!(value >= row.minimum && value <= row.maximum)) {
@@ -102,23 +105,22 @@ void Flight::report_parameters() {
 
 void Flight::restore(const Snapshot& snapshot) {
     state_ = snapshot.state;
-    plant_.restore(snapshot.plant);
+    plant_->restore(snapshot.plant);
 }
 
 FlightResult fly(std::shared_ptr<const SimulationModel> model,
                  const std::filesystem::path& recording, const FlightWatch& watch,
                  std::uint32_t run, const FlightConduct& conduct) {
-    Flight flight = conduct.autopilot == nullptr
-                        ? Flight(model, run)
-                        : Flight(model,
-                                 bring_up(*model, *conduct.autopilot,
-                                          {.run = run,
-                                           .speed = conduct.speed,
-                                           .limit_s = conduct.start_limit_s,
-                                           .guidance = conduct.guidance,
-                                           .stop = conduct.stop,
-                                           .on_obstacle = conduct.on_obstacle}),
-                                 *conduct.autopilot, conduct.guidance);
+    const ExternalAutopilot* autopilot = conduct.outside.autopilot;
+    Flight flight = autopilot == nullptr ? Flight(model, run, conduct.outside)
+                                         : Flight(model,
+                                                  bring_up(*model, conduct.outside,
+                                                           {.run = run,
+                                                            .speed = conduct.speed,
+                                                            .limit_s = conduct.start_limit_s,
+                                                            .stop = conduct.stop,
+                                                            .on_obstacle = conduct.on_obstacle}),
+                                                  conduct.outside);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
         log.emplace(recording, *model);
@@ -126,7 +128,7 @@ FlightResult fly(std::shared_ptr<const SimulationModel> model,
     std::vector<Event> events;
     events.reserve(64);
     double next_progress_s = 0.0;
-    const double waited_s = conduct.autopilot != nullptr ? conduct.autopilot->waited_s() : 0.0;
+    const double waited_s = autopilot != nullptr ? autopilot->waited_s() : 0.0;
     Pace pace(conduct.speed);
     while (!flight.ended()) {
         const EventList& happened = flight.tick();
@@ -155,8 +157,8 @@ FlightResult fly(std::shared_ptr<const SimulationModel> model,
     FlightResult result = result_of(flight, pace.elapsed_s());
     result.events = std::move(events);
     result.recording = recording;
-    if (conduct.autopilot != nullptr) {
-        result.performance.waited_s = conduct.autopilot->waited_s() - waited_s;
+    if (autopilot != nullptr) {
+        result.performance.waited_s = autopilot->waited_s() - waited_s;
     }
     if (log) {
         log->finish(summary_json(result));

@@ -8,22 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "limpet/autopilot/external.hpp"
 #include "limpet/simulation/model.hpp"
-#include "limpet/simulation/remote_guidance.hpp"
+#include "limpet/simulation/outside.hpp"
 
 namespace limpet {
 
 /// One run: a shared model, its own plant and state. Fly it to its end with fly(), or tick by tick.
 class Flight {
 public:
-    explicit Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run = 0);
-    /// The same with another autopilot than the built-in one, which has brought the vehicle to the
-    /// scenario's start (bring_up.hpp).
-    /// @param autopilot  outlives the flight
-    /// @param guidance   outlives it too; nullptr: ours
+    /// @param outside  stations that are not ours, but no autopilot
+    explicit Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run = 0,
+                    const Outside& outside = {});
+    /// The same from another start: that to which an autopilot behind a wire has brought the
+    /// vehicle (bring_up.hpp).
     Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
-           ExternalAutopilot& autopilot, RemoteGuidance* guidance = nullptr);
+           const Outside& outside);
 
     /// One base tick. Does nothing once the flight has ended.
     /// @return what happened in it, valid until the next tick
@@ -39,22 +38,21 @@ public:
 
     [[nodiscard]] const SimulationModel& model() const { return *model_; }
     [[nodiscard]] const SimulationState& state() const { return state_; }
-    [[nodiscard]] const MujocoPlant& plant() const { return plant_; }
+    [[nodiscard]] const Plant& plant() const { return *plant_; }
 
     /// The whole run as it is now; a flight on the same model goes on from it bit-exactly.
-    [[nodiscard]] Snapshot save() const { return {.state = state_, .plant = plant_.save()}; }
+    [[nodiscard]] Snapshot save() const { return {.state = state_, .plant = plant_->save()}; }
     void restore(const Snapshot& snapshot);
 
 private:
     void report_parameters();
 
     std::shared_ptr<const SimulationModel> model_;
-    MujocoPlant plant_;
+    std::unique_ptr<Plant> plant_;
     SimulationState state_;
     EventList events_;
     std::vector<EventValue> parameters_set_;  ///< not reported yet
-    ExternalAutopilot* autopilot_ = nullptr;
-    RemoteGuidance* guidance_ = nullptr;
+    Outside outside_;
 };
 
 /// How a flight is watched. Empty members watch nothing.
@@ -69,8 +67,7 @@ struct FlightWatch {
 
 /// How a flight is flown where the defaults do not do.
 struct FlightConduct {
-    ExternalAutopilot* autopilot = nullptr;   ///< nullptr: the built-in one
-    RemoteGuidance* guidance = nullptr;       ///< nullptr: ours; else with `autopilot` alone
+    Outside outside = {};
     double start_limit_s = 120.0;             ///< of simulated time, to be brought up
     double speed = 0.0;                       ///< times real time; 0: as fast as it goes
     const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole

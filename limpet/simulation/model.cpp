@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "limpet/simulation/advance.hpp"
 #include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
@@ -46,12 +47,6 @@ AutopilotModel autopilot_model(const Scenario& scenario) {
     return make_autopilot(scenario.autopilot, rotors);
 }
 
-std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
-    return build_model(scenario, [](const std::string& mjcf) {
-        return std::make_shared<const MujocoModel>(mjcf);
-    });
-}
-
 std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
                                                    const CompilePlant& compile) {
     auto model = std::make_shared<SimulationModel>();
@@ -79,17 +74,20 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
     return model;
 }
 
-SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uint32_t run) {
+SimulationState start(const SimulationModel& model, Plant& plant, std::uint32_t run) {
+    plant.set_pose(model.scenario.start.p_WB_m, attitude(model.scenario.start));
+    Truth truth;
+    see_motion(model, truth, plant);
+    return start(model, truth.base, truth.cup, run);
+}
+
+SimulationState start(const SimulationModel& model, const Kinematics& base, const Kinematics& cup,
+                      std::uint32_t run) {
     const Scenario& scenario = model.scenario;
     const Airframe& airframe = scenario.airframe;
-    const Quaternion q_WB = attitude(scenario.start);
-    plant.set_pose(scenario.start.p_WB_m, q_WB);
-
     SimulationState state;
-    state.truth.base = plant.kinematics(Body::base);
-    if (airframe.has_cup) {
-        state.truth.cup = plant.kinematics(Body::cup);
-    }
+    state.truth.base = base;
+    state.truth.cup = cup;
     if (scenario.mount == Mount::free) {
         const double hover = hover_command(airframe);
         state.rotors = spinning(airframe.rotor, hover);
@@ -101,7 +99,7 @@ SimulationState start(const SimulationModel& model, MujocoPlant& plant, std::uin
 
     Estimate estimate;
     estimate.p_WB_m = scenario.start.p_WB_m;
-    estimate.q_WB = q_WB;
+    estimate.q_WB = attitude(scenario.start);
     estimate.valid = true;
     state.autopilot = start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);

@@ -11,7 +11,7 @@
 #include "limpet/core/signals/truth.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/guidance/perching.hpp"
-#include "limpet/plant/mujoco_plant.hpp"
+#include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/sensors/suite.hpp"
 #include "limpet/simulation/metrics.hpp"
@@ -28,7 +28,7 @@ namespace limpet {
 struct SimulationModel {
     Scenario scenario;
     std::string mjcf;  ///< vehicle and surroundings as MuJoCo can draw them; the plant goes without
-    std::shared_ptr<const MujocoModel> plant;
+    std::shared_ptr<const PlantModel> plant;
     SensorsModel sensors;
     AutopilotModel autopilot;
     PerchingTask task;
@@ -43,14 +43,16 @@ struct SimulationModel {
     int touch_steps_a_tick = 4;  ///< around a touch
     int record_rate_Hz = 100;
 };
+/// On the embedded plant, MuJoCo (embedded.cpp, left out where MuJoCo is not built in).
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario);
 
 /// The built-in autopilot of the scenario's vehicle, which can also fly behind a wire.
 [[nodiscard]] AutopilotModel autopilot_model(const Scenario& scenario);
 
 /// Makes the plant of a model's text.
-using CompilePlant = std::function<std::shared_ptr<const MujocoModel>(const std::string& mjcf)>;
-/// The same with plants from elsewhere: models that differ in other things can share one.
+using CompilePlant = std::function<std::shared_ptr<const PlantModel>(const std::string& mjcf)>;
+/// The same with plants from elsewhere: models that differ in other things can share one, and
+/// another engine may be the plant.
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
                                                                  const CompilePlant& compile);
 
@@ -92,8 +94,11 @@ struct SimulationState {
 
 /// The vehicle at the scenario's start, trimmed in hover or with its motors off on a mount; puts
 /// the plant there.
-[[nodiscard]] SimulationState start(const SimulationModel& model, MujocoPlant& plant,
+[[nodiscard]] SimulationState start(const SimulationModel& model, Plant& plant,
                                     std::uint32_t run = 0);
+/// The same of a vehicle that is where `base` and `cup` say.
+[[nodiscard]] SimulationState start(const SimulationModel& model, const Kinematics& base,
+                                    const Kinematics& cup, std::uint32_t run);
 
 /// A run cut at a tick boundary.
 struct Snapshot {

@@ -226,8 +226,8 @@ void RemoteGuidance::hear_mechanism() {
     }
 }
 
-void RemoteGuidance::exchange(const Readings& readings, double time_s, PerchingMemory& guidance,
-                              EventList& events) {
+void RemoteGuidance::exchange(const Readings& readings, const Estimate& /*estimate*/, double time_s,
+                              PerchingMemory& guidance, EventList& events) {
     ++clock_;
     if (wires_.motion_capture != nullptr) {
         wires_.motion_capture->answer();

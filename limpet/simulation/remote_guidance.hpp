@@ -7,14 +7,13 @@
 #include <optional>
 #include <string>
 
-#include "limpet/core/signals/readings.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/devices/mechanism_line.hpp"
 #include "limpet/devices/natnet_source.hpp"
-#include "limpet/guidance/perching.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/mechanism.hpp"
 #include "limpet/sensors/parameters.hpp"
+#include "limpet/simulation/outside.hpp"
 
 namespace limpet {
 
@@ -47,20 +46,14 @@ struct OutsideCount {
 /// Guidance elsewhere: the simulator plays the surroundings of a companion computer, which flies
 /// the autopilot by itself. Each new reading goes out once; pump and valve come back, and keep
 /// their state while nobody speaks; what the companion tells of its mission (mission_report.hpp)
-/// becomes guidance's state and events. Never waits.
-class RemoteGuidance {
+/// becomes guidance's state and events.
+class RemoteGuidance final : public ExternalGuidance {
 public:
     RemoteGuidance(OutsideWires wires, const OutsideOptions& options);
 
-    /// Once a base tick, in guidance's place.
-    /// @param time_s    of the flight, may start anew
-    /// @param guidance  its pump, valve, state and ending are set
-    /// @param events    what the companion said has happened; their reasons live as long as this
-    void exchange(const Readings& readings, double time_s, PerchingMemory& guidance,
-                  EventList& events);
-
-    /// What keeps it from flying, for people; empty when nothing does.
-    [[nodiscard]] std::string obstacle() const;
+    void exchange(const Readings& readings, const Estimate& estimate, double time_s,
+                  PerchingMemory& guidance, EventList& events) override;
+    [[nodiscard]] std::string obstacle() const override;
     [[nodiscard]] const OutsideCount& count() const { return count_; }
     [[nodiscard]] const OutsideWires& wires() const { return wires_; }
 

@@ -44,7 +44,7 @@ RotorCommand control(const SimulationModel& model, SimulationState& state,
 }  // namespace
 
 void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
-          ExternalAutopilot* external, RemoteGuidance* remote) {
+          const Outside& outside) {
     const Airframe& airframe = model.scenario.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
@@ -53,19 +53,22 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
     sense(model.sensors, state.sensors, state.truth, plant, state.tick);
     const Readings& readings = state.sensors.readings;
     if (controls) {
-        estimate(model, state, external);
+        estimate(model, state, outside.autopilot);
     }
     if (model.scenario.mount != Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
-    } else if (remote != nullptr) {
-        remote->exchange(readings, time_s, state.guidance, events);
-        state.guidance.setpoint.armed = state.command.armed;
+    } else if (outside.guidance != nullptr) {
+        outside.guidance->exchange(readings, state.autopilot.estimate, time_s, state.guidance,
+                                   events);
+        if (outside.autopilot != nullptr) {
+            state.guidance.setpoint.armed = state.command.armed;
+        }
     } else if (due(state.tick, model.guidance_rate_Hz)) {
         update(model.scenario.guidance, model.task, state.guidance, readings,
                state.autopilot.estimate, time_s, events);
     }
     if (controls) {
-        state.command = control(model, state, external);
+        state.command = control(model, state, outside.autopilot);
     }
     step(airframe.rotor, state.rotors, state.command, kTick_s,
          voltage_share(airframe.battery, state.battery.voltage_V));
@@ -73,7 +76,7 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
          state.cup.status.pump_running, state.command.armed, kTick_s);
     step(model.wind, state.wind);
     step(model.wall_air, state.wall_air);
-    advance(model, state, plant, events);
+    advance(model, state, plant, events, outside.cup);
 
     ++state.tick;
     see_truth(model, state, plant);

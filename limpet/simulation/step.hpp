@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/autopilot/external.hpp"
 #include "limpet/simulation/model.hpp"
-#include "limpet/simulation/remote_guidance.hpp"
+#include "limpet/simulation/outside.hpp"
 
 namespace limpet {
 
 /// One base tick of the loop, from the truth at this tick to the truth at the next.
-/// @param events    what happened in it; cleared first
-/// @param external  an autopilot behind a wire; nullptr: the built-in one
-/// @param remote    guidance behind wires; nullptr: ours
+/// @param events   what happened in it; cleared first
+/// @param outside  stations that are not ours
 void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
-          ExternalAutopilot* external = nullptr, RemoteGuidance* remote = nullptr);
+          const Outside& outside = {});
 
 }  // namespace limpet

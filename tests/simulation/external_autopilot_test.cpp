@@ -84,7 +84,7 @@ TEST(BringUp, BeginsTheFlightInHoverAtTheStartWithAllClocksAtZero) {
     std::vector<std::string> obstacles;
     BringUp options;
     options.on_obstacle = [&](const std::string& text) { obstacles.push_back(text); };
-    const Snapshot first = bring_up(*model, outsider, options);
+    const Snapshot first = bring_up(*model, {.autopilot = &outsider}, options);
     EXPECT_EQ(first.state.tick, 0);
     EXPECT_EQ(first.state.truth.time_s, 0.0);
     EXPECT_LT((first.state.truth.base.p_WF_m - model->scenario.start.p_WB_m).norm(), 0.15);
@@ -101,7 +101,7 @@ TEST(BringUp, GivesUpWithWhatItWaitedFor) {
     BringUp options;
     options.limit_s = 3.0;
     try {
-        (void)bring_up(*model, outsider, options);
+        (void)bring_up(*model, {.autopilot = &outsider}, options);
         FAIL() << "nobody flew";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("3 s of simulated time"));
@@ -114,7 +114,7 @@ TEST(BringUp, SaysWhyTheAutopilotFailed) {
     Outsider outsider(*model);
     outsider.fail_after(0.5);
     try {
-        (void)bring_up(*model, outsider, {});
+        (void)bring_up(*model, {.autopilot = &outsider}, {});
         FAIL() << "nobody flew";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("failed before the start: as told"));
@@ -127,14 +127,14 @@ TEST(BringUp, HearsCtrlC) {
     const std::atomic<bool> stop = true;
     BringUp options;
     options.stop = &stop;
-    EXPECT_THROW((void)bring_up(*model, outsider, options), Interrupted);
+    EXPECT_THROW((void)bring_up(*model, {.autopilot = &outsider}, options), Interrupted);
 }
 
 TEST(ExternalAutopilot, FliesTheMissionAsTheBuiltInOne) {
     const auto model = model_of("perch_concrete");
     Outsider outsider(*model);
     const FlightResult builtin = fly(model);
-    const FlightResult outside = fly(model, {}, {}, 0, {.autopilot = &outsider});
+    const FlightResult outside = fly(model, {}, {}, 0, {.outside = {.autopilot = &outsider}});
     EXPECT_EQ(outside.outcome, Outcome::released) << outside.reason;
     ASSERT_EQ(outside.events.size(), builtin.events.size());
     for (std::size_t k = 0; k < builtin.events.size(); ++k) {
@@ -149,7 +149,7 @@ TEST(ExternalAutopilot, ItsEndInTheAirIsACrashWithTheReasonAndAWholeRecording) {
     Outsider outsider(*model);
     outsider.fail_after(8.0);  // it took off within five
     const auto path = std::filesystem::path(testing::TempDir()) / "outsider_fails.mcap";
-    const FlightResult result = fly(model, path, {}, 0, {.autopilot = &outsider});
+    const FlightResult result = fly(model, path, {}, 0, {.outside = {.autopilot = &outsider}});
     EXPECT_EQ(result.outcome, Outcome::crashed);
     EXPECT_EQ(result.reason, "as told");
     const Recording recording = read_recording(path);
@@ -162,7 +162,7 @@ TEST(ExternalAutopilot, ItsEndOnTheWallLeavesTheVehicleHanging) {
     const auto model = model_of("perch_concrete");
     Outsider outsider(*model);
     outsider.fail_after(17.0);  // while it lands on its legs
-    const FlightResult result = fly(model, {}, {}, 0, {.autopilot = &outsider});
+    const FlightResult result = fly(model, {}, {}, 0, {.outside = {.autopilot = &outsider}});
     EXPECT_EQ(result.outcome, Outcome::timed_out);
     EXPECT_EQ(result.reason, "as told");
 }

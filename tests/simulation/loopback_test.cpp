@@ -31,7 +31,7 @@ std::vector<EventName> names(const FlightResult& result) {
 FlightResult fly_behind_wire(const std::shared_ptr<const SimulationModel>& model,
                              Loopback& loopback, const std::filesystem::path& recording = {},
                              const FlightWatch& watch = {}) {
-    return fly(model, recording, watch, 0, {.autopilot = &loopback.autopilot()});
+    return fly(model, recording, watch, 0, {.outside = {.autopilot = &loopback.autopilot()}});
 }
 
 FlightResult fly_behind_wire(const std::string& scenario) {
@@ -193,7 +193,7 @@ TEST(Loopback, AnotherSystemIsNotOurAutopilot) {
     BringUp patience;
     patience.limit_s = 10.0;
     try {
-        (void)bring_up(*model, loopback.autopilot(), patience);
+        (void)bring_up(*model, {.autopilot = &loopback.autopilot()}, patience);
         FAIL() << "it was flown";
     } catch (const InputError& error) {
         EXPECT_THAT(error.what(), HasSubstr("no heartbeat of the autopilot"));

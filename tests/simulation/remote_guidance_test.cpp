@@ -54,7 +54,7 @@ struct RemoteGuidanceOverMavlink : testing::Test {
 
     void tick(const Readings& readings = {}) {
         events.count = 0;
-        remote.exchange(readings, time_s, guidance, events);
+        remote.exchange(readings, {}, time_s, guidance, events);
         for (std::size_t i = 0; i < events.count; ++i) {
             told.push_back(events.events[i].name);
         }
@@ -208,7 +208,7 @@ TEST(RemoteGuidanceOverDevices, PosesGoByNatNetWithTheirAge) {
     const auto end = std::chrono::steady_clock::now() + 5s;
     while (!pose && std::chrono::steady_clock::now() < end) {
         time_s += 0.01;
-        remote.exchange(some_readings(time_s), time_s, guidance, events);
+        remote.exchange(some_readings(time_s), {}, time_s, guidance, events);
         pose = motive.receive(100.0);
     }
     ASSERT_TRUE(pose);
@@ -247,10 +247,10 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
     const auto end = std::chrono::steady_clock::now() + 5s;
     while (!guidance.setpoint.pump_on && std::chrono::steady_clock::now() < end) {
         time_s += 0.01;
-        remote.exchange(some_readings(time_s), time_s, guidance, events);
+        remote.exchange(some_readings(time_s), {}, time_s, guidance, events);
     }
     ASSERT_TRUE(guidance.setpoint.pump_on);
-    remote.exchange(some_readings(time_s + 0.01), time_s + 0.01, guidance, events);
+    remote.exchange(some_readings(time_s + 0.01), {}, time_s + 0.01, guidance, events);
 
     std::array<std::byte, 4000> in;
     devices::TfminiParser parser;

@@ -48,7 +48,8 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
     px4.hil.timing = mavlink::HilTiming::real_time;
     Px4Autopilot autopilot(wire, wire, px4);
 
-    const FlightResult result = fly(model, {}, {}, 0, {.autopilot = &autopilot, .speed = 1.0});
+    const FlightResult result =
+        fly(model, {}, {}, 0, {.outside = {.autopilot = &autopilot}, .speed = 1.0});
     EXPECT_EQ(result.outcome, Outcome::released) << result.reason;
     // never ahead of real time; a machine that stalls is behind it by its stalls
     EXPECT_GE(result.performance.wall_s, 0.99 * result.performance.simulated_s);
