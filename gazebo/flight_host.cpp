@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "flight_host.hpp"
+#include "gazebo/flight_host.hpp"
 
 #include <boost/coroutine2/protected_fixedsize_stack.hpp>
 #include <utility>

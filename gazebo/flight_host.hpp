@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "gazebo_plant.hpp"
+#include "gazebo/gazebo_plant.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet {

@@ -5,8 +5,8 @@
 #include <gazebo/physics/ContactManager.hh>
 #include <utility>
 
-#include "frames.hpp"
-#include "gazebo_plant.hpp"
+#include "gazebo/frames.hpp"
+#include "gazebo/gazebo_plant.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet {

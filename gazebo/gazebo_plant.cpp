@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo_plant.hpp"
+#include "gazebo/gazebo_plant.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <gazebo/physics/ContactManager.hh>
 #include <utility>
 
-#include "frames.hpp"
+#include "gazebo/frames.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet {
