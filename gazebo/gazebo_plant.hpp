@@ -6,6 +6,7 @@
 #include <gazebo/physics/physics.hh>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
@@ -18,6 +19,7 @@ struct GazeboNames {
     std::string carriage = "carriage";
     std::string cup = "cup";
     std::string slider = "slider";
+    std::array<std::string, 2> hinges = {"cup_pitch", "cup_yaw"};
 };
 
 /// A vehicle that stands in a Gazebo world, with ODE as its engine. One world has one plant.
@@ -46,6 +48,7 @@ private:
     gazebo::physics::PhysicsEnginePtr engine_;
     std::array<gazebo::physics::LinkPtr, 3> links_;  ///< by Body; a plain vehicle has the first
     gazebo::physics::JointPtr slider_;               ///< null: no cup
+    std::vector<gazebo::physics::JointPtr> hinges_;
     gazebo::physics::RayShapePtr ray_;
     Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
     NextUpdate next_;
@@ -75,6 +78,7 @@ public:
 
 private:
     [[nodiscard]] const gazebo::physics::LinkPtr& link(Body body) const;
+    void set_step(double step_s);
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;
