@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "limpet/report/chart.hpp"
 #include "limpet/report/colours.hpp"
@@ -20,6 +19,8 @@ constexpr std::size_t kBins = 600;  ///< more cannot be told apart in a panel of
 constexpr double kPanel_px = 200.0;
 /// Events closer than this share of the flight to the one before are not named a second time.
 constexpr double kNameApart = 0.045;
+/// Names so close to the end of the flight would not fit on the page.
+constexpr double kLastName = 0.12;
 
 /// Told apart by lightness and by dashes, not by hue alone.
 constexpr std::array kOtherColours = {colours::kOrange, colours::kGreen, colours::kPlum,
@@ -68,17 +69,30 @@ Curve difference_curve(const FlightChannel& reference, const FlightChannel& othe
     return curve;
 }
 
-/// The reference's events, named where there is room.
+/// The reference's events, named where there is room: a name begins at its line and goes right.
 std::vector<ChartLine> phase_lines(const Recording& recording, const Window& whole) {
     std::vector<ChartLine> lines;
     double last_s = -std::numeric_limits<double>::infinity();
     for (const RecordedEvent& event : recording.events) {
         if (event.time_s - last_s > kNameApart * whole.span_s()) {
-            lines.push_back({event.time_s, words(event.name)});
+            const bool fits = whole.to_s - event.time_s > kLastName * whole.span_s();
+            lines.push_back({event.time_s, fits ? words(event.name) : ""});
             last_s = event.time_s;
         }
     }
     return lines;
+}
+
+/// Whether there is anything to see: a valve that nobody opens fills no panel.
+bool worth_drawing(const FlightChannel& channel, const std::vector<FlightComparison>& comparisons) {
+    const auto flat = [](const Extremes& e) { return !(e.highest > e.lowest); };
+    return std::any_of(comparisons.begin(), comparisons.end(), [&](const FlightComparison& c) {
+        return std::any_of(c.channels.begin(), c.channels.end(), [&](const ChannelDifference& d) {
+            const bool still = d.kind == ChannelKind::state && d.largest == 0.0 &&
+                               flat(d.reference) && flat(d.other);
+            return d.name == channel.name && !still;
+        });
+    });
 }
 
 /// The two panels of a channel.
@@ -132,12 +146,13 @@ Pictures draw_comparison(const FlightTrace& reference, const std::vector<FlightT
                     .subtitle = "left: flights over each other; right: how far off the reference",
                     .columns = 2};
         for (const FlightChannel& channel : reference.channels) {
-            const bool shared =
-                std::any_of(others.begin(), others.end(), [&channel](const FlightTrace& other) {
-                    return find_channel(other.channels, channel.name) != nullptr;
-                });
-            if (channel.group == group && shared) {
-                const auto panels = channel_panels(channel, reference, others, comparisons, whole);
+            if (channel.group == group && worth_drawing(channel, comparisons)) {
+                auto panels = channel_panels(channel, reference, others, comparisons, whole);
+                for (ChartPanel& panel : panels) {
+                    for (ChartLine& moment : panel.moments) {
+                        moment.label = chart.panels.empty() ? moment.label : "";
+                    }
+                }
                 chart.panels.insert(chart.panels.end(), panels.begin(), panels.end());
             }
         }
