@@ -105,7 +105,7 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
     } else if (phase == CupPhase::touching && spot_ && !walls_->is_over(*spot_, X_WC)) {
         spot_.reset();  // slid off its edge
     }
-    const auto X_WT = spot_ ? spot_->pose() : std::nullopt;
+    const auto X_WT = spot_ ? spot_->pose(*model_->GetWorld()) : std::nullopt;
     if (!X_WT) {
         spot_.reset();
         cup_.wall = WallPlane{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};

@@ -39,13 +39,14 @@ Pose3d wall_frame(const Vector3d& origin_m, const Vector3d& into, const Quaterni
 
 }  // namespace
 
-std::optional<Pose3d> WallSpot::pose() const {
+std::optional<Pose3d> WallSpot::pose(const gazebo::physics::World& world) const {
     if (of_world) {
         return X_LT;
     }
+    // A joint keeps a link that was deleted, but its world no longer has it.
+    const gazebo::physics::ModelPtr there = world.ModelByName(model);
     const gazebo::physics::LinkPtr here = link.lock();
-    // A model that was taken out may still be held by somebody; its world no longer knows it.
-    if (!here || !here->GetWorld()->ModelByName(here->GetModel()->GetScopedName())) {
+    if (!there || !here || there->GetLink(link_name) != here) {
         return std::nullopt;
     }
     return here->WorldPose() * X_LT;
@@ -165,6 +166,8 @@ std::optional<WallSpot> WallFinder::on_model(const Pose3d& X_WC) const {
     const gazebo::physics::LinkPtr link = centre->collision->GetLink();
     return WallSpot{.link = link,
                     .of_world = false,
+                    .model = centre->collision->GetModel()->GetScopedName(),
+                    .link_name = link->GetName(),
                     .collision = centre->collision->GetScopedName(),
                     .X_LT = link->WorldPose().Inverse() * wall_frame(spot, into, X_WC.Rot()),
                     .surface = *surface};
@@ -187,6 +190,8 @@ std::optional<WallSpot> WallFinder::on_plane(const Pose3d& X_WC, double nearer_t
         nearer_than_m = distance_m;
         nearest = WallSpot{.link = {},
                            .of_world = true,
+                           .model = {},
+                           .link_name = {},
                            .collision = {},
                            .X_LT = wall_frame(X_WC.Pos() + axis * distance_m, into, X_WC.Rot()),
                            .surface = target.surface};
@@ -198,7 +203,7 @@ std::optional<WallSpot> WallFinder::find(const Pose3d& X_WC) const {
     const auto spot = on_model(X_WC);
     double distance_m = kReach_m;
     if (spot) {
-        distance_m = (*spot->pose()).Pos().Distance(X_WC.Pos());
+        distance_m = (*spot->pose(*world_)).Pos().Distance(X_WC.Pos());
     }
     const auto plane = on_plane(X_WC, distance_m);
     return plane ? plane : spot;

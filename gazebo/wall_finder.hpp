@@ -17,13 +17,15 @@ namespace limpet {
 /// along.
 struct WallSpot {
     boost::weak_ptr<gazebo::physics::Link> link;
-    bool of_world = false;        ///< a plane of the world itself: no link
-    std::string collision;        ///< scoped name; empty: of the world
-    ignition::math::Pose3d X_LT;  ///< in the link, or in the world
+    bool of_world = false;         ///< a plane of the world itself: no link
+    std::string model, link_name;  ///< as their world knows them
+    std::string collision;         ///< scoped name; empty: of the world
+    ignition::math::Pose3d X_LT;   ///< in the link, or in the world
     Surface surface;
 
     /// @return in the world; nothing when its model is no longer there
-    [[nodiscard]] std::optional<ignition::math::Pose3d> pose() const;
+    [[nodiscard]] std::optional<ignition::math::Pose3d> pose(
+        const gazebo::physics::World& world) const;
 };
 
 /// Looks along a lip's axis by the engine's rays: one through its centre and three through its rim,

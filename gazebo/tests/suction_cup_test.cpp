@@ -119,9 +119,12 @@ TEST_P(OfEachAttachment, HangsOnTheWallWithItsWeight) {
     const CupStatus& status = bench.cup.status();
     EXPECT_NEAR(status.shear_N, 9.81, 0.02 * 9.81);
     EXPECT_NEAR(status.pull_N, 0.0, 0.2);
-    EXPECT_NEAR(bench.body->WorldPose().Pos().Z(), z_m, 2.5e-3);
     const double arm_m = kLip_m + kBehind_m;
-    EXPECT_NEAR(status.peel_N_m, 9.81 * arm_m, 0.02 * 9.81 * arm_m) << "about the lip";
+    EXPECT_NEAR(status.peel_N_m, 9.81 * arm_m, 0.03 * 9.81 * arm_m) << "about the lip";
+    // The law's springs give: shear 20 kN/m, tilt 20 N m/rad. A joint does not.
+    const double gives_m =
+        GetParam() == "compliant" ? 9.81 / 2e4 + 9.81 * arm_m / 20.0 * kLip_m : 0.0;
+    EXPECT_NEAR(z_m - bench.body->WorldPose().Pos().Z(), gives_m, 2e-4);
     // By the wall on the cup, in the cup's axes: up is -z.
     EXPECT_LT(status.wrench_C.force_N.z(), -9.0);
 }
@@ -167,7 +170,7 @@ TEST_P(OfEachAttachment, ADeletedTargetLetsGo) {
     EXPECT_EQ(bench.phase(), CupPhase::free);
     EXPECT_EQ(bench.body->GetJointCount(), 0U);
     bench.push_N.X(10.0);
-    bench.run(500);
+    bench.run(2000);
     EXPECT_GT(bench.body->WorldPose().Pos().X(), kWall_m) << "nothing there any more";
 }
 
@@ -198,6 +201,7 @@ TEST(SuctionCup, APlaneOfTheWorldHoldsWithoutAModel) {
     bench.push_N.X(40.0);
     ASSERT_GE(bench.run_until([&] { return bench.phase() == CupPhase::attached; }, 3000), 0);
     EXPECT_NEAR(bench.body->WorldPose().Pos().X() + kLip_m, 0.98, 4e-3);
+    bench.run(2000);
     bench.push_N.X(-100.0);
     bench.run(2000);
     EXPECT_EQ(bench.phase(), CupPhase::attached);
