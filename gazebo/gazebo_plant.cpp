@@ -57,11 +57,20 @@ void GazeboPlant::step(const StepMode& mode) {
     if (before_s != mode.step_s) {
         // The world has added the old length to its clock already.
         engine.SetMaxStepSize(mode.step_s);
+        renew_springs();
         model_->world_->SetSimTime(model_->world_->SimTime() +
                                    gazebo::common::Time(mode.step_s - before_s));
     }
     model_->next_();
     require_healthy();
+}
+
+void GazeboPlant::renew_springs() {
+    // Gazebo turns a joint's spring and damper into ODE's terms of one step, and keeps those.
+    for (const physics::JointPtr& joint : model_->vehicle_->GetJoints()) {
+        joint->SetStiffnessDamping(0, joint->GetStiffness(0), joint->GetDamping(0),
+                                   joint->GetSpringReferencePosition(0));
+    }
 }
 
 void GazeboPlant::require_healthy() const {

@@ -75,6 +75,7 @@ public:
 
 private:
     [[nodiscard]] const gazebo::physics::LinkPtr& link(Body body) const;
+    void renew_springs();
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;

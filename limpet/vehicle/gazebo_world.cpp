@@ -29,9 +29,9 @@ void write_physics(pugi::xml_node world, double step_s) {
     add_text(physics, "real_time_update_rate", "0");  // as fast as it goes
     auto ode = add(physics, "ode");
     auto solver = add(ode, "solver");
-    add_text(solver, "type", "quick");
-    add_text(solver, "iters", "50");
-    add_text(solver, "sor", "1.0");
+    // Solved whole: after 50 sweeps of "quick" the yoke, a hundredth of the cup, still gives way,
+    // and the sealed lip twists off at 1 ms. For one vehicle it is the faster one, too.
+    add_text(solver, "type", "world");
     auto constraints = add(ode, "constraints");
     add_text(constraints, "cfm", "0");
     add_text(constraints, "erp", "0.2");
