@@ -8,6 +8,7 @@
 #include <gazebo/transport/transport.hh>
 #include <utility>
 
+#include "gazebo/ode_messages.hpp"
 #include "gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
@@ -64,6 +65,7 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
     options_ = read_vehicle_options(parameters, more_elements());
     world_ = model->GetWorld();
     world_->Physics()->SetRealTimeUpdateRate(0.0);
+    count_solver_complaints();
     HostedFlight flight;
     flight.scenario = options_.scenario;
     flight.recording = options_.recording;
@@ -99,6 +101,9 @@ void VehiclePlugin::end() {
     for (const std::string& line :
          flight_summary(result, [](const std::string& text) { return text; })) {
         say(line);
+    }
+    if (const long long complaints = take_solver_complaints(); complaints > 0) {
+        say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
     }
     write_result(options_.result, result);
     world_->SetPaused(true);
