@@ -83,6 +83,20 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     std::filesystem::remove(flight.recording);
 }
 
+TEST_F(FlightHostTest, AnInterruptedFlightLeavesAWholeRecording) {
+    open("hover");
+    flight.recording = std::filesystem::path(::testing::TempDir()) / "gazebo_cut_short.mcap";
+    host_it();
+    gazebo::runWorld(world, 500);
+    EXPECT_TRUE(host->under_way());
+    host->interrupt();
+    EXPECT_FALSE(host->under_way());
+    ASSERT_NE(host->result(), nullptr);
+    EXPECT_EQ(host->result()->reason, "interrupted");
+    EXPECT_EQ(read_recording(flight.recording).damage, "");
+    std::filesystem::remove(flight.recording);
+}
+
 TEST_F(FlightHostTest, WhatFlyThrowsComesOutOfTheUpdate) {
     open("hover", {"simulation.hover_s=1"});
     flight.recording = "/proc/no/such/folder/flight.mcap";
