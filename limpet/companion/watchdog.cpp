@@ -14,7 +14,11 @@ struct Row {
     std::array<Action, 5> at;  ///< by Place
 };
 
-using enum Action;
+// `using enum` came with GCC 11.
+constexpr Action carry_on = Action::carry_on;
+constexpr Action finish = Action::finish;
+constexpr Action hold = Action::hold;
+constexpr Action let_go = Action::let_go;
 
 constexpr std::array kTable = {
     //                                        in_air  pressed  leaving  on_cup  at_rest
