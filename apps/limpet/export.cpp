@@ -1,33 +1,80 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/worlds.hpp"
 #include "limpet/vehicle/model_writer.hpp"
+#include "options.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct ExportOptions {
-    std::string vehicle;
+    std::string wanted;
     std::string format = "mjcf";
     std::string wall;
+    std::vector<std::string> overrides;
+    bool sensors = false;
+    std::string camera;
+    std::string view = "overview";
+    double camera_rate_Hz = 10.0;
     std::string out;
 };
 
-std::string model_text(const ExportOptions& options) {
-    const auto root = data_root();
-    const Airframe airframe = load_vehicle(options.vehicle, root);
-    if (options.format == "sdf") {
-        return write_sdf(airframe);
+/// What is to be written: a scenario, or a vehicle alone.
+struct Subject {
+    std::optional<Scenario> scenario;
+    Airframe airframe;
+};
+
+/// A name of a scenario, or a file that names a vehicle.
+bool is_scenario(const std::string& wanted, const fs::path& root) {
+    if (is_path(wanted)) {
+        return parse_yaml_file(wanted).find("vehicle") != nullptr;
     }
-    if (options.format == "urdf") {
-        return write_urdf(airframe);
+    const auto scenarios = names_in(root / "scenarios");
+    const auto vehicles = names_in(root / "vehicles");
+    const bool known = std::count(scenarios.begin(), scenarios.end(), wanted) > 0;
+    if (!known && std::count(vehicles.begin(), vehicles.end(), wanted) == 0) {
+        auto both = vehicles;
+        both.insert(both.end(), scenarios.begin(), scenarios.end());
+        throw InputError(unknown_name(wanted, "vehicle or scenario", both));
+    }
+    return known;
+}
+
+Subject load(const ExportOptions& options, const fs::path& root) {
+    if (is_scenario(options.wanted, root)) {
+        if (!options.wall.empty()) {
+            throw InputError("--wall is of use only with a vehicle: a scenario has its own wall");
+        }
+        Scenario scenario = load_scenario(options.wanted, {.overrides = options.overrides});
+        Airframe airframe = scenario.airframe;
+        return {std::move(scenario), std::move(airframe)};
+    }
+    if (!options.overrides.empty()) {
+        throw InputError("--set is of use only with a scenario: '" + options.wanted +
+                         "' is a vehicle");
+    }
+    return {std::nullopt, load_vehicle(options.wanted, root)};
+}
+
+std::string mjcf_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+    if (subject.scenario) {
+        return write_mjcf(subject.airframe, scene_of(*subject.scenario));
     }
     Scene scene;
     scene.wall.present = !options.wall.empty();
@@ -35,25 +82,115 @@ std::string model_text(const ExportOptions& options) {
         scene.wall.surface = load_surface(options.wall, root).name;
         scene.wall.p_WT_m.x() = 1.7;  // about the pre-position, before it
     }
-    return write_mjcf(airframe, scene);
+    return write_mjcf(subject.airframe, scene);
+}
+
+/// As the plugin will find it from any folder.
+std::string lasting(const std::string& wanted) {
+    return is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
+}
+
+GazeboWorld world_for(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+    if (subject.scenario) {
+        return world_of(*subject.scenario, lasting(options.wanted), options.overrides);
+    }
+    if (options.wall.empty()) {
+        return showroom(subject.airframe, load_surfaces(root));
+    }
+    return showroom(subject.airframe, {load_surface(options.wall, root)});
+}
+
+GazeboWorld furnished_world(const ExportOptions& options, const Subject& subject,
+                            const fs::path& root) {
+    GazeboWorld world = world_for(options, subject, root);
+    world.textures = !options.out.empty();
+    if (options.sensors) {
+        world.sensors =
+            gazebo_sensors(subject.scenario ? subject.scenario->sensors : SensorParameters{});
+    }
+    if (!options.camera.empty()) {
+        const WallScene wall = world.walls.empty() ? WallScene{} : world.walls.front().face;
+        world.camera =
+            GazeboCamera{.view = options.view == "side"      ? side_view(wall)
+                                 : options.view == "quarter" ? quarter_view(wall)
+                                                             : world.user_view,
+                         .folder = fs::absolute(options.camera).lexically_normal().string(),
+                         .rate_Hz = options.camera_rate_Hz};
+    }
+    return world;
+}
+
+/// The looks first: a world is there only with all that it needs.
+std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+    const GazeboWorld world = furnished_world(options, subject, root);
+    if (world.textures) {
+        for (const WorldFile& file : write_wall_looks(world)) {
+            const fs::path path = fs::absolute(options.out).parent_path() / file.path;
+            make_folder(path.parent_path());
+            write_file(path, file.bytes);
+        }
+    }
+    return write_world(subject.airframe, world);
+}
+
+std::string model_text(const ExportOptions& options) {
+    const fs::path root = data_root();
+    const Subject subject = load(options, root);
+    if (options.format == "sdf") {
+        return write_sdf(subject.airframe);
+    }
+    if (options.format == "urdf") {
+        return write_urdf(subject.airframe);
+    }
+    return options.format == "world" ? world_text(options, subject, root)
+                                     : mjcf_text(options, subject, root);
+}
+
+void add_world_options(CLI::App& verb, ExportOptions& options) {
+    verb.add_flag("--sensors", options.sensors,
+                  "world only: Gazebo's own LiDARs, IMU, contacts and slider force");
+    verb.add_option("--camera", options.camera,
+                    "world only: a camera saves its frames in this folder")
+        ->type_name("FOLDER");
+    verb.add_option("--view", options.view,
+                    "of the camera: overview, quarter or side (default: overview)")
+        ->type_name("VIEW")
+        ->check(CLI::IsMember({"overview", "quarter", "side"}));
+    verb.add_option("--camera-rate", options.camera_rate_Hz, "frames a second (default: 10)")
+        ->type_name("HZ")
+        ->check(between(0.1, 1000.0));
 }
 
 }  // namespace
 
 void add_export(CLI::App& app) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* verb =
-        app.add_subcommand("export", "Write a vehicle as a MuJoCo, Gazebo or URDF model");
-    verb->add_option("vehicle", options->vehicle, "name (limpet list vehicles) or YAML file")
+    CLI::App* verb = app.add_subcommand(
+        "export", "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo");
+    verb->add_option("name", options->wanted,
+                     "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
+                     "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface")
         ->required()
-        ->type_name("VEHICLE");
-    verb->add_option("--format", options->format, "mjcf, sdf or urdf")
+        ->type_name("VEHICLE|SCENARIO");
+    verb->add_option("--format", options->format, "mjcf, sdf, urdf or world (default: mjcf)")
         ->type_name("FORMAT")
-        ->check(CLI::IsMember({"mjcf", "sdf", "urdf"}));
-    verb->add_option("--wall", options->wall, "mjcf only: put a wall of this surface before it")
+        ->check(CLI::IsMember({"mjcf", "sdf", "urdf", "world"}));
+    verb->add_option("--wall", options->wall, "mjcf and world of a vehicle: a wall of this surface")
         ->type_name("SURFACE");
-    verb->add_option("--out", options->out, "file (default: standard output)")->type_name("FILE");
-    verb->callback([options] {
+    verb->add_option("--set", options->overrides, "turn one number of a scenario, as for fly")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    add_world_options(*verb, *options);
+    verb->add_option("--out", options->out,
+                     "file (default: standard output); a world's textures go in\nmaterials/ beside "
+                     "it: its folder belongs on GAZEBO_RESOURCE_PATH")
+        ->type_name("FILE");
+    verb->callback([options, verb] {
+        const bool world = options->format == "world";
+        only_with(*verb, world, {"--sensors", "--camera"}, "--format world");
+        only_with(*verb, world || options->format == "mjcf", {"--wall"}, "--format mjcf or world");
+        only_with(*verb, !options->camera.empty(), {"--view", "--camera-rate"}, "--camera");
         const std::string text = model_text(*options);
         if (options->out.empty()) {
             fmt::print("{}", text);

@@ -1,105 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flight_report.hpp"
 
-#include <fmt/core.h>
-
-#include <cmath>
-#include <optional>
-
 #include "limpet/core/errors.hpp"
 
 namespace limpet::app {
-namespace {
-
-std::optional<double> value_of(const Event& event, std::string_view name) {
-    for (std::size_t k = 0; k < event.value_count; ++k) {
-        if (event.values[k].name == name) {
-            return event.values[k].value;
-        }
-    }
-    return std::nullopt;
-}
-
-std::string cell(std::optional<double> value, int width, int digits, double scale = 1.0) {
-    return value && std::isfinite(*value) ? fmt::format("{:>{}.{}f}", *value * scale, width, digits)
-                                          : fmt::format("{:>{}}", "", width);
-}
-
-bool known(double value) {
-    return std::isfinite(value);
-}
-
-/// "label     text" when there is something to say.
-void add(std::vector<std::string>& lines, const Terminal& terminal, const std::string& label,
-         const std::string& text) {
-    if (!text.empty()) {
-        lines.push_back(terminal.bold(fmt::format("{:<11}", label)) + text);
-    }
-}
-
-std::string impact_text(const Metrics& m) {
-    return known(m.impact_speed_m_s) && known(m.impact_force_N)
-               ? fmt::format(
-                     "{:.2f} m/s, {:.1f} N through the slider, {:.1f} N at the lip; {:.2f} deg off "
-                     "the normal at the start of the approach",
-                     m.impact_speed_m_s, m.impact_force_N, m.cup_press_max_N,
-                     m.alignment_at_approach_deg)
-               : "";
-}
-
-std::string seal_text(const Metrics& m) {
-    std::string text;
-    if (known(m.time_to_land_pressure_s)) {
-        text += fmt::format("P_land after {:.3f} s, ", m.time_to_land_pressure_s);
-    }
-    if (known(m.pressure_at_hold_end_Pa)) {
-        text += fmt::format("{:.0f} hPa at the end of the hold, lowest {:.0f} hPa",
-                            m.pressure_at_hold_end_Pa / 100.0, m.pressure_min_Pa / 100.0);
-    }
-    return text;
-}
-
-std::string perched_text(const Metrics& m) {
-    return known(m.perched_pitch_deg)
-               ? fmt::format("pitch {:.2f} deg", m.perched_pitch_deg) +
-                     (known(m.perched_pitch_spread_deg)
-                          ? fmt::format(", steady within {:.3f} deg to the end of the rest",
-                                        m.perched_pitch_spread_deg)
-                          : "")
-               : "";
-}
-
-std::string release_text(const Metrics& m, Outcome outcome) {
-    std::string text;
-    if (known(m.release_s)) {
-        text = fmt::format("{:.2f} s after pump off; ", m.release_s);
-    } else if (known(m.pressure_at_release_end_Pa)) {
-        text = fmt::format("{} {:.0f} hPa; ",
-                           outcome == Outcome::release_aborted ? "given up at" : "waited until",
-                           m.pressure_at_release_end_Pa / 100.0);
-    }
-    if (!text.empty()) {
-        text += fmt::format("largest pitch while waiting {:.2f} deg", m.pitch_oscillation_max_deg);
-    }
-    return text;
-}
-
-void add_loads(std::vector<std::string>& lines, const Terminal& terminal, const Metrics& m) {
-    if (!known(m.cup_margin_min_N)) {
-        return;
-    }
-    add(lines, terminal, "cup loads", "         pull N  shear N  peel N m  to spare N");
-    for (const LoadPhase phase : kLoadPhases) {
-        const CupLoads& load = m.loads[static_cast<std::size_t>(phase)];
-        if (known(load.margin_N)) {
-            lines.push_back(fmt::format("{:11}{:<9}{:6.1f}   {:6.1f}    {:6.2f}      {:6.1f}", "",
-                                        to_string(phase), load.pull_N, load.shear_N, load.peel_N_m,
-                                        load.margin_N));
-        }
-    }
-}
-
-}  // namespace
 
 Outcome expected_outcome(const std::string& name) {
     const auto outcome = outcome_from(name);
@@ -111,46 +15,9 @@ Outcome expected_outcome(const std::string& name) {
     return *outcome;
 }
 
-std::string event_head() {
-    return "  time s  event              distance m  pitch deg  force N     hPa  why";
-}
-
-std::string event_line(const Event& event) {
-    if (event.name == EventName::parameter_set && event.value_count == 1) {
-        return fmt::format("{:8.3f}  {:<17}  {} = {:g}", event.time_s, to_string(event.name),
-                           event.values[0].name, event.values[0].value);
-    }
-    return fmt::format("{:8.3f}  {:<17}  {}  {}  {}  {}  {}", event.time_s, to_string(event.name),
-                       cell(value_of(event, "distance_m"), 10, 2),
-                       cell(value_of(event, "pitch_deg"), 9, 2),
-                       cell(value_of(event, "force_N"), 7, 1),
-                       cell(value_of(event, "pressure_Pa"), 6, 0, 0.01), event.reason);
-}
-
 std::vector<std::string> flight_summary(const FlightResult& result, const Terminal& terminal) {
-    const Metrics& m = result.metrics;
-    std::vector<std::string> lines;
-    std::string outcome =
-        terminal.bold(std::string(to_string(result.outcome))) + ": " + result.reason;
-    if (result.attempts > 0) {
-        outcome +=
-            fmt::format(" ({} docking run{})", result.attempts, result.attempts == 1 ? "" : "s");
-    }
-    add(lines, terminal, "outcome", outcome);
-    add(lines, terminal, "impact", impact_text(m));
-    add(lines, terminal, "seal", seal_text(m));
-    add(lines, terminal, "perched", perched_text(m));
-    add(lines, terminal, "release", release_text(m, result.outcome));
-    add_loads(lines, terminal, m);
-    add(lines, terminal, "energy",
-        fmt::format("{:.2f} Wh with the motors on, {:.3f} Wh at rest on the wall",
-                    m.energy_flying_Wh, m.energy_perched_Wh));
-    add(lines, terminal, "speed",
-        fmt::format("{:.1f} s in {:.2f} s, {:.0f} times real time, {} physics steps",
-                    result.performance.simulated_s, result.performance.wall_s,
-                    result.performance.real_time_factor(), result.performance.physics_steps));
-    add(lines, terminal, "hash", fmt::format("{:016x}", result.state_hash));
-    return lines;
+    return limpet::flight_summary(
+        result, [&terminal](const std::string& text) { return terminal.bold(text); });
 }
 
 }  // namespace limpet::app

@@ -14,35 +14,32 @@ struct Row {
     std::array<Action, 5> at;  ///< by Place
 };
 
-// `using enum` came with GCC 11.
-constexpr Action carry_on = Action::carry_on;
-constexpr Action finish = Action::finish;
-constexpr Action hold = Action::hold;
-constexpr Action let_go = Action::let_go;
+// GCC 10 has no `using enum`.
+using A = Action;
 
 constexpr std::array kTable = {
     //                                        in_air  pressed  leaving  on_cup  at_rest
     Row{Cause::mode_taken,
         [](const Signs& s) { return s.autopilot == mavlink::OffboardState::taken_away; },
-        {let_go, let_go, let_go, let_go, let_go}},
+        {A::let_go, A::let_go, A::let_go, A::let_go, A::let_go}},
     Row{Cause::disarmed,
         [](const Signs& s) { return s.disarmed; },
-        {let_go, let_go, let_go, let_go, carry_on}},
+        {A::let_go, A::let_go, A::let_go, A::let_go, A::carry_on}},
     Row{Cause::interrupted,
         [](const Signs& s) { return s.interrupted; },
-        {hold, finish, finish, finish, let_go}},
+        {A::hold, A::finish, A::finish, A::finish, A::let_go}},
     Row{Cause::autopilot_silent,
         [](const Signs& s) { return s.autopilot == mavlink::OffboardState::silent; },
-        {hold, finish, hold, finish, finish}},
+        {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::loop_late,
         [](const Signs& s) { return s.late; },
-        {hold, finish, hold, finish, finish}},
+        {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::pose_stale,
         [](const Signs& s) { return !s.pose_fresh; },
-        {hold, finish, hold, finish, finish}},
+        {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::estimate_stale,
         [](const Signs& s) { return !s.estimate_fresh; },
-        {hold, finish, hold, finish, finish}},
+        {A::hold, A::finish, A::hold, A::finish, A::finish}},
 };
 
 }  // namespace

@@ -22,106 +22,113 @@ struct Transition {
     std::optional<Outcome> outcome = std::nullopt;
 };
 
-using enum PerchingState;
-using enum EventName;
+// GCC 10 has no `using enum`.
+using S = PerchingState;
+using E = EventName;
 using namespace guards;
 
 /// A row that ends the mission with a fault.
 constexpr Transition ends(PerchingState from, bool (*guard)(const guards::Scene&),
                           std::string_view reason, Outcome outcome) {
-    return {from, guard, finished, reason, aborted, std::nullopt, outcome};
+    return {from, guard, S::finished, reason, E::aborted, std::nullopt, outcome};
 }
 /// A row that ends it as it should.
 constexpr Transition done(PerchingState from, bool (*guard)(const guards::Scene&),
                           std::string_view reason, Outcome outcome,
                           std::optional<EventName> event = std::nullopt) {
-    return {from, guard, finished, reason, event, std::nullopt, outcome};
+    return {from, guard, S::finished, reason, event, std::nullopt, outcome};
 }
 
 /// The first row of the current state whose guard holds is taken; faults stand above success.
 constexpr std::array kTable = {
-    done(hovering, hover_over, "hovered as asked", Outcome::released),
+    done(S::hovering, hover_over, "hovered as asked", Outcome::released),
 
-    ends(pre_positioning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    ends(pre_positioning, battery_low, "battery low", Outcome::failed_to_seal),
-    ends(pre_positioning, waited_too_long, "no pre-position before the wall in time",
+    ends(S::pre_positioning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    ends(S::pre_positioning, battery_low, "battery low", Outcome::failed_to_seal),
+    ends(S::pre_positioning, waited_too_long, "no pre-position before the wall in time",
          Outcome::failed_to_seal),
-    Transition{pre_positioning, settled, aligning, "stands at the pre-position", pre_positioned},
+    Transition{S::pre_positioning, settled, S::aligning, "stands at the pre-position",
+               E::pre_positioned},
 
-    ends(aligning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    ends(aligning, pressure_implausible, "pressure sensor stuck or silent",
+    ends(S::aligning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    ends(S::aligning, pressure_implausible, "pressure sensor stuck or silent",
          Outcome::failed_to_seal),
-    ends(aligning, waited_too_long, "not perpendicular to the wall in time",
+    ends(S::aligning, waited_too_long, "not perpendicular to the wall in time",
          Outcome::failed_to_seal),
-    Transition{aligning, wall_lost, pre_positioning, "LiDAR lost"},
-    Transition{aligning, settled, approaching, "perpendicular to the wall", approach_started},
+    Transition{S::aligning, wall_lost, S::pre_positioning, "LiDAR lost"},
+    Transition{S::aligning, settled, S::approaching, "perpendicular to the wall",
+               E::approach_started},
 
-    ends(approaching, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    Transition{approaching, wall_hit, holding, "pressed on the wall", impact},
-    Transition{approaching, wall_lost, retreating, "LiDAR lost", aborted},
-    Transition{approaching, force_lost, retreating, "force sensor silent", aborted},
-    Transition{approaching, approach_too_long, retreating, "no impact in time", aborted},
+    ends(S::approaching, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    Transition{S::approaching, wall_hit, S::holding, "pressed on the wall", E::impact},
+    Transition{S::approaching, wall_lost, S::retreating, "LiDAR lost", E::aborted},
+    Transition{S::approaching, force_lost, S::retreating, "force sensor silent", E::aborted},
+    Transition{S::approaching, approach_too_long, S::retreating, "no impact in time", E::aborted},
 
-    Transition{holding, hold_is_over, deciding, "held", hold_over},
-    Transition{deciding, sealed, pitching_up, "pressure below P_land", landing_started},
-    Transition{deciding, always, retreating, "no seal", retreat_started},
+    Transition{S::holding, hold_is_over, S::deciding, "held", E::hold_over},
+    Transition{S::deciding, sealed, S::pitching_up, "pressure below P_land", E::landing_started},
+    Transition{S::deciding, always, S::retreating, "no seal", E::retreat_started},
 
-    ends(retreating, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    done(retreating, attempts_used_up, "no landing in any attempt", Outcome::failed_to_seal),
-    Transition{retreating, settled, pre_positioning, "tries again"},
-    ends(retreating, held_back, "the cup does not come off", Outcome::failed_to_seal),
-    ends(retreating, retreat_too_long, "does not get back to the pre-position",
+    ends(S::retreating, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    done(S::retreating, attempts_used_up, "no landing in any attempt", Outcome::failed_to_seal),
+    Transition{S::retreating, settled, S::pre_positioning, "tries again"},
+    ends(S::retreating, held_back, "the cup does not come off", Outcome::failed_to_seal),
+    ends(S::retreating, retreat_too_long, "does not get back to the pre-position",
          Outcome::failed_to_seal),
 
-    Transition{pitching_up, came_off, retreating, "came off the wall", aborted},
-    Transition{pitching_up, vacuum_lost, retreating, "vacuum lost", aborted},
-    Transition{pitching_up, pitched_up, unloading, "pitched up"},
-    Transition{unloading, came_off, retreating, "came off the wall", aborted},
-    Transition{unloading, vacuum_lost, retreating, "vacuum lost", aborted},
-    Transition{unloading, landing_too_long, pitching_down, "does not come to rest on its legs",
-               aborted},
-    Transition{unloading, settled, standing, "pitch steady on the legs", perched},
-    Transition{standing, always, resting, "rests", motors_off},
+    Transition{S::pitching_up, came_off, S::retreating, "came off the wall", E::aborted},
+    Transition{S::pitching_up, vacuum_lost, S::retreating, "vacuum lost", E::aborted},
+    Transition{S::pitching_up, pitched_up, S::unloading, "pitched up"},
+    Transition{S::unloading, came_off, S::retreating, "came off the wall", E::aborted},
+    Transition{S::unloading, vacuum_lost, S::retreating, "vacuum lost", E::aborted},
+    Transition{S::unloading, landing_too_long, S::pitching_down,
+               "does not come to rest on its legs", E::aborted},
+    Transition{S::unloading, settled, S::standing, "pitch steady on the legs", E::perched},
+    Transition{S::standing, always, S::resting, "rests", E::motors_off},
 
-    Transition{resting, vacuum_lost, spinning_up, "vacuum weak", motors_on},
-    done(resting, rest_over_given_up, "rests after the release was given up",
+    Transition{S::resting, vacuum_lost, S::spinning_up, "vacuum weak", E::motors_on},
+    done(S::resting, rest_over_given_up, "rests after the release was given up",
          Outcome::release_aborted),
-    done(resting, rest_over_stay, "rests on the wall", Outcome::perched),
-    ends(resting, battery_low_stays, "battery low: rests on the wall", Outcome::perched),
-    ends(resting, rest_over_blind, "no position estimate: rests on the wall",
+    done(S::resting, rest_over_stay, "rests on the wall", Outcome::perched),
+    ends(S::resting, battery_low_stays, "battery low: rests on the wall", Outcome::perched),
+    ends(S::resting, rest_over_blind, "no position estimate: rests on the wall",
          Outcome::release_aborted),
-    Transition{resting, battery_low_flies, spinning_up, "battery low", motors_on},
-    Transition{resting, rest_over, spinning_up, "rest over", motors_on},
+    Transition{S::resting, battery_low_flies, S::spinning_up, "battery low", E::motors_on},
+    Transition{S::resting, rest_over, S::spinning_up, "rest over", E::motors_on},
 
-    Transition{spinning_up, came_off, backing_off, "came off the wall", aborted},
-    Transition{spinning_up, spun_up, pitching_down, "rotors carry their share"},
-    Transition{pitching_down, came_off, backing_off, "came off the wall", aborted},
-    Transition{pitching_down, settled, levelled, "level and stable", level},
-    Transition{pitching_down, not_level_in_time, resealing, "not level in time", aborted},
-    Transition{levelled, valve_fitted, releasing, "breaks the vacuum", pump_off, valve_open},
-    Transition{levelled, always, releasing, "lets the air in", pump_off},
+    Transition{S::spinning_up, came_off, S::backing_off, "came off the wall", E::aborted},
+    Transition{S::spinning_up, spun_up, S::pitching_down, "rotors carry their share"},
+    Transition{S::pitching_down, came_off, S::backing_off, "came off the wall", E::aborted},
+    Transition{S::pitching_down, settled, S::levelled, "level and stable", E::level},
+    Transition{S::pitching_down, not_level_in_time, S::resealing, "not level in time", E::aborted},
+    Transition{S::levelled, valve_fitted, S::releasing, "breaks the vacuum", E::pump_off,
+               E::valve_open},
+    Transition{S::levelled, always, S::releasing, "lets the air in", E::pump_off},
 
-    Transition{releasing, came_off, backing_off, "came off the wall"},
-    Transition{releasing, estimate_lost, resealing, "position estimate lost", aborted},
-    Transition{releasing, stuck_behind_valve, backing_off, "pressure sensor stuck, valve open"},
-    Transition{releasing, pressure_stuck, resealing, "pressure sensor stuck", aborted},
-    Transition{releasing, pressure_safe, backing_off, "pressure above the safe threshold",
-               pressure_released},
-    Transition{releasing, swings, resealing, "oscillation past its limit", aborted},
-    Transition{releasing, release_too_long, resealing, "pressure not released in time", aborted},
+    Transition{S::releasing, came_off, S::backing_off, "came off the wall"},
+    Transition{S::releasing, estimate_lost, S::resealing, "position estimate lost", E::aborted},
+    Transition{S::releasing, stuck_behind_valve, S::backing_off,
+               "pressure sensor stuck, valve open"},
+    Transition{S::releasing, pressure_stuck, S::resealing, "pressure sensor stuck", E::aborted},
+    Transition{S::releasing, pressure_safe, S::backing_off, "pressure above the safe threshold",
+               E::pressure_released},
+    Transition{S::releasing, swings, S::resealing, "oscillation past its limit", E::aborted},
+    Transition{S::releasing, release_too_long, S::resealing, "pressure not released in time",
+               E::aborted},
 
-    Transition{resealing, came_off, backing_off, "came off the wall"},
-    Transition{resealing, sealed, pitching_up, "vacuum is back", landing_started},
-    Transition{resealing, no_vacuum, backing_off, "no vacuum to rest on"},
-    Transition{resealing, reseals_blind, pitching_up, "pressure unknown: rests with the pump on",
-               landing_started},
+    Transition{S::resealing, came_off, S::backing_off, "came off the wall"},
+    Transition{S::resealing, sealed, S::pitching_up, "vacuum is back", E::landing_started},
+    Transition{S::resealing, no_vacuum, S::backing_off, "no vacuum to rest on"},
+    Transition{S::resealing, reseals_blind, S::pitching_up,
+               "pressure unknown: rests with the pump on", E::landing_started},
 
-    ends(backing_off, estimate_lost, "off the wall, position estimate lost", Outcome::released),
-    done(backing_off, back_unperched, "back without having perched", Outcome::failed_to_seal,
-         backed_off),
-    done(backing_off, settled, "back at the pre-position", Outcome::released, backed_off),
-    Transition{backing_off, held_by_vacuum, resealing, "the cup does not come off", aborted},
-    ends(backing_off, retreat_too_long, "off the wall, not back at the pre-position in time",
+    ends(S::backing_off, estimate_lost, "off the wall, position estimate lost", Outcome::released),
+    done(S::backing_off, back_unperched, "back without having perched", Outcome::failed_to_seal,
+         E::backed_off),
+    done(S::backing_off, settled, "back at the pre-position", Outcome::released, E::backed_off),
+    Transition{S::backing_off, held_by_vacuum, S::resealing, "the cup does not come off",
+               E::aborted},
+    ends(S::backing_off, retreat_too_long, "off the wall, not back at the pre-position in time",
          Outcome::released),
 };
 
@@ -148,16 +155,16 @@ Event report(const Scene& s, const Transition& row, EventName name) {
 void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s) {
     const Estimate& estimate = s.estimate;
     const Euler attitude = euler_from_quaternion(estimate.q_WB);
-    if (row.from == retreating && row.to == pre_positioning) {
+    if (row.from == S::retreating && row.to == S::pre_positioning) {
         ++memory.attempt;
     }
-    memory.has_perched = memory.has_perched || row.to == standing;
-    memory.release_given_up = memory.release_given_up || row.to == resealing;
+    memory.has_perched = memory.has_perched || row.to == S::standing;
+    memory.release_given_up = memory.release_given_up || row.to == S::resealing;
     if (row.outcome) {
         memory.ending = Ending{.outcome = *row.outcome, .reason = row.reason};
     }
     memory.state = row.to;
-    if (row.from == deciding && row.to == pitching_up) {
+    if (row.from == S::deciding && row.to == S::pitching_up) {
         memory.grip_W_m = joint_W(s.parameters, estimate);
     }
     memory.since_s = s.time_s;
@@ -170,31 +177,31 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
 
 /// The wall is looked at until the docking run, then kept: a beam that pitches away lies.
 bool looks_at_wall(PerchingState state) {
-    return state == pre_positioning || state == aligning || state == approaching;
+    return state == S::pre_positioning || state == S::aligning || state == S::approaching;
 }
 
 }  // namespace
 
 std::string_view to_string(PerchingState state) {
     switch (state) {
-        case hovering: return "hovering";
-        case pre_positioning: return "pre_positioning";
-        case aligning: return "aligning";
-        case approaching: return "approaching";
-        case holding: return "holding";
-        case deciding: return "deciding";
-        case retreating: return "retreating";
-        case pitching_up: return "pitching_up";
-        case unloading: return "unloading";
-        case standing: return "standing";
-        case resting: return "resting";
-        case spinning_up: return "spinning_up";
-        case pitching_down: return "pitching_down";
-        case levelled: return "levelled";
-        case releasing: return "releasing";
-        case resealing: return "resealing";
-        case backing_off: return "backing_off";
-        case finished: return "finished";
+        case S::hovering: return "hovering";
+        case S::pre_positioning: return "pre_positioning";
+        case S::aligning: return "aligning";
+        case S::approaching: return "approaching";
+        case S::holding: return "holding";
+        case S::deciding: return "deciding";
+        case S::retreating: return "retreating";
+        case S::pitching_up: return "pitching_up";
+        case S::unloading: return "unloading";
+        case S::standing: return "standing";
+        case S::resting: return "resting";
+        case S::spinning_up: return "spinning_up";
+        case S::pitching_down: return "pitching_down";
+        case S::levelled: return "levelled";
+        case S::releasing: return "releasing";
+        case S::resealing: return "resealing";
+        case S::backing_off: return "backing_off";
+        case S::finished: return "finished";
     }
     throw InternalError("perching state out of range");
 }
@@ -206,7 +213,7 @@ void EventList::add(const Event& event) {
 
 PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate, double time_s) {
     PerchingMemory memory;
-    memory.state = task.perch ? pre_positioning : hovering;
+    memory.state = task.perch ? S::pre_positioning : S::hovering;
     memory.since_s = time_s;
     memory.line_W_m = estimate.p_WB_m;
     memory.entry_p_W_m = estimate.p_WB_m;

@@ -142,4 +142,17 @@ void lay_out(Scenario& scenario) {
     }
 }
 
+Scene scene_of(const Scenario& scenario) {
+    Scene scene;
+    const WallPlane& plane = scenario.wall.plane;
+    scene.wall = {.present = scenario.wall.present,
+                  .p_WT_m = plane.p_WT_m,
+                  .q_WT = Quaternion(plane.R_WT),
+                  .half_width_m = plane.half_width_m,
+                  .half_height_m = plane.half_height_m,
+                  .surface = scenario.wall.surface.name};
+    scene.ground_z_W_m = scenario.start.ground_z_W_m;
+    return scene;
+}
+
 }  // namespace limpet

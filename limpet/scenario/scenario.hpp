@@ -113,4 +113,7 @@ struct Scenario {
 /// starts on that line: pulled back on its ropes, or start_gap_m before the wall.
 void lay_out(Scenario& scenario);
 
+/// Wall and ground as the writers of models take them.
+[[nodiscard]] Scene scene_of(const Scenario& scenario);
+
 }  // namespace limpet

@@ -9,19 +9,6 @@
 namespace limpet {
 namespace {
 
-Scene scene_of(const Scenario& scenario) {
-    Scene scene;
-    const WallPlane& plane = scenario.wall.plane;
-    scene.wall = {.present = scenario.wall.present,
-                  .p_WT_m = plane.p_WT_m,
-                  .q_WT = Quaternion(plane.R_WT),
-                  .half_width_m = plane.half_width_m,
-                  .half_height_m = plane.half_height_m,
-                  .surface = scenario.wall.surface.name};
-    scene.ground_z_W_m = scenario.start.ground_z_W_m;
-    return scene;
-}
-
 SensorsModel sensors_of(const Scenario& scenario) {
     const Airframe& airframe = scenario.airframe;
     const double half_m = 0.5 * airframe.lidar_separation_m;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "limpet/vehicle/drawing.hpp"
+#include "limpet/vehicle/finish.hpp"
+#include "limpet/vehicle/level_frame.hpp"
 #include "limpet/vehicle/model_text.hpp"
 
 namespace limpet::mjcf {
@@ -11,31 +13,6 @@ namespace limpet::mjcf {
 namespace {
 
 using namespace model_text;
-
-constexpr double kWallThickness_m = 0.2;
-
-enum class Finish {
-    concrete,
-    blocks,
-    gel_coat,
-    steel
-};
-
-Finish finish_of(const std::string& surface) {
-    const auto has = [&surface](const char* word) {
-        return surface.find(word) != std::string::npos;
-    };
-    if (has("block") || has("brick")) {
-        return Finish::blocks;
-    }
-    if (has("blade") || has("glass") || has("paint")) {
-        return Finish::gel_coat;
-    }
-    if (has("metal") || has("steel") || has("alumin")) {
-        return Finish::steel;
-    }
-    return Finish::concrete;
-}
 
 void write_wall_material(pugi::xml_node asset, const Scene& scene) {
     switch (finish_of(scene.wall.surface)) {
@@ -67,34 +44,12 @@ void write_wall_material(pugi::xml_node asset, const Scene& scene) {
     }
 }
 
-/// Level axes at the wall in the model's world: x towards it, y along it to the left, z up.
-struct LevelFrame {
-    Vector3 origin;
-    Matrix3 axes;  ///< columns: x, y, z
-
-    [[nodiscard]] Vector3 point(double x, double y, double z) const {
-        return origin + axes * Vector3(x, y, z);
-    }
-};
-
-LevelFrame level_frame(const WallScene& wall) {
-    Vector3 x = flu(Vector3(wall.q_WT * Vector3::UnitX()));
-    x.z() = 0.0;
-    x = x.norm() > 1e-6 ? Vector3(x.normalized()) : Vector3(Vector3::UnitX());
-    Matrix3 axes;
-    axes.col(0) = x;
-    axes.col(1) = Vector3::UnitZ().cross(x);
-    axes.col(2) = Vector3::UnitZ();
-    return {flu(wall.p_WT_m), axes};
-}
-
-void write_camera(pugi::xml_node world, const char* name, const Vector3& from, const Vector3& at,
-                  double fovy_deg) {
-    const Vector3 back = (from - at).normalized();
+void write_camera(pugi::xml_node world, const char* name, const Viewpoint& view) {
+    const Vector3 back = (view.from - view.at).normalized();
     const Vector3 right = Vector3::UnitZ().cross(back).normalized();
     const Vector3 up = back.cross(right);
-    add(world, "camera", "name", name, "pos", text(from), "fovy", text(fovy_deg), "xyaxes",
-        text(right) + " " + text(up));
+    add(world, "camera", "name", name, "pos", text(view.from), "fovy", text(view.fovy_deg),
+        "xyaxes", text(right) + " " + text(up));
 }
 
 }  // namespace
@@ -161,12 +116,8 @@ void write_lights_and_cameras(pugi::xml_node world, const Scene& scene) {
     add(world, "light", "name", "fill", "directional", "true", "castshadow", "false", "pos",
         text(level.point(-3.0, 3.0, 3.0)), "dir", text(Vector3(level.axes * Vector3(1, -1, -0.6))),
         "diffuse", "0.22 0.24 0.28", "specular", "0 0 0");
-    // From the pre-position, 1.5 m off, to behind the wall's face.
-    const double beside_m = -(scene.wall.half_width_m + 1.2);
-    write_camera(world, "side", level.point(-1.0, beside_m, 0.1), level.point(-1.0, 0.0, -0.05),
-                 36.0);
-    write_camera(world, "quarter", level.point(-2.3, -1.7, 0.8), level.point(-0.5, 0.0, -0.05),
-                 40.0);
+    write_camera(world, "side", side_view(scene.wall));
+    write_camera(world, "quarter", quarter_view(scene.wall));
 }
 
 }  // namespace limpet::mjcf

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <boost/coroutine2/coroutine.hpp>
+#include <exception>
+#include <functional>
+#include <gazebo/physics/physics.hh>
+#include <memory>
+#include <optional>
+
+#include "gazebo/gazebo_plant.hpp"
+#include "limpet/simulation/flight.hpp"
+
+namespace limpet {
+
+/// What is flown, and how; see FlightConduct.
+struct HostedFlight {
+    Scenario scenario;
+    std::filesystem::path recording;  ///< empty: none
+    FlightConduct conduct;
+    FlightWatch watch;
+};
+
+/// fly(), turned inside out: Gazebo owns the loop, so the flight is a coroutine that runs from one
+/// world update to the next. It is the same code, down to the recording, as in `limpet fly`; only
+/// the plant is another. All calls come from Gazebo's physics thread.
+class FlightHost {
+public:
+    /// @throws InputError where world and scenario differ, see GazeboModel
+    FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight);
+
+    /// At the beginning of a world update: flies on to the next step of the plant.
+    /// @throws what fly() throws
+    void update();
+    /// The world was reset: the flight begins anew at the next update.
+    void restart();
+
+    /// @return nullptr until it is over
+    [[nodiscard]] const FlightResult* result() const { return result_ ? &*result_ : nullptr; }
+
+private:
+    using Coroutine = boost::coroutines2::coroutine<void>;
+
+    void run(Coroutine::push_type& to_gazebo);
+
+    HostedFlight flight_;
+    std::shared_ptr<const SimulationModel> model_;
+    Coroutine::push_type* to_gazebo_ = nullptr;
+    std::optional<FlightResult> result_;
+    std::exception_ptr failure_;
+    std::unique_ptr<Coroutine::pull_type> coroutine_;  ///< last: unwinds what uses the others
+};
+
+}  // namespace limpet

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <gazebo/physics/ContactManager.hh>
+#include <utility>
+
+#include "gazebo/frames.hpp"
+#include "gazebo/gazebo_plant.hpp"
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+using gazebo_frames::turn;
+namespace physics = gazebo::physics;
+
+/// The world and the scenario are written by the same program; more than rounding is a difference.
+constexpr double kSame = 1e-6;
+/// Beyond anything that the slider does.
+constexpr double kFree_m = 1e3;
+
+[[noreturn]] void differs(const std::string& what, double here, double expected, const char* unit) {
+    throw InputError(
+        fmt::format("{} is {:.9g} {} in the world, {:.9g} {} in the scenario; export "
+                    "the world anew",
+                    what, here, unit, expected, unit));
+}
+
+void require_same(const std::string& what, double here, double expected, const char* unit) {
+    if (!(std::abs(here - expected) <= kSame * std::max(1.0, std::abs(expected)))) {
+        differs(what, here, expected, unit);
+    }
+}
+
+physics::LinkPtr find_link(const physics::Model& model, const std::string& name) {
+    const physics::LinkPtr found = model.GetLink(name);
+    if (found == nullptr) {
+        throw InputError(fmt::format("model \"{}\" has no link \"{}\", which perching needs",
+                                     model.GetName(), name));
+    }
+    return found;
+}
+
+physics::JointPtr find_joint(physics::Model& model, const std::string& name,
+                             physics::Base::EntityType type, const char* kind) {
+    const physics::JointPtr found = model.GetJoint(name);
+    if (found == nullptr) {
+        throw InputError(fmt::format("model \"{}\" has no joint \"{}\", which perching needs",
+                                     model.GetName(), name));
+    }
+    if (!found->HasType(type)) {
+        throw InputError(
+            fmt::format("joint \"{}\" of model \"{}\" is not {}", name, model.GetName(), kind));
+    }
+    return found;
+}
+
+/// Explicit springs and dampers of ODE are not stable on a light cup.
+void check_hinge(physics::Joint& hinge, const std::string& name) {
+    if (!(hinge.GetStiffness(0) > 0.0 && hinge.GetDamping(0) > 0.0)) {
+        throw InputError(fmt::format(
+            "joint \"{}\" has no spring and damper, which perching needs; export the model anew",
+            name));
+    }
+}
+
+void check_gravity(const physics::World& world) {
+    const Vector3 gravity_W = turn(world.Gravity());
+    require_same("gravity", gravity_W.z(), kGravity_m_s2, "m/s^2 downwards");
+    require_same("gravity across", std::hypot(gravity_W.x(), gravity_W.y()), 0.0, "m/s^2");
+}
+
+void check_mass(const physics::Model& model, const Airframe& airframe) {
+    double mass_kg = 0.0;
+    for (const physics::LinkPtr& link : model.GetLinks()) {
+        mass_kg += link->GetInertial()->Mass();
+    }
+    require_same("the vehicle's mass", mass_kg, airframe.mass_kg, "kg");
+}
+
+/// The face that rays see must be the plane on which the cup seals.
+void check_wall(physics::RayShape& ray, const Scenario& scenario) {
+    if (!scenario.wall.present) {
+        return;
+    }
+    constexpr double kBefore_m = 0.05;
+    const WallPlane& wall = scenario.wall.plane;
+    const Vector3 into_W = wall.R_WT.col(0);
+    for (const double y : {-0.9, 0.0, 0.9}) {
+        for (const double z : {-0.9, 0.0, 0.9}) {
+            const Vector3 p_W_m = wall.p_WT_m + wall.R_WT.col(1) * (y * wall.half_width_m) +
+                                  wall.R_WT.col(2) * (z * wall.half_height_m);
+            ray.SetPoints(turn(Vector3(p_W_m - kBefore_m * into_W)),
+                          turn(Vector3(p_W_m + kBefore_m * into_W)));
+            double distance_m = 0.0;
+            std::string entity;
+            ray.GetIntersection(distance_m, entity);
+            if (entity.empty() || std::abs(distance_m - kBefore_m) > 1e-4) {
+                throw InputError(fmt::format(
+                    "the wall of the world is not where the scenario's is: no face at x {:.3f} m, "
+                    "y {:.3f} m, z {:.3f} m (north, west, up); export the world anew",
+                    p_W_m.x(), -p_W_m.y(), -p_W_m.z()));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
+                         const GazeboNames& names)
+    : vehicle_(std::move(vehicle)),
+      world_(vehicle_->GetWorld()),
+      engine_(world_->Physics()),
+      next_(std::move(next)) {
+    if (engine_->GetType() != "ode") {
+        throw InputError(fmt::format("physics engine \"{}\": only \"ode\" flies this vehicle",
+                                     engine_->GetType()));
+    }
+    const Airframe& airframe = scenario.airframe;
+    links_[0] = find_link(*vehicle_, names.base);
+    if (airframe.has_cup) {
+        links_[1] = find_link(*vehicle_, names.carriage);
+        links_[2] = find_link(*vehicle_, names.cup);
+        slider_ = find_joint(*vehicle_, names.slider, physics::Base::SLIDER_JOINT, "prismatic");
+        for (const std::string& name : names.hinges) {
+            hinges_.push_back(find_joint(*vehicle_, name, physics::Base::HINGE_JOINT, "revolute"));
+            check_hinge(*hinges_.back(), name);
+        }
+        slider_->SetLowerLimit(0, -kFree_m);
+        slider_->SetUpperLimit(0, kFree_m);
+        lip_F_m_ = {airframe.cup.lip_offset_m, 0.0, 0.0};
+    }
+    vehicle_->SetAutoDisable(false);
+    engine_->GetContactManager()->SetNeverDropContacts(true);
+    ray_ = boost::dynamic_pointer_cast<physics::RayShape>(
+        engine_->CreateShape("ray", physics::CollisionPtr()));
+    require(ray_ != nullptr, "ODE has rays");
+    check_gravity(*world_);
+    check_mass(*vehicle_, airframe);
+    check_wall(*ray_, scenario);
+}
+
+}  // namespace limpet

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/gazebo_plant.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <gazebo/physics/ContactManager.hh>
+#include <utility>
+
+#include "gazebo/frames.hpp"
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+using gazebo_frames::turn;
+using ignition::math::Pose3d;
+using ignition::math::Vector3d;
+namespace physics = gazebo::physics;
+
+/// Farther than any LiDAR sees.
+constexpr double kRayLength_m = 100.0;
+/// How far behind a part of the vehicle itself a ray goes on, and how often.
+constexpr double kPastOwnPart_m = 1e-3;
+constexpr int kOwnParts = 8;
+/// Numbers a link in a saved state: place 3, attitude 4, speed 3, rate 3.
+constexpr std::size_t kValuesALink = 13;
+
+}  // namespace
+
+std::unique_ptr<Plant> GazeboModel::make() const {
+    return std::make_unique<GazeboPlant>(shared_from_this());
+}
+
+GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model) : model_(std::move(model)) {}
+
+const physics::LinkPtr& GazeboPlant::link(Body body) const {
+    const auto& found = model_->links_[static_cast<std::size_t>(body)];
+    require(found != nullptr, "this vehicle has a slider and a cup");
+    return found;
+}
+
+void GazeboPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
+    const physics::LinkPtr& on = link(body);
+    on->AddForceAtWorldPosition(turn(wrench_W.force_N), turn(p_W_m));
+    on->AddTorque(turn(wrench_W.moment_N_m));
+}
+
+void GazeboPlant::apply_slider(double force_N) {
+    require(model_->slider_ != nullptr, "this vehicle has a slider");
+    model_->slider_->SetForce(0, force_N);
+}
+
+void GazeboPlant::step(const StepMode& mode) {
+    if (model_->engine_->GetMaxStepSize() != mode.step_s) {
+        set_step(mode.step_s);
+    }
+    model_->next_();
+    require_healthy();
+}
+
+void GazeboPlant::set_step(double step_s) {
+    physics::PhysicsEngine& engine = *model_->engine_;
+    // The world has added the old length to its clock already.
+    const double more_s = step_s - engine.GetMaxStepSize();
+    engine.SetMaxStepSize(step_s);
+    model_->world_->SetSimTime(model_->world_->SimTime() + gazebo::common::Time(more_s));
+    // An implicit spring and damper is a soft stop whose softness goes with the step; Gazebo sets
+    // it once and for all.
+    for (const physics::JointPtr& hinge : model_->hinges_) {
+        const double spring = step_s * hinge->GetStiffness(0);
+        const double softness = 1.0 / (spring + hinge->GetDamping(0));
+        hinge->SetParam("stop_erp", 0, spring * softness);
+        hinge->SetParam("stop_cfm", 0, softness);
+    }
+}
+
+void GazeboPlant::require_healthy() const {
+    if (!model_->links_[0]->WorldPose().IsFinite()) {
+        throw InternalError(
+            fmt::format("ODE diverged after {:.3f} s", model_->world_->SimTime().Double()));
+    }
+}
+
+Kinematics GazeboPlant::kinematics(Body body) const {
+    const physics::LinkPtr& of = link(body);
+    const Pose3d pose = of->WorldPose();
+    const Quaternion q_WF = turn(pose.Rot());
+    const Vector3d offset = body == Body::cup ? turn(model_->lip_F_m_) : Vector3d::Zero;
+    return {.p_WF_m = turn(pose.Pos() + pose.Rot().RotateVector(offset)),
+            .q_WF = q_WF,
+            .v_WF_W_m_s = turn(of->WorldLinearVel(offset)),
+            .w_WF_F_rad_s = q_WF.conjugate() * turn(of->WorldAngularVel())};
+}
+
+SliderMotion GazeboPlant::slider() const {
+    const physics::JointPtr& slider = model_->slider_;
+    if (slider == nullptr) {
+        return {};
+    }
+    return {.position_m = slider->Position(0), .velocity_m_s = slider->GetVelocity(0)};
+}
+
+std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
+    const Vector3d along = turn(dir_W);
+    double passed_m = 0.0;
+    for (int part = 0; part <= kOwnParts; ++part) {
+        const Vector3d from = turn(origin_W_m) + passed_m * along;
+        model_->ray_->SetPoints(from, from + kRayLength_m * along);
+        double distance_m = kRayLength_m;
+        std::string entity;
+        model_->ray_->GetIntersection(distance_m, entity);
+        if (entity.empty() || distance_m >= kRayLength_m) {
+            return std::nullopt;
+        }
+        const std::string own = model_->vehicle_->GetScopedName() + "::";
+        const bool is_own = entity.compare(0, own.size(), own) == 0;
+        passed_m += distance_m;
+        if (!is_own) {
+            return passed_m;
+        }
+        passed_m += kPastOwnPart_m;
+    }
+    return std::nullopt;
+}
+
+Vector3 GazeboPlant::contact_force_W() const {
+    const physics::ContactManager& manager = *model_->engine_->GetContactManager();
+    const auto& contacts = manager.GetContacts();
+    Vector3d sum = Vector3d::Zero;
+    for (unsigned i = 0; i < manager.GetContactCount(); ++i) {
+        const physics::Contact& contact = *contacts[i];
+        const bool first = contact.collision1->GetModel() == model_->vehicle_;
+        const bool second = contact.collision2->GetModel() == model_->vehicle_;
+        if (first == second) {
+            continue;
+        }
+        const physics::LinkPtr own =
+            first ? contact.collision1->GetLink() : contact.collision2->GetLink();
+        // ODE's feedback, which Gazebo turns into the axes of each link.
+        for (int k = 0; k < contact.count; ++k) {
+            const Vector3d& force =
+                first ? contact.wrench[k].body1Force : contact.wrench[k].body2Force;
+            sum += own->WorldPose().Rot().RotateVector(force);
+        }
+    }
+    return turn(sum);
+}
+
+PlantState GazeboPlant::save() const {
+    PlantState state;
+    for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
+        const Pose3d pose = part->WorldPose();
+        const Vector3d speed = part->WorldLinearVel();
+        const Vector3d rate = part->WorldAngularVel();
+        state.values.insert(state.values.end(),
+                            {pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z(), pose.Rot().W(),
+                             pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z(), speed.X(), speed.Y(),
+                             speed.Z(), rate.X(), rate.Y(), rate.Z()});
+    }
+    return state;
+}
+
+void GazeboPlant::restore(const PlantState& state) {
+    const auto links = model_->vehicle_->GetLinks();
+    require(state.values.size() == kValuesALink * links.size(), "a state of this model");
+    const double* v = state.values.data();
+    for (const physics::LinkPtr& part : links) {
+        part->SetWorldPose(Pose3d(v[0], v[1], v[2], v[3], v[4], v[5], v[6]));
+        const Vector3d rate(v[10], v[11], v[12]);
+        // Gazebo sets the speed of the centre of mass, and tells that of the frame.
+        const Vector3d arm = part->WorldCoGPose().Pos() - part->WorldPose().Pos();
+        part->SetLinearVel(Vector3d(v[7], v[8], v[9]) + rate.Cross(arm));
+        part->SetAngularVel(rate);
+        v += kValuesALink;
+    }
+}
+
+void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+                           const Vector3& w_WB_B_rad_s) {
+    // The model's frame may lie elsewhere than the base's; both move together.
+    const Pose3d base(turn(p_WB_m), turn(Quaternion(q_WB.normalized())));
+    const Pose3d before = link(Body::base)->WorldPose();
+    const Vector3d rate = turn(Vector3(q_WB * w_WB_B_rad_s));
+    for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
+        const Pose3d in_base = part->WorldPose() - before;
+        part->SetWorldPose(in_base + base);
+        const Vector3d arm = part->WorldCoGPose().Pos() - base.Pos();
+        part->SetLinearVel(turn(v_WB_W_m_s) + rate.Cross(arm));
+        part->SetAngularVel(rate);
+    }
+}
+
+}  // namespace limpet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <gazebo/physics/physics.hh>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "limpet/plant/plant.hpp"
+#include "limpet/scenario/scenario.hpp"
+
+namespace limpet {
+
+/// Names of the parts of a model in Gazebo that a plant talks to.
+struct GazeboNames {
+    std::string base = "base";
+    std::string carriage = "carriage";
+    std::string cup = "cup";
+    std::string slider = "slider";
+    std::array<std::string, 2> hinges = {"cup_pitch", "cup_yaw"};
+};
+
+/// A vehicle that stands in a Gazebo world, with ODE as its engine. One world has one plant.
+class GazeboModel final : public PlantModel, public std::enable_shared_from_this<GazeboModel> {
+public:
+    /// Hands control to Gazebo and comes back at its next world update.
+    using NextUpdate = std::function<void()>;
+
+    /// Takes the slider's own limits and ODE's auto-disable out of the model: the loop applies the
+    /// stops, and a vehicle at rest must not fall asleep.
+    /// @param scenario  what the loop believes; the world must agree
+    /// @param next      called once by each step of the plant
+    /// @throws InputError in one line when the engine is not ODE, when a link or joint is missing
+    ///         or of another kind, or where the world differs from the scenario: gravity, mass,
+    ///         lip, wall
+    GazeboModel(gazebo::physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
+                const GazeboNames& names = {});
+
+    [[nodiscard]] std::unique_ptr<Plant> make() const override;
+
+private:
+    friend class GazeboPlant;
+
+    gazebo::physics::ModelPtr vehicle_;
+    gazebo::physics::WorldPtr world_;
+    gazebo::physics::PhysicsEnginePtr engine_;
+    std::array<gazebo::physics::LinkPtr, 3> links_;  ///< by Body; a plain vehicle has the first
+    gazebo::physics::JointPtr slider_;               ///< null: no cup
+    std::vector<gazebo::physics::JointPtr> hinges_;
+    gazebo::physics::RayShapePtr ray_;
+    Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
+    NextUpdate next_;
+};
+
+/// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
+/// length follows the loop's. Contacts are ODE's, always on.
+class GazeboPlant final : public Plant {
+public:
+    explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
+
+    void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
+    void apply_slider(double force_N) override;
+    void step(const StepMode& mode) override;
+
+    [[nodiscard]] Kinematics kinematics(Body body) const override;
+    [[nodiscard]] SliderMotion slider() const override;
+    [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
+                                            const Vector3& dir_W) const override;
+    [[nodiscard]] Vector3 contact_force_W() const override;
+
+    /// Poses and speeds of all links. ODE goes on from them; not bit-exactly.
+    [[nodiscard]] PlantState save() const override;
+    void restore(const PlantState& state) override;
+    void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+                  const Vector3& w_WB_B_rad_s) override;
+
+private:
+    [[nodiscard]] const gazebo::physics::LinkPtr& link(Body body) const;
+    void set_step(double step_s);
+    void require_healthy() const;
+
+    std::shared_ptr<const GazeboModel> model_;
+};
+
+}  // namespace limpet

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <sdf/Element.hh>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/scenario/yaml_tree.hpp"
+
+namespace limpet {
+
+// A plugin's element in SDF is read as a section of YAML is (limpet/scenario/yaml_reader.hpp): the
+// same checks, the same messages, a line each. Gazebo itself swallows what a plugin throws and
+// flies on without it; a plugin of ours ends the server instead.
+
+/// How sdf_tree() takes an element.
+struct SdfReading {
+    std::string place;                    ///< in messages: "world perch: LimpetVehiclePlugin"
+    std::vector<std::string> lists = {};  ///< children that may stand more than once
+    /// Children that the environment overrides: `speed` by LIMPET_SPEED. Those of `lists` are
+    /// parted by ';'. An empty variable is none.
+    std::vector<std::string> from_environment = {};
+};
+
+/// The children of an element, and theirs, as a map. An element with children or attributes is a
+/// map, its attributes entries; an empty one is null; another is a scalar without blanks at its
+/// ends. One of `lists` is a list, also when it stands once.
+/// @throws InputError for a child that stands twice and is not of `lists`, and for one that has
+/// text
+///         beside attributes or children
+[[nodiscard]] YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading);
+
+/// Says `limpet: LINE` on stderr and ends the process at once, with what was written flushed: other
+/// threads of the server may wait for what will not come.
+[[noreturn]] void end_server(int exit_code, std::string_view line);
+
+/// Loads a plugin: InputError ends the server with 2, any other exception with 70.
+void load_or_end(const std::function<void()>& load);
+
+}  // namespace limpet

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/vehicle_options.hpp"
+
+#include <fmt/format.h>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kSlowest = 0.01;
+constexpr double kFastest = 1000.0;
+
+double number(const YamlNode& section, const char* key, double minimum, double maximum,
+              double by_default) {
+    double value = by_default;
+    if (const YamlNode* node = section.find(key)) {
+        value = read_number(*node, {.name = key,
+                                    .unit = {},
+                                    .minimum = minimum,
+                                    .maximum = maximum,
+                                    .value = nullptr,
+                                    .description = {},
+                                    .source = {}});
+    }
+    return value;
+}
+
+std::string text(const YamlNode& section, const char* key, const std::string& by_default = {}) {
+    const YamlNode* node = section.find(key);
+    return node != nullptr ? read_text(*node) : by_default;
+}
+
+/// One of two words; the first by default.
+template <class Choice>
+Choice choose(const YamlNode& section, const char* key, const std::pair<const char*, Choice>& usual,
+              const std::pair<const char*, Choice>& other) {
+    const YamlNode* node = section.find(key);
+    if (node == nullptr) {
+        return usual.second;
+    }
+    const std::string word = read_text(*node);
+    if (word != usual.first && word != other.first) {
+        fail(*node, fmt::format("\"{}\", allowed {} or {}", shown(word), usual.first, other.first));
+    }
+    return word == usual.first ? usual.second : other.second;
+}
+
+TransportAddress address(const YamlNode& section, const char* key, const char* by_default) {
+    const YamlNode* node = section.find(key);
+    if (node == nullptr) {
+        return parse_address(by_default);
+    }
+    try {
+        return parse_address(read_text(*node));
+    } catch (const InputError& error) {
+        fail(*node, error.what());
+    }
+}
+
+Scenario scenario_of(const YamlNode& section) {
+    const YamlNode* wanted = section.find("scenario");
+    if (wanted == nullptr) {
+        fail(section, "scenario is missing: a name (limpet list scenarios) or a YAML file");
+    }
+    LoadOptions options;
+    if (const YamlNode* set = section.find("set")) {
+        for (const YamlNode& item : set->children) {
+            options.overrides.push_back(read_text(item));
+        }
+    }
+    if (const YamlNode* seed = section.find("seed")) {
+        options.seed = read_count(*seed);
+    }
+    return load_scenario(read_text(*wanted), options);
+}
+
+}  // namespace
+
+VehicleOptions read_vehicle_options(const YamlNode& parameters,
+                                    const std::vector<std::string_view>& others) {
+    std::vector<std::string_view> keys = {"scenario", "set",       "seed",   "autopilot",
+                                          "hil",      "offboard",  "wait_s", "recording",
+                                          "result",   "when_over", "speed"};
+    keys.insert(keys.end(), others.begin(), others.end());
+    check_keys(parameters, keys);
+    using Autopilot = VehicleOptions::Autopilot;
+    using WhenOver = VehicleOptions::WhenOver;
+    VehicleOptions options;
+    options.scenario = scenario_of(parameters);
+    options.autopilot = choose<Autopilot>(parameters, "autopilot", {"builtin", Autopilot::builtin},
+                                          {"px4", Autopilot::px4});
+    options.hil = address(parameters, "hil", "tcp:127.0.0.1:4560");
+    options.offboard = address(parameters, "offboard", "udp:127.0.0.1:14540");
+    options.wait_s = number(parameters, "wait_s", 0.1, 86400.0, options.wait_s);
+    options.recording = text(parameters, "recording");
+    options.result = text(parameters, "result");
+    options.when_over = choose<WhenOver>(parameters, "when_over", {"pause", WhenOver::pause},
+                                         {"quit", WhenOver::quit});
+    options.speed = number(parameters, "speed", 0.0, kFastest, options.speed);
+    if (options.speed > 0.0 && options.speed < kSlowest) {
+        fail(*parameters.find("speed"),
+             fmt::format("{} is out of range, allowed 0 (as fast as it goes) or {}..{}",
+                         options.speed, kSlowest, kFastest));
+    }
+    if (options.autopilot == Autopilot::px4 && options.scenario.mount != Mount::free) {
+        fail(parameters, options.scenario.name + " hangs on a mount; a PX4 is for what flies");
+    }
+    return options;
+}
+
+}  // namespace limpet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "limpet/mavlink/address.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/scenario/yaml_tree.hpp"
+
+namespace limpet {
+
+/// Elements of LimpetVehiclePlugin, described in vehicle_plugin.hpp.
+struct VehicleOptions {
+    enum class Autopilot {
+        builtin,
+        px4,
+    };
+    enum class WhenOver {
+        quit,
+        pause,
+    };
+    Scenario scenario;
+    Autopilot autopilot = Autopilot::builtin;
+    TransportAddress hil;       ///< of px4
+    TransportAddress offboard;  ///< of px4, unless `hil` is serial
+    double wait_s = 60.0;       ///< for a PX4
+    std::filesystem::path recording;
+    std::filesystem::path result;
+    double speed = 0.0;
+    WhenOver when_over = WhenOver::pause;
+};
+
+/// @param parameters  of the plugin, see sdf_tree()
+/// @param others      keys that are read elsewhere
+/// @throws InputError in one line
+[[nodiscard]] VehicleOptions read_vehicle_options(const YamlNode& parameters,
+                                                  const std::vector<std::string_view>& others);
+
+}  // namespace limpet

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/vehicle_plugin.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <gazebo/transport/transport.hh>
+#include <utility>
+
+#include "gazebo/ode_messages.hpp"
+#include "gazebo/sdf_reader.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/simulation/flight_text.hpp"
+#include "limpet/simulation/result_json.hpp"
+
+namespace limpet {
+namespace {
+
+void say(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+}
+
+void write_result(const std::filesystem::path& path, const FlightResult& result) {
+    if (path.empty()) {
+        return;
+    }
+    std::ofstream file(path);
+    file << result_json(result) << "\n";
+    file.close();
+    if (!file) {
+        throw InputError("cannot write " + path.string());
+    }
+}
+
+void quit() {
+    gazebo::transport::NodePtr node(new gazebo::transport::Node());
+    node->Init();
+    const auto control = node->Advertise<gazebo::msgs::ServerControl>("/gazebo/server/control");
+    gazebo::msgs::ServerControl stop;
+    stop.set_stop(true);
+    control->Publish(stop, true);
+}
+
+}  // namespace
+
+VehiclePlugin::~VehiclePlugin() = default;
+
+void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/, const YamlNode& /*parameters*/,
+                            HostedFlight& /*flight*/) {}
+
+void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
+    load_or_end([&] {
+        const std::string name = sdf->Get<std::string>("filename");
+        configure(model, sdf_tree(sdf, {.place = "model " + model->GetName() + ": " + name,
+                                        .lists = {"set"},
+                                        .from_environment = {"scenario", "set", "seed", "autopilot",
+                                                             "hil", "offboard", "wait_s", "speed",
+                                                             "recording", "result", "when_over"}}));
+    });
+}
+
+void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& parameters) {
+    options_ = read_vehicle_options(parameters, more_elements());
+    world_ = model->GetWorld();
+    world_->Physics()->SetRealTimeUpdateRate(0.0);
+    count_solver_complaints();
+    HostedFlight flight;
+    flight.scenario = options_.scenario;
+    flight.recording = options_.recording;
+    flight.conduct.speed = options_.speed;
+    flight.conduct.on_obstacle = [](const std::string& obstacle) {
+        say("          " + (obstacle.empty() ? "armed" : obstacle));
+    };
+    flight.watch.on_event = [](const Event& event) { say(event_line(event)); };
+    prepare(model, parameters, flight);
+    if (options_.autopilot == VehicleOptions::Autopilot::px4) {
+        px4_ = std::make_unique<Px4Wires>(options_, say);
+        flight.conduct.outside.autopilot = &px4_->autopilot();
+    }
+    host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));
+    say(fmt::format("{}, seed {}: {}", options_.scenario.name, options_.scenario.seed,
+                    options_.scenario.description));
+    say(event_head());
+    on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
+        [this](const gazebo::common::UpdateInfo&) { load_or_end([this] { update(); }); });
+}
+
+void VehiclePlugin::update() {
+    host_->update();
+    if (host_->result() != nullptr && !told_) {
+        told_ = true;
+        end();
+    }
+}
+
+void VehiclePlugin::end() {
+    const FlightResult& result = *host_->result();
+    say("");
+    for (const std::string& line :
+         flight_summary(result, [](const std::string& text) { return text; })) {
+        say(line);
+    }
+    if (const long long complaints = take_solver_complaints(); complaints > 0) {
+        say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
+    }
+    write_result(options_.result, result);
+    world_->SetPaused(true);
+    if (options_.when_over == VehicleOptions::WhenOver::quit) {
+        quit();
+    }
+}
+
+void VehiclePlugin::Reset() {
+    load_or_end([this] { host_->restart(); });
+    told_ = false;
+}
+
+}  // namespace limpet

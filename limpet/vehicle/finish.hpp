@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace limpet {
+
+/// How a wall looks in pictures; the physics do not know it.
+enum class Finish {
+    concrete,
+    blocks,
+    gel_coat,
+    steel
+};
+
+/// By words in the surface's name; concrete when there is none.
+[[nodiscard]] Finish finish_of(std::string_view surface);
+
+/// Of the box that stands for the wall, behind its face. The same in every engine.
+inline constexpr double kWallThickness_m = 0.2;
+
+}  // namespace limpet
