@@ -223,10 +223,10 @@ PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate
 }
 
 bool rest_on(PerchingMemory& memory, double time_s) {
-    if (memory.state != finished || memory.setpoint.armed || !memory.has_perched) {
+    if (memory.state != PerchingState::finished || memory.setpoint.armed || !memory.has_perched) {
         return false;
     }
-    memory.state = resting;
+    memory.state = PerchingState::resting;
     memory.since_s = time_s;
     memory.settled_since_s = -1.0;
     memory.ending.reset();
@@ -234,7 +234,7 @@ bool rest_on(PerchingMemory& memory, double time_s) {
 }
 
 bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory, double time_s) {
-    if (!rest_on(memory, time_s) && memory.state != resting) {
+    if (!rest_on(memory, time_s) && memory.state != PerchingState::resting) {
         return false;
     }
     memory.since_s = time_s - parameters.rest_s;
