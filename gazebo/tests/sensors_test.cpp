@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gazebo/sensors/sensors.hh>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "gazebo/flight_host.hpp"
@@ -53,7 +54,8 @@ protected:
         GazeboWorld text = world_of(flight.scenario, "perch_concrete", {});
         text.vehicles.front().plugin.reset();
         text.sensors = gazebo_sensors(flight.scenario.sensors);
-        world = server.load(write_world(flight.scenario.airframe, text));
+        server.emplace(write_world(flight.scenario.airframe, text));
+        world = server->world();
         vehicle = world->ModelByName(flight.scenario.airframe.name);
         gazebo::sensors::run_once(true);
         gazebo::sensors::run_threads();
@@ -189,7 +191,7 @@ protected:
                    off.rate_Hz, off.count, off.rms, off.largest, unit);
     }
 
-    testing::Server server;
+    std::optional<GazeboServer> server;
     HostedFlight flight;
     gazebo::physics::WorldPtr world;
     gazebo::physics::ModelPtr vehicle;
