@@ -22,7 +22,8 @@ FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
                             .cup = called(airframe, "cup"),
                             .slider = called(airframe, "slider")};
     const auto plant = std::make_shared<const GazeboModel>(
-        std::move(vehicle), flight_.scenario, [this] { (*to_gazebo_)(); }, names);
+        std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
+    flight_.conduct.stop = &interrupted_;
     model_ = build_model(flight_.scenario, [&plant](const std::string&) { return plant; });
 }
 
@@ -39,6 +40,17 @@ void FlightHost::update() {
     }
     if (failure_) {
         std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
+}
+
+void FlightHost::interrupt() {
+    interrupted_ = true;
+    update();
+}
+
+void FlightHost::wait_for_gazebo() {
+    if (!interrupted_) {
+        (*to_gazebo_)();
     }
 }
 

@@ -30,7 +30,7 @@ TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
     EXPECT_LE(width(all.out), 100U);
     for (const char* verb : {"fly", "check", "list", "params", "px4-params", "plot", "film", "csv",
                              "export", "campaign", "replay", "summary", "rotor", "identify",
-                             "reproduce", "companion", "sim-io", "stand-in"}) {
+                             "reproduce", "companion", "sim-io", "stand-in", "compare"}) {
         const Finished help = bench.run({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("--help"));
