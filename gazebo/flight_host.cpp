@@ -20,7 +20,8 @@ FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     const GazeboNames names{.base = called(airframe, "base"),
                             .carriage = called(airframe, "carriage"),
                             .cup = called(airframe, "cup"),
-                            .slider = called(airframe, "slider")};
+                            .slider = called(airframe, "slider"),
+                            .hinges = {called(airframe, "cup_pitch"), called(airframe, "cup_yaw")}};
     const auto plant = std::make_shared<const GazeboModel>(
         std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
     flight_.conduct.stop = &interrupted_;
