@@ -67,12 +67,12 @@ std::vector<Link> make_links(const Airframe& airframe) {
                      .joint = slider_joint(airframe)});
     links.push_back({.name = "cup_yoke",
                      .p_BF_m = joint_B_m,
-                     .inertia = airframe.cad ? airframe.cad->cup_yoke : share_of(cup, kYokeShare),
+                     .inertia = share_of(cup, kYokeShare),
                      .parent = "carriage",
                      .joint = cup_pitch_joint(airframe)});
     links.push_back({.name = "cup",
                      .p_BF_m = joint_B_m,
-                     .inertia = airframe.cad ? airframe.cad->cup : share_of(cup, 1.0 - kYokeShare),
+                     .inertia = share_of(cup, 1.0 - kYokeShare),
                      .parent = "cup_yoke",
                      .joint = cup_yaw_joint(airframe)});
     return links;

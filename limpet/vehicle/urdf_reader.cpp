@@ -223,7 +223,7 @@ private:
         joint.type = node.attribute("type").value();
         read_origin(node, joint.p_m, joint.q);
         for (const auto& [key, to] :
-             {std::pair{"parent", &joint.parent}, {"child", &joint.child}}) {
+             {std::pair{"parent", &joint.parent}, std::pair{"child", &joint.child}}) {
             *to = node.child(key).attribute("link").value();
             if (robot_.link(*to) == nullptr) {
                 fail(node, fmt::format("joint \"{}\": its {} \"{}\" is no link of this file",
