@@ -15,7 +15,8 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
     const auto plant = std::make_shared<const GazeboModel>(std::move(vehicle), flight_.scenario,
-                                                           [this] { (*to_gazebo_)(); });
+                                                           [this] { wait_for_gazebo(); });
+    flight_.conduct.stop = &interrupted_;
     model_ = build_model(flight_.scenario, [&plant](const std::string&) { return plant; });
 }
 
@@ -32,6 +33,17 @@ void FlightHost::update() {
     }
     if (failure_) {
         std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
+}
+
+void FlightHost::interrupt() {
+    interrupted_ = true;
+    update();
+}
+
+void FlightHost::wait_for_gazebo() {
+    if (!interrupted_) {
+        (*to_gazebo_)();
     }
 }
 

@@ -42,17 +42,27 @@ physics::LinkPtr find_link(const physics::Model& model, const std::string& name)
     return found;
 }
 
-physics::JointPtr find_slider(physics::Model& model, const std::string& name) {
+physics::JointPtr find_joint(physics::Model& model, const std::string& name,
+                             physics::Base::EntityType type, const char* kind) {
     const physics::JointPtr found = model.GetJoint(name);
     if (found == nullptr) {
         throw InputError(fmt::format("model \"{}\" has no joint \"{}\", which perching needs",
                                      model.GetName(), name));
     }
-    if (!found->HasType(physics::Base::SLIDER_JOINT)) {
+    if (!found->HasType(type)) {
         throw InputError(
-            fmt::format("joint \"{}\" of model \"{}\" is not prismatic", name, model.GetName()));
+            fmt::format("joint \"{}\" of model \"{}\" is not {}", name, model.GetName(), kind));
     }
     return found;
+}
+
+/// Explicit springs and dampers of ODE are not stable on a light cup.
+void check_hinge(physics::Joint& hinge, const std::string& name) {
+    if (!(hinge.GetStiffness(0) > 0.0 && hinge.GetDamping(0) > 0.0)) {
+        throw InputError(fmt::format(
+            "joint \"{}\" has no spring and damper, which perching needs; export the model anew",
+            name));
+    }
 }
 
 void check_gravity(const physics::World& world) {
@@ -113,7 +123,11 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, Ne
     if (airframe.has_cup) {
         links_[1] = find_link(*vehicle_, names.carriage);
         links_[2] = find_link(*vehicle_, names.cup);
-        slider_ = find_slider(*vehicle_, names.slider);
+        slider_ = find_joint(*vehicle_, names.slider, physics::Base::SLIDER_JOINT, "prismatic");
+        for (const std::string& name : names.hinges) {
+            hinges_.push_back(find_joint(*vehicle_, name, physics::Base::HINGE_JOINT, "revolute"));
+            check_hinge(*hinges_.back(), name);
+        }
         slider_->SetLowerLimit(0, -kFree_m);
         slider_->SetUpperLimit(0, kFree_m);
         lip_F_m_ = {airframe.cup.lip_offset_m, 0.0, 0.0};
@@ -126,6 +140,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, Ne
     check_gravity(*world_);
     check_mass(*vehicle_, airframe);
     check_wall(*ray_, scenario);
+    first_ = GazeboPlant::state_of(*vehicle_);
 }
 
 }  // namespace limpet

@@ -29,7 +29,9 @@ constexpr std::size_t kValuesALink = 13;
 }  // namespace
 
 std::unique_ptr<Plant> GazeboModel::make() const {
-    return std::make_unique<GazeboPlant>(shared_from_this());
+    auto plant = std::make_unique<GazeboPlant>(shared_from_this());
+    plant->restore(first_);
+    return plant;
 }
 
 GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model) : model_(std::move(model)) {}
@@ -52,16 +54,27 @@ void GazeboPlant::apply_slider(double force_N) {
 }
 
 void GazeboPlant::step(const StepMode& mode) {
-    physics::PhysicsEngine& engine = *model_->engine_;
-    const double before_s = engine.GetMaxStepSize();
-    if (before_s != mode.step_s) {
-        // The world has added the old length to its clock already.
-        engine.SetMaxStepSize(mode.step_s);
-        model_->world_->SetSimTime(model_->world_->SimTime() +
-                                   gazebo::common::Time(mode.step_s - before_s));
+    if (model_->engine_->GetMaxStepSize() != mode.step_s) {
+        set_step(mode.step_s);
     }
     model_->next_();
     require_healthy();
+}
+
+void GazeboPlant::set_step(double step_s) {
+    physics::PhysicsEngine& engine = *model_->engine_;
+    // The world has added the old length to its clock already.
+    const double more_s = step_s - engine.GetMaxStepSize();
+    engine.SetMaxStepSize(step_s);
+    model_->world_->SetSimTime(model_->world_->SimTime() + gazebo::common::Time(more_s));
+    // An implicit spring and damper is a soft stop whose softness goes with the step; Gazebo sets
+    // it once and for all.
+    for (const physics::JointPtr& hinge : model_->hinges_) {
+        const double spring = step_s * hinge->GetStiffness(0);
+        const double softness = 1.0 / (spring + hinge->GetDamping(0));
+        hinge->SetParam("stop_erp", 0, spring * softness);
+        hinge->SetParam("stop_cfm", 0, softness);
+    }
 }
 
 void GazeboPlant::require_healthy() const {
@@ -137,8 +150,12 @@ Vector3 GazeboPlant::contact_force_W() const {
 }
 
 PlantState GazeboPlant::save() const {
+    return state_of(*model_->vehicle_);
+}
+
+PlantState GazeboPlant::state_of(const physics::Model& vehicle) {
     PlantState state;
-    for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
+    for (const physics::LinkPtr& part : vehicle.GetLinks()) {
         const Pose3d pose = part->WorldPose();
         const Vector3d speed = part->WorldLinearVel();
         const Vector3d rate = part->WorldAngularVel();

@@ -6,6 +6,7 @@
 #include <gazebo/physics/physics.hh>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
@@ -18,6 +19,7 @@ struct GazeboNames {
     std::string carriage = "carriage";
     std::string cup = "cup";
     std::string slider = "slider";
+    std::array<std::string, 2> hinges = {"cup_pitch", "cup_yaw"};
 };
 
 /// A vehicle that stands in a Gazebo world, with ODE as its engine. One world has one plant.
@@ -36,6 +38,7 @@ public:
     GazeboModel(gazebo::physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
                 const GazeboNames& names = {});
 
+    /// A plant in the state in which the model was found.
     [[nodiscard]] std::unique_ptr<Plant> make() const override;
 
 private:
@@ -46,9 +49,11 @@ private:
     gazebo::physics::PhysicsEnginePtr engine_;
     std::array<gazebo::physics::LinkPtr, 3> links_;  ///< by Body; a plain vehicle has the first
     gazebo::physics::JointPtr slider_;               ///< null: no cup
+    std::vector<gazebo::physics::JointPtr> hinges_;
     gazebo::physics::RayShapePtr ray_;
     Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
     NextUpdate next_;
+    PlantState first_;
 };
 
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
@@ -56,6 +61,8 @@ private:
 class GazeboPlant final : public Plant {
 public:
     explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
+    /// Poses and speeds of all links of a model: what save() gives.
+    [[nodiscard]] static PlantState state_of(const gazebo::physics::Model& vehicle);
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
     void apply_slider(double force_N) override;
@@ -75,6 +82,7 @@ public:
 
 private:
     [[nodiscard]] const gazebo::physics::LinkPtr& link(Body body) const;
+    void set_step(double step_s);
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;

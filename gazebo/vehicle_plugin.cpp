@@ -8,6 +8,7 @@
 #include <gazebo/transport/transport.hh>
 #include <utility>
 
+#include "gazebo/ode_messages.hpp"
 #include "gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
@@ -44,7 +45,13 @@ void quit() {
 
 }  // namespace
 
-VehiclePlugin::~VehiclePlugin() = default;
+VehiclePlugin::~VehiclePlugin() {
+    on_update_.reset();
+    if (host_ != nullptr && host_->under_way()) {
+        host_->interrupt();
+        say("interrupted; the recording is whole up to here");
+    }
+}
 
 void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/, const YamlNode& /*parameters*/,
                             HostedFlight& /*flight*/) {}
@@ -64,6 +71,7 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
     options_ = read_vehicle_options(parameters, more_elements());
     world_ = model->GetWorld();
     world_->Physics()->SetRealTimeUpdateRate(0.0);
+    count_solver_complaints();
     HostedFlight flight;
     flight.scenario = options_.scenario;
     flight.recording = options_.recording;
@@ -86,8 +94,12 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
 }
 
 void VehiclePlugin::update() {
+    if (told_) {
+        world_->SetPaused(true);  // nothing flies it any more; a world reset begins anew
+        return;
+    }
     host_->update();
-    if (host_->result() != nullptr && !told_) {
+    if (host_->result() != nullptr) {
         told_ = true;
         end();
     }
@@ -99,6 +111,9 @@ void VehiclePlugin::end() {
     for (const std::string& line :
          flight_summary(result, [](const std::string& text) { return text; })) {
         say(line);
+    }
+    if (const long long complaints = take_solver_complaints(); complaints > 0) {
+        say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
     }
     write_result(options_.result, result);
     world_->SetPaused(true);

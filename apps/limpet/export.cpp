@@ -29,7 +29,7 @@ struct ExportOptions {
     std::vector<std::string> overrides;
     bool sensors = false;
     std::string camera;
-    std::string view = "quarter";
+    std::string view = "overview";
     double camera_rate_Hz = 10.0;
     std::string out;
 };
@@ -100,18 +100,35 @@ GazeboWorld world_for(const ExportOptions& options, const Subject& subject, cons
     return showroom(subject.airframe, {load_surface(options.wall, root)});
 }
 
-std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+GazeboWorld furnished_world(const ExportOptions& options, const Subject& subject,
+                            const fs::path& root) {
     GazeboWorld world = world_for(options, subject, root);
+    world.textures = !options.out.empty();
     if (options.sensors) {
         world.sensors =
             gazebo_sensors(subject.scenario ? subject.scenario->sensors : SensorParameters{});
     }
     if (!options.camera.empty()) {
-        const bool side = options.view == "side" && !world.walls.empty();
+        const WallScene wall = world.walls.empty() ? WallScene{} : world.walls.front().face;
         world.camera =
-            GazeboCamera{.view = side ? side_view(world.walls.front().face) : world.user_view,
+            GazeboCamera{.view = options.view == "side"      ? side_view(wall)
+                                 : options.view == "quarter" ? quarter_view(wall)
+                                                             : world.user_view,
                          .folder = fs::absolute(options.camera).lexically_normal().string(),
                          .rate_Hz = options.camera_rate_Hz};
+    }
+    return world;
+}
+
+/// The looks first: a world is there only with all that it needs.
+std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+    const GazeboWorld world = furnished_world(options, subject, root);
+    if (world.textures) {
+        for (const WorldFile& file : write_wall_looks(world)) {
+            const fs::path path = fs::absolute(options.out).parent_path() / file.path;
+            make_folder(path.parent_path());
+            write_file(path, file.bytes);
+        }
     }
     return write_world(subject.airframe, world);
 }
@@ -135,9 +152,10 @@ void add_world_options(CLI::App& verb, ExportOptions& options) {
     verb.add_option("--camera", options.camera,
                     "world only: a camera saves its frames in this folder")
         ->type_name("FOLDER");
-    verb.add_option("--view", options.view, "of the camera: quarter or side (default: quarter)")
+    verb.add_option("--view", options.view,
+                    "of the camera: overview, quarter or side (default: overview)")
         ->type_name("VIEW")
-        ->check(CLI::IsMember({"quarter", "side"}));
+        ->check(CLI::IsMember({"overview", "quarter", "side"}));
     verb.add_option("--camera-rate", options.camera_rate_Hz, "frames a second (default: 10)")
         ->type_name("HZ")
         ->check(between(0.1, 1000.0));
@@ -148,7 +166,7 @@ void add_world_options(CLI::App& verb, ExportOptions& options) {
 void add_export(CLI::App& app) {
     auto options = std::make_shared<ExportOptions>();
     CLI::App* verb = app.add_subcommand(
-        "export", "Write a vehicle as a MuJoCo, Gazebo or URDF model, or a world for Gazebo");
+        "export", "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo");
     verb->add_option("name", options->wanted,
                      "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
                      "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface")
@@ -164,7 +182,10 @@ void add_export(CLI::App& app) {
         ->expected(1)
         ->take_all();
     add_world_options(*verb, *options);
-    verb->add_option("--out", options->out, "file (default: standard output)")->type_name("FILE");
+    verb->add_option("--out", options->out,
+                     "file (default: standard output); a world's textures go in\nmaterials/ beside "
+                     "it: its folder belongs on GAZEBO_RESOURCE_PATH")
+        ->type_name("FILE");
     verb->callback([options, verb] {
         const bool world = options->format == "world";
         only_with(*verb, world, {"--sensors", "--camera"}, "--format world");

@@ -48,6 +48,7 @@ void add_verbs(CLI::App& app, ExitCode& code) {
     add_plot(app);
     add_film(app);
     add_csv(app);
+    add_compare(app, code);
     add_export(app);
     add_rotor(app);
     add_stand_in(app);

@@ -25,6 +25,7 @@ void add_px4_params(CLI::App& app);
 void add_plot(CLI::App& app);
 void add_film(CLI::App& app);
 void add_csv(CLI::App& app);
+void add_compare(CLI::App& app, ExitCode& code);
 void add_export(CLI::App& app);
 void add_campaign(CLI::App& app, ExitCode& code);
 void add_replay(CLI::App& app);

@@ -5,9 +5,9 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/report/mjcf.hpp"
 #include "limpet/report/offscreen.hpp"
 
 namespace limpet {
@@ -44,31 +44,9 @@ private:
     void (*warning_)(const char*);
 };
 
-struct DeleteModel {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
 struct DeleteData {
     void operator()(mjData* data) const { mj_deleteData(data); }
 };
-
-std::unique_ptr<mjModel, DeleteModel> compile(const std::string& mjcf) {
-    constexpr const char* kName = "model.xml";
-    const auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    if (mjcf.empty() ||
-        mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
-        throw InputError("model.xml: empty, or too large");
-    }
-    std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], mjcf.data(), mjcf.size());
-    char message[1000] = "";
-    std::unique_ptr<mjModel, DeleteModel> model(
-        mj_loadXML(kName, files.get(), message, sizeof message));
-    mj_deleteVFS(files.get());
-    if (!model) {
-        throw InputError(fmt::format("model.xml: {}", message));
-    }
-    return model;
-}
 
 /// @return address in qpos, or -1
 int joint_address(const mjModel& model, const char* name) {
@@ -111,7 +89,7 @@ Image shrunk(const Pixels& large, int width_px, int height_px) {
 struct Stage::Parts {
     ErrorHooks hooks;
     OffscreenContext screen;
-    std::unique_ptr<mjModel, DeleteModel> model;
+    MujocoModel model;
     std::unique_ptr<mjData, DeleteData> data;
     mjvScene scene;
     mjrContext renderer;
@@ -120,7 +98,7 @@ struct Stage::Parts {
     int height_px;
 
     Parts(const std::string& mjcf, int width, int height)
-        : model(compile(mjcf)), width_px(width), height_px(height) {
+        : model(compile_mjcf(mjcf)), width_px(width), height_px(height) {
         (void)base_address(*model);
         model->vis.global.offwidth = kOversampling * width;
         model->vis.global.offheight = kOversampling * height;

@@ -18,7 +18,7 @@ GazeboWorld world_of(const Scenario& scenario, const std::string& wanted,
                               .q_WB = attitude(scenario.start),
                               .is_static = false,
                               .plugin = VehiclePlugin{.scenario = wanted, .sets = sets}});
-    world.user_view = quarter_view(scene.wall);
+    world.user_view = overview(scene.wall);
     return world;
 }
 
@@ -56,9 +56,9 @@ GazeboWorld showroom(const Airframe& airframe, const std::vector<Surface>& surfa
     }
     // Far enough that the row fills the picture's width, from behind its left shoulder.
     const double row_m = kPitch_m * static_cast<double>(surfaces.size());
-    world.user_view = {.from = {-0.75 * row_m - 0.4, 0.3 * row_m + 0.4, 0.10 * row_m + 0.5},
-                       .at = {0.25, 0.0, -0.1},
-                       .fovy_deg = 40.0};
+    world.user_view = {.from = {-0.95 * row_m - 0.7, 0.28 * row_m + 0.45, 0.10 * row_m + 0.45},
+                       .at = {0.25, 0.065 * row_m, -0.10},
+                       .fovy_deg = 36.0};
     return world;
 }
 

@@ -58,7 +58,18 @@ struct GazeboWorld {
     std::optional<GazeboSensors> sensors;  ///< on every vehicle that is not static
     std::optional<GazeboCamera> camera;
     Viewpoint user_view;  ///< of Gazebo's window
+    /// Walls have the textures of write_wall_looks(), else plain colours.
+    bool textures = false;
 };
+
+/// A file that stands beside a world with textures: gzserver finds it when the world's folder is on
+/// GAZEBO_RESOURCE_PATH, and shows the walls white without.
+struct WorldFile {
+    std::string path;  ///< relative to the world's folder
+    std::string bytes;
+};
+/// Material scripts and textures of the world's walls.
+[[nodiscard]] std::vector<WorldFile> write_wall_looks(const GazeboWorld& world);
 
 /// SDF 1.6: ODE, lights, ground, walls, vehicles. World axes: x north, y west, z up, W's origin.
 /// The walls do not move; what a plugin attaches to them, stays.

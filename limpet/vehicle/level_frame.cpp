@@ -30,4 +30,9 @@ Viewpoint quarter_view(const WallScene& wall) {
     return {level.point(-2.3, -1.7, 0.8), level.point(-0.5, 0.0, -0.05), 40.0};
 }
 
+Viewpoint overview(const WallScene& wall) {
+    const LevelFrame level = level_frame(wall);
+    return {level.point(-4.3, -1.9, 1.0), level.point(-0.9, 0.0, -0.15), 34.0};
+}
+
 }  // namespace limpet

@@ -27,5 +27,7 @@ struct Viewpoint {
 [[nodiscard]] Viewpoint side_view(const WallScene& wall);
 /// From behind the vehicle's shoulder.
 [[nodiscard]] Viewpoint quarter_view(const WallScene& wall);
+/// From further behind: what starts over 2 m before the wall is in it too.
+[[nodiscard]] Viewpoint overview(const WallScene& wall);
 
 }  // namespace limpet

@@ -5,7 +5,8 @@ namespace limpet {
 
 namespace {
 
-constexpr double kYokeShare = 0.2;
+/// Turning it takes nothing noticeable from the cup, whose inertia decides which step is stable.
+constexpr double kYokeShare = 0.02;
 
 BodyInertia share_of(BodyInertia body, double share) {
     body.mass_kg *= share;

@@ -41,7 +41,7 @@ struct Link {
 };
 
 /// base; with a cup also carriage, cup_yoke and cup, parents first. The yoke between the two hinges
-/// is a fifth of the cup: engines with hard joints cannot have a massless one.
+/// is a fiftieth of the cup: engines with hard joints cannot have a massless one.
 [[nodiscard]] std::vector<Link> make_links(const Airframe& airframe);
 
 }  // namespace limpet

@@ -62,7 +62,23 @@ TEST(BadInput, UnknownSurfaceAndVehicle) {
                    {"steel", "metal"});
     expect_refused(bench, {"fly", "hover", "--set", "vehicle=perching_uva"},
                    {"perching_uva", "perching_uav"});
-    expect_refused(bench, {"export", "nothing"}, {"nothing", "iris"});
+    expect_refused(bench, {"export", "nothing"}, {"nothing", "iris", "perch_concrete"});
+}
+
+TEST(BadInput, ExportRefusesOptionsThatWouldDoNothing) {
+    const Bench bench;
+    expect_refused(bench, {"export", "perching_uav", "--sensors"}, {"--sensors", "--format world"});
+    expect_refused(bench, {"export", "perching_uav", "--format", "sdf", "--wall", "metal"},
+                   {"--wall", "world"});
+    expect_refused(bench, {"export", "perching_uav", "--format", "world", "--view", "side"},
+                   {"--view", "--camera"});
+    expect_refused(bench, {"export", "perch_metal", "--format", "world", "--wall", "metal"},
+                   {"--wall", "vehicle"});
+    expect_refused(bench, {"export", "perching_uav", "--set", "wall.surface=metal"},
+                   {"--set", "scenario"});
+    expect_refused(bench, {"export", "perching_uav", "--format", "world", "--wall", "steel"},
+                   {"steel", "metal"});
+    expect_refused(bench, {"export", "perching_uav", "--format", "wrold"}, {"wrold", "world"});
 }
 
 TEST(BadInput, ADirectoryAndAnEmptyFile) {

@@ -11,6 +11,7 @@ namespace limpet {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Letters of the longest line.
 std::size_t width(const std::string& text) {
@@ -29,7 +30,7 @@ TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
     EXPECT_LE(width(all.out), 100U);
     for (const char* verb : {"fly", "check", "list", "params", "px4-params", "plot", "film", "csv",
                              "export", "campaign", "replay", "summary", "rotor", "identify",
-                             "reproduce", "companion", "sim-io", "stand-in"}) {
+                             "reproduce", "companion", "sim-io", "stand-in", "compare"}) {
         const Finished help = bench.run({verb, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.out, HasSubstr("--help"));
@@ -75,6 +76,33 @@ TEST(Verbs, ExportsEveryFormat) {
     ASSERT_EQ(bench.run({"export", "perching_uav", "--wall", "metal", "--out", "a.xml"}).exit_code,
               0);
     EXPECT_THAT(text_of(bench.folder() / "a.xml"), HasSubstr("wall"));
+}
+
+TEST(Verbs, ExportsAWorldWithWhatStandsBesideIt) {
+    const Bench bench;
+    const Finished plain = bench.run(
+        {"export", "perch_metal", "--format", "world", "--set", "suction.valve_fitted=1"});
+    EXPECT_EQ(plain.exit_code, 0) << plain.err;
+    EXPECT_THAT(plain.out, HasSubstr("<scenario>perch_metal</scenario>"));
+    EXPECT_THAT(plain.out, HasSubstr("<set>suction.valve_fitted=1</set>"));
+    EXPECT_THAT(plain.out, Not(HasSubstr("file://materials")));
+    EXPECT_TRUE(bench.files().empty());
+    ASSERT_EQ(bench
+                  .run({"export", "perching_uav", "--format", "world", "--wall", "metal",
+                        "--camera", "frames", "--out", "room.world"})
+                  .exit_code,
+              0);
+    EXPECT_THAT(bench.files(),
+                testing::IsSupersetOf({"room.world", "materials/scripts/showroom.material",
+                                       "materials/textures/limpet_steel.tga"}));
+    const std::string room = text_of(bench.folder() / "room.world");
+    EXPECT_THAT(room, HasSubstr("wall_metal"));
+    EXPECT_THAT(room, Not(HasSubstr("wall_cinder_block")));
+    EXPECT_THAT(room, HasSubstr((bench.folder() / "frames").string()));
+    // A file of one's own is named so that a gzserver finds it from anywhere.
+    (void)bench.write("mine.yaml", "mission: hover\nvehicle: perching_uav\n");
+    EXPECT_THAT(bench.run({"export", "mine.yaml", "--format", "world"}).out,
+                HasSubstr("<scenario>" + (bench.folder() / "mine.yaml").string()));
 }
 
 TEST(Verbs, FilmDrawsTheManoeuvre) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/compare.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/report/compare_figures.hpp"
+#include "limpet/report/compare_text.hpp"
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace limpet::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareOptions {
+    std::vector<std::string> recordings;
+    std::vector<std::string> labels;
+    std::vector<std::string> limits;
+    std::string align = "events";
+    std::string out;
+    bool json = false;
+    bool markdown = false;
+};
+
+Alignment alignment_of(const std::string& text) {
+    if (text == "events") {
+        return {};
+    }
+    return text == "start" ? Alignment{.by = Alignment::By::start}
+                           : Alignment{.by = Alignment::By::event, .event = text};
+}
+
+/// What the flights are called: as told; else by their folders where those tell them apart; else by
+/// their files.
+std::vector<std::string> labels_of(const CompareOptions& options) {
+    if (!options.labels.empty()) {
+        if (options.labels.size() != options.recordings.size()) {
+            throw InputError(fmt::format("--label: {} for {} recordings; give one a recording",
+                                         options.labels.size(), options.recordings.size()));
+        }
+        return options.labels;
+    }
+    std::vector<std::string> folders;
+    for (const std::string& path : options.recordings) {
+        folders.push_back(fs::path(path).parent_path().filename().string());
+    }
+    const std::set<std::string> distinct(folders.begin(), folders.end());
+    return distinct.size() == folders.size() && distinct.count("") == 0 ? folders
+                                                                        : options.recordings;
+}
+
+/// @throws InputError for a damaged one: half a flight is no measure of another
+Recording whole_recording(const std::string& path) {
+    Recording recording = read_recording(path);
+    if (!recording.damage.empty()) {
+        throw InputError(path + ": " + recording.damage);
+    }
+    if (recording.tables.empty()) {
+        throw InputError(path + ": no messages in it");
+    }
+    return recording;
+}
+
+void print_text(const std::vector<FlightComparison>& comparisons,
+                const std::vector<Excess>& checked) {
+    for (const FlightComparison& comparison : comparisons) {
+        fmt::print("{}{}", &comparison == &comparisons.front() ? "" : "\n",
+                   comparison_text(comparison));
+    }
+    fmt::print("{}{}", checked.empty() ? "" : "\n", limits_text(checked));
+}
+
+ExitCode compare_flights(const CompareOptions& options) {
+    const std::vector<std::string> labels = labels_of(options);
+    std::vector<DifferenceLimit> limits;
+    std::transform(options.limits.begin(), options.limits.end(), std::back_inserter(limits),
+                   parse_limit);
+    std::vector<Recording> recordings;
+    std::transform(options.recordings.begin(), options.recordings.end(),
+                   std::back_inserter(recordings), whole_recording);
+    StateNumbers numbers;
+    std::vector<FlightTrace> others;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        others.push_back({&recordings[i], labels[i], flight_channels(recordings[i], numbers)});
+    }
+    const FlightTrace reference = std::move(others.front());
+    others.erase(others.begin());
+    std::vector<FlightComparison> comparisons;
+    for (const FlightTrace& other : others) {
+        comparisons.push_back(compare(reference, other, alignment_of(options.align)));
+    }
+    const std::vector<Excess> checked = check_limits(comparisons, limits);
+
+    if (options.json) {
+        fmt::print("{}\n", comparison_json(comparisons, checked));
+    } else if (options.markdown) {
+        fmt::print("{}", comparison_markdown(comparisons));
+    } else {
+        print_text(comparisons, checked);
+    }
+    if (!options.out.empty()) {
+        const fs::path folder = make_folder(options.out);
+        const Pictures pictures = draw_comparison(reference, others, comparisons, folder);
+        write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
+        for (const fs::path& file : pictures.files) {
+            if (!options.json && !options.markdown) {
+                fmt::print("{}\n", file.string());
+            }
+        }
+    }
+    bool exceeded = false;
+    for (const Excess& check : checked) {
+        if (check.exceeded()) {
+            exceeded = true;
+            fmt::print(stderr, "limpet: {}", limits_text({check}));
+        }
+    }
+    return exceeded ? ExitCode::other_outcome : ExitCode::ok;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, ExitCode& code) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* verb = app.add_subcommand(
+        "compare", "Lay flights over each other and tell how far they differ from the first");
+    verb->add_option("recordings", options->recordings, "the reference, then the others (.mcap)")
+        ->required()
+        ->expected(2, 16)
+        ->type_name("RECORDING");
+    verb->add_option("--align", options->align,
+                     "events: each stretch at its own event; start; or the name of one event")
+        ->type_name("HOW")
+        ->capture_default_str();
+    verb->add_option("--label", options->labels, "what a flight is called, in the order given")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    verb->add_option("--limit", options->limits,
+                     "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
+                     "contact_pressure_hPa")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    verb->add_option("--out", options->out, "folder for figures and compare.json")
+        ->type_name("DIR");
+    CLI::Option* json = verb->add_flag("--json", options->json, "one JSON object");
+    verb->add_flag("--markdown", options->markdown, "a table, a column a flight")->excludes(json);
+    verb->footer(
+        "Values are compared at the reference's samples, the other flight's read between its own;\n"
+        "never over a gap. What one flight has longer between two events is left out, and said.\n"
+        "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or damaged.\n");
+    verb->callback([options, &code] { code = compare_flights(*options); });
+}
+
+}  // namespace limpet::app

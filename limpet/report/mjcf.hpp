@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+namespace limpet {
+
+struct DeleteModel {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
+
+/// The model.xml of a recording, compiled.
+/// @throws InputError with MuJoCo's words
+[[nodiscard]] MujocoModel compile_mjcf(const std::string& mjcf);
+
+}  // namespace limpet
