@@ -32,7 +32,9 @@ free_port() {
     return 1
 }
 
+set +u  # Gazebo's own script does not care
 . /usr/share/gazebo/setup.sh
+set -u
 plugins=build/bullseye
 export GAZEBO_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
 export GAZEBO_PLUGIN_PATH=$PWD/$plugins:$GAZEBO_PLUGIN_PATH
@@ -68,7 +70,7 @@ while IFS= read -r line; do
 done <&"${server[0]}"
 wait "$pid"
 code=$?
-children=("${children[@]/$pid/}")
+unset "children[-1]"
 case $code in
     0) ;;
     124 | 137) say "limpet: gzserver did not end within $time_limit s (--time-limit); $log"; exit 1 ;;
