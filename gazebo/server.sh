@@ -38,7 +38,7 @@ set -u
 plugins=build/bullseye
 export GAZEBO_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
 export GAZEBO_PLUGIN_PATH=$PWD/$plugins:$GAZEBO_PLUGIN_PATH
-export GAZEBO_RESOURCE_PATH=$PWD/gazebo:$GAZEBO_RESOURCE_PATH
+export GAZEBO_RESOURCE_PATH=${world%/*}:$GAZEBO_RESOURCE_PATH  # materials stand beside the world
 port=$(free_port $((12000 + RANDOM % 8000))) || { say "limpet: no free port for Gazebo's master"; exit 1; }
 export GAZEBO_MASTER_URI=http://127.0.0.1:$port
 
@@ -63,10 +63,7 @@ children+=("$server_PID")
 pid=$server_PID
 while IFS= read -r line; do
     printf '%s\n' "$line"
-    case $line in
-        *perched*) touch "$out/.perched" ;;
-        *motors_on*) touch "$out/.motors_on" ;;
-    esac
+    [[ $line =~ ^\ +[0-9.]+\ +(perched|motors_on)\  ]] && touch "$out/.${BASH_REMATCH[1]}"
 done <&"${server[0]}"
 wait "$pid"
 code=$?
