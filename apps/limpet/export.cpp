@@ -28,6 +28,7 @@ struct ExportOptions {
     std::string wall;
     std::vector<std::string> overrides;
     bool sensors = false;
+    bool ros = false;
     std::string camera;
     std::string view = "overview";
     double camera_rate_Hz = 10.0;
@@ -92,7 +93,13 @@ std::string lasting(const std::string& wanted) {
 
 GazeboWorld world_for(const ExportOptions& options, const Subject& subject, const fs::path& root) {
     if (subject.scenario) {
-        return world_of(*subject.scenario, lasting(options.wanted), options.overrides);
+        GazeboWorld world = world_of(*subject.scenario, lasting(options.wanted), options.overrides);
+        world.vehicles.front().plugin->ros = options.ros;
+        return world;
+    }
+    if (options.ros) {
+        throw InputError("--ros is of use only with a scenario: '" + options.wanted +
+                         "' is a vehicle");
     }
     if (options.wall.empty()) {
         return showroom(subject.airframe, load_surfaces(root));
@@ -149,6 +156,8 @@ std::string model_text(const ExportOptions& options) {
 void add_world_options(CLI::App& verb, ExportOptions& options) {
     verb.add_flag("--sensors", options.sensors,
                   "world only: Gazebo's own LiDARs, IMU, contacts and slider force");
+    verb.add_flag("--ros", options.ros,
+                  "world of a scenario only: flown over ROS topics (ros/README.md)");
     verb.add_option("--camera", options.camera,
                     "world only: a camera saves its frames in this folder")
         ->type_name("FOLDER");
@@ -165,8 +174,8 @@ void add_world_options(CLI::App& verb, ExportOptions& options) {
 
 void add_export(CLI::App& app) {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "export", "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo");
+    CLI::App* verb =
+        app.add_subcommand("export", "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo");
     verb->add_option("name", options->wanted,
                      "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
                      "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface")
@@ -188,7 +197,7 @@ void add_export(CLI::App& app) {
         ->type_name("FILE");
     verb->callback([options, verb] {
         const bool world = options->format == "world";
-        only_with(*verb, world, {"--sensors", "--camera"}, "--format world");
+        only_with(*verb, world, {"--sensors", "--ros", "--camera"}, "--format world");
         only_with(*verb, world || options->format == "mjcf", {"--wall"}, "--format mjcf or world");
         only_with(*verb, !options->camera.empty(), {"--view", "--camera-rate"}, "--camera");
         const std::string text = model_text(*options);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "gazebo/ode_messages.hpp"
 #include "limpet/core/errors.hpp"
@@ -24,7 +25,8 @@ protected:
         flight.scenario = load_scenario(name, {.overrides = overrides});
         GazeboWorld text = world_of(flight.scenario, name, {});
         text.vehicles.front().plugin.reset();
-        world = server.load(write_world(flight.scenario.airframe, text));
+        server.emplace(write_world(flight.scenario.airframe, text));
+        world = server->world();
         vehicle = world->ModelByName(flight.scenario.airframe.name);
     }
     void host_it() {
@@ -40,7 +42,7 @@ protected:
         return host->result();
     }
 
-    testing::Server server;
+    std::optional<GazeboServer> server;
     HostedFlight flight;
     gazebo::physics::WorldPtr world;
     gazebo::physics::ModelPtr vehicle;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "gazebo/gazebo_plant.hpp"
 #include "limpet/core/errors.hpp"
@@ -27,7 +28,8 @@ protected:
         open(write_world(scenario.airframe, text));
     }
     void open(const std::string& sdf) {
-        world = server.load(sdf);
+        server.emplace(sdf);
+        world = server->world();
         vehicle = world->ModelByName(scenario.airframe.name);
         ASSERT_NE(vehicle, nullptr);
         model = std::make_shared<const GazeboModel>(vehicle, scenario,
@@ -56,7 +58,7 @@ protected:
     }
 
     Scenario scenario;
-    testing::Server server;
+    std::optional<GazeboServer> server;
     gazebo::physics::WorldPtr world;
     gazebo::physics::ModelPtr vehicle;
     std::shared_ptr<const GazeboModel> model;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "press_bench.hpp"
 
-#include <unistd.h>
-
-#include <fstream>
 #include <sdf/sdf.hh>
 
 namespace limpet {
@@ -58,7 +55,7 @@ sdf::ElementPtr cup_element(const std::string& inside) {
 
 PressBench::PressBench(const std::string& plugin, const std::string& gravity,
                        const std::string& more)
-    : world(server.load(bench_world(gravity, more))), body(world->ModelByName("body")) {
+    : server(bench_world(gravity, more)), body(server.world()->ModelByName("body")) {
     cup.Load(body, cup_element(plugin));
     on_update =
         gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) {
@@ -66,14 +63,6 @@ PressBench::PressBench(const std::string& plugin, const std::string& gravity,
             body->GetLinks().at(0)->AddForce(
                 push_N - ignition::math::Vector3d(kHand_N_s_m * speed_m_s, 0.0, 0.0));
         });
-}
-
-double resident_B() {
-    std::ifstream file("/proc/self/statm");
-    double all_pages = 0.0;
-    double resident_pages = 0.0;
-    file >> all_pages >> resident_pages;
-    return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
 int PressBench::run_until(const std::function<bool()>& is_so, int limit) {

@@ -18,14 +18,13 @@ struct PressBench {
     explicit PressBench(const std::string& plugin, const std::string& gravity = "0 0 0",
                         const std::string& more = "");
 
-    void run(unsigned int steps) { gazebo::runWorld(world, steps); }
+    void run(unsigned int steps) { server.run(steps); }
     /// Steps until it is so. @return steps; -1: not within `limit`
     int run_until(const std::function<bool()>& is_so, int limit);
     [[nodiscard]] CupPhase phase() const { return cup.status().phase; }
     [[nodiscard]] double pressure_Pa() const { return cup.status().pressure_Pa; }
 
-    testing::Server server;
-    gazebo::physics::WorldPtr world;
+    GazeboServer server;
     gazebo::physics::ModelPtr body;
     ignition::math::Vector3d push_N;  ///< on the centre of mass, in the world
     SuctionCupPlugin cup;
@@ -49,8 +48,5 @@ inline constexpr double kHand_N_s_m = 200.0;
                                       const std::string& in_body = "");
 /// A surface of round numbers that seals at 20 N, always; no ripple.
 [[nodiscard]] std::string plain_surface();
-
-/// Physical memory of this process [B].
-[[nodiscard]] double resident_B();
 
 }  // namespace limpet

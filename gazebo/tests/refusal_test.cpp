@@ -3,13 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
 #include "press_bench.hpp"
 
@@ -26,18 +23,15 @@ struct Ended {
 /// gzserver on a world whose body carries the plugin.
 Ended serve(const std::string& inside, const std::string& more_models = "",
             const std::string& limit_s = "30") {
-    const std::string file = (std::filesystem::temp_directory_path() /
-                              ("limpet_refusal_" + std::to_string(::getpid()) + ".world"))
-                                 .string();
-    std::ofstream(file) << bench_world(
+    const TemporaryWorld world(bench_world(
         "0 0 0", more_models,
-        "<plugin name='cup' filename='libLimpetSuctionCupPlugin.so'>" + inside + "</plugin>");
-    ::setenv("GAZEBO_MASTER_URI",
-             ("http://127.0.0.1:" + std::to_string(testing::free_port())).c_str(), 1);
+        "<plugin name='cup' filename='libLimpetSuctionCupPlugin.so'>" + inside + "</plugin>"));
+    ::setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
     ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
     ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
     ::setenv("ALSOFT_DRIVERS", "null", 1);
-    const std::string command = "timeout -s KILL " + limit_s + " gzserver " + file + " 2>&1";
+    const std::string command =
+        "timeout -s KILL " + limit_s + " gzserver " + world.path() + " 2>&1";
     Ended ended;
     FILE* const pipe = ::popen(command.c_str(), "r");
     std::array<char, 4096> part{};
@@ -45,7 +39,6 @@ Ended serve(const std::string& inside, const std::string& more_models = "",
         ended.text.append(part.data(), size);
     }
     const int status = ::pclose(pipe);
-    std::filesystem::remove(file);
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return ended;
 }

@@ -154,7 +154,7 @@ TEST_P(OfEachAttachment, AWorldResetLetsGoAndTheNextTouchHoldsAgain) {
     bench.push_N.X(40.0);
     ASSERT_GE(bench.run_until([&] { return bench.phase() == CupPhase::attached; }, 3000), 0);
     bench.run(100);
-    bench.world->Reset();
+    bench.server.world()->Reset();
     bench.cup.Reset();  // the model does so for plugins that it has loaded itself
     EXPECT_EQ(bench.phase(), CupPhase::free);
     EXPECT_EQ(bench.body->GetJointCount(), 0U);
@@ -170,7 +170,7 @@ TEST_P(OfEachAttachment, ADeletedTargetLetsGo) {
     ASSERT_GE(bench.run_until([&] { return bench.phase() == CupPhase::attached; }, 3000), 0);
     bench.push_N = Vector3d::Zero;
     bench.run(10);
-    bench.world->RemoveModel("wall");
+    bench.server.world()->RemoveModel("wall");
     bench.run(200);
     EXPECT_EQ(bench.phase(), CupPhase::free);
     EXPECT_EQ(bench.body->GetJointCount(), 0U);
@@ -187,14 +187,14 @@ TEST(SuctionCup, APauseStopsTheAirAndALaterStepGoesOn) {
     PressBench bench(settings("compliant"));
     bench.push_N.X(40.0);
     ASSERT_GE(bench.run_until([&] { return bench.phase() == CupPhase::sealing; }, 3000), 0);
-    bench.world->SetPaused(true);
+    bench.server.world()->SetPaused(true);
     const double before_Pa = bench.pressure_Pa();
     std::thread stepping([&] { bench.run(50); });
-    while (bench.world->PauseTime() < gazebo::common::Time(0.05)) {
+    while (bench.server.world()->PauseTime() < gazebo::common::Time(0.05)) {
         std::this_thread::yield();
     }
     EXPECT_EQ(bench.pressure_Pa(), before_Pa);
-    bench.world->SetPaused(false);
+    bench.server.world()->SetPaused(false);
     stepping.join();
     EXPECT_NEAR(bench.pressure_Pa(), 60000.0 + (before_Pa - 60000.0) * std::exp(-0.05 / 0.2), 1.0);
 }
@@ -235,7 +235,7 @@ TEST(SuctionCup, OverAnEdgeThereIsNoWall) {
     bench.push_N.X(20.0);
     bench.run(300);
     EXPECT_EQ(bench.phase(), CupPhase::free);
-    bench.world->Reset();
+    bench.server.world()->Reset();
     bench.cup.Reset();
     bench.push_N.X(40.0);
     bench.body->SetWorldPose({kBodyX_m - 0.02, 0.5, 0.1, 0.0, 0.0, 0.0});

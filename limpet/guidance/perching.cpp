@@ -222,6 +222,26 @@ PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate
     return memory;
 }
 
+bool rest_on(PerchingMemory& memory, double time_s) {
+    if (memory.state != PerchingState::finished || memory.setpoint.armed || !memory.has_perched) {
+        return false;
+    }
+    memory.state = PerchingState::resting;
+    memory.since_s = time_s;
+    memory.settled_since_s = -1.0;
+    memory.ending.reset();
+    return true;
+}
+
+bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory, double time_s) {
+    if (!rest_on(memory, time_s) && memory.state != PerchingState::resting) {
+        return false;
+    }
+    memory.since_s = time_s - parameters.rest_s;
+    memory.release_given_up = false;
+    return true;
+}
+
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
             const Readings& readings, const Estimate& estimate, double time_s, EventList& events) {
     if (looks_at_wall(memory.state)) {

@@ -116,6 +116,15 @@ struct EventList {
 [[nodiscard]] PerchingMemory start_perching(const PerchingTask& task, const Estimate& estimate,
                                             double time_s);
 
+/// A mission that has come to its end at rest on the wall goes on resting, and watching the vacuum.
+/// @return false when it did not end so: nothing has changed
+[[nodiscard]] bool rest_on(PerchingMemory& memory, double time_s);
+/// An operator's word to a vehicle that rests: the next update of a task that takes off begins to,
+/// also after a release that was given up.
+/// @return false when it does not rest: nothing has changed
+[[nodiscard]] bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory,
+                            double time_s);
+
 /// One update: what the sensors say goes in, what the vehicle shall do comes out in
 /// memory.setpoint, what happened in the list. Reads no clock: `time_s` must not run back.
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,

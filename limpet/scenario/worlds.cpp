@@ -17,7 +17,7 @@ GazeboWorld world_of(const Scenario& scenario, const std::string& wanted,
                               .p_WB_m = scenario.start.p_WB_m,
                               .q_WB = attitude(scenario.start),
                               .is_static = false,
-                              .plugin = VehiclePlugin{.scenario = wanted, .sets = sets}});
+                              .plugin = WorldFlight{.scenario = wanted, .sets = sets}});
     world.user_view = overview(scene.wall);
     return world;
 }

@@ -8,11 +8,6 @@
 namespace limpet {
 namespace {
 
-bool is_sealed(CupPhase phase) {
-    return phase == CupPhase::sealing || phase == CupPhase::attached ||
-           phase == CupPhase::unsealing;
-}
-
 Airflow airflow(CupPhase phase, bool pump_running, bool valve_open) {
     if (!is_sealed(phase)) {
         return Airflow::open;
@@ -58,18 +53,12 @@ double next_pressure_Pa(const CupParameters& parameters, const CupState& state,
                           state.mean_pressure_Pa, dt_s);
 }
 
-void touch(CupState& state, const Surface& surface, const LipMotion& motion) {
+void touch(CupState& state, const Surface& surface) {
     state.demand = draw_seal_demand(surface, state.random);
-    state.anchor = {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
     state.status.phase = CupPhase::touching;
     state.status.seal_threshold_N = state.demand.threshold_N;
     state.let_go_said = false;
     ++state.touches;
-}
-
-/// Neither sliding nor rocking: a seal needs the whole lip on the wall.
-bool lies_still(const LipLoad& load) {
-    return load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0;
 }
 
 /// The lip's load in the phase it is in now.
@@ -86,15 +75,14 @@ LipLoad load_on(const CupParameters& parameters, CupState& state, const Surface&
 
 /// The rows of the table that keep the contact.
 std::optional<Event> advance_phase(const CupParameters& parameters, CupState& state,
-                                   const LipMotion& motion, const LipLoad& load,
-                                   const CupInput& input) {
+                                   const LipContact& contact, const CupInput& input) {
     CupStatus& status = state.status;
     const bool sucks = input.pump_on && !input.valve_open;
     switch (status.phase) {
         case CupPhase::free: break;
         case CupPhase::touching:
-            if (sucks && lies_still(load) &&
-                seals(state.demand, input.press_N, motion.tilt_rad())) {
+            if (sucks && contact.lies_still &&
+                seals(state.demand, input.press_N, contact.tilt_rad)) {
                 status.phase = CupPhase::sealing;
                 state.let_go_said = false;
             }
@@ -124,23 +112,27 @@ std::optional<Event> advance_phase(const CupParameters& parameters, CupState& st
     return std::nullopt;
 }
 
-/// The rows of the table that open the seal or end the contact.
-std::optional<Event> let_go(CupState& state, const LipMotion& motion, const LipLoad& load,
-                            double time_s) {
-    const CupPhase before = state.status.phase;
-    const bool lifted = motion.gap_m > 0.0;
-    state.status.phase = lifted ? CupPhase::free : CupPhase::touching;
-    if ((before == CupPhase::sealing && !lifted) || state.let_go_said) {
-        return std::nullopt;
-    }
-    state.let_go_said = true;
-    return make_event(time_s, "cup",
-                      before == CupPhase::unsealing ? EventName::detached : EventName::contact_lost,
-                      to_string(load.let_go),
-                      {{"pressure_Pa", state.mean_pressure_Pa},
-                       {"pull_margin_N", load.pull_margin_N},
-                       {"shear_margin_N", load.shear_margin_N},
-                       {"peel_margin_N", load.peel_margin_N}});
+/// The rows of the table for a cup in contact.
+std::optional<Event> advance_contact(const CupParameters& parameters, CupState& state,
+                                     const LipContact& contact, const CupInput& input) {
+    return contact.let_go == LetGo::no ? advance_phase(parameters, state, contact, input)
+                                       : let_go(state, contact, input.time_s);
+}
+
+void advance_pressure(const CupParameters& parameters, CupState& state, const Surface& surface,
+                      const CupInput& input, double dt_s) {
+    CupStatus& status = state.status;
+    state.pump_resting = pump_rests(parameters, surface, state);
+    status.pump_running = input.pump_on && !state.pump_resting;
+    status.valve_open = input.valve_open;
+    state.mean_pressure_Pa = next_pressure_Pa(parameters, state, surface, dt_s);
+    const bool ripples = status.pump_running && is_sealed(status.phase);
+    status.pressure_Pa =
+        state.mean_pressure_Pa +
+        (ripples ? surface.pump_ripple_Pa * (kAtmosphere_Pa - state.mean_pressure_Pa) /
+                       (kAtmosphere_Pa - surface.vacuum_pressure_Pa) *
+                       std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
+                 : 0.0);
 }
 
 }  // namespace
@@ -171,6 +163,59 @@ const ParameterTable<CupParameters>& cup_table() {
     return table;
 }
 
+bool is_sealed(CupPhase phase) {
+    return phase == CupPhase::sealing || phase == CupPhase::attached ||
+           phase == CupPhase::unsealing;
+}
+
+Anchor anchor_at(const LipMotion& motion) {
+    return {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
+}
+
+LipContact contact_of(const LipMotion& motion, const LipLoad& load) {
+    return {.touches = motion.faces_wall && motion.gap_m <= 0.0,
+            .gap_m = motion.gap_m,
+            .tilt_rad = motion.tilt_rad(),
+            .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
+            .let_go = load.let_go,
+            .pull_N = load.pull_N,
+            .pull_margin_N = load.pull_margin_N,
+            .shear_margin_N = load.shear_margin_N,
+            .peel_margin_N = load.peel_margin_N};
+}
+
+std::optional<Event> let_go(CupState& state, const LipContact& contact, double time_s) {
+    const CupPhase before = state.status.phase;
+    const bool lifted = contact.gap_m > 0.0;
+    state.status.phase = lifted ? CupPhase::free : CupPhase::touching;
+    if ((before == CupPhase::sealing && !lifted) || state.let_go_said) {
+        return std::nullopt;
+    }
+    state.let_go_said = true;
+    return make_event(time_s, "cup",
+                      before == CupPhase::unsealing ? EventName::detached : EventName::contact_lost,
+                      to_string(contact.let_go),
+                      {{"pressure_Pa", state.mean_pressure_Pa},
+                       {"pull_margin_N", contact.pull_margin_N},
+                       {"shear_margin_N", contact.shear_margin_N},
+                       {"peel_margin_N", contact.peel_margin_N}});
+}
+
+std::optional<Event> step(const CupParameters& parameters, CupState& state, const Surface& surface,
+                          const LipContact& contact, const CupInput& input, double dt_s) {
+    std::optional<Event> event;
+    state.status.gap_m = contact.gap_m;
+    if (state.status.phase == CupPhase::free && contact.touches) {
+        touch(state, surface);
+    }
+    if (state.status.phase != CupPhase::free) {
+        event = advance_contact(parameters, state, contact, input);
+        state.status.pull_N = contact.pull_N;
+    }
+    advance_pressure(parameters, state, surface, input, dt_s);
+    return event;
+}
+
 CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
                const Kinematics& cup, const CupInput& input, double dt_s) {
     const CupParameters& parameters = model.parameters;
@@ -180,15 +225,14 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     status.gap_m = motion.gap_m;
 
     if (status.phase == CupPhase::free && motion.faces_wall && motion.gap_m <= 0.0) {
-        touch(state, surface, motion);
+        touch(state, surface);
+        state.anchor = anchor_at(motion);
     }
     LipLoad load;
     if (status.phase != CupPhase::free) {
         load = load_on(parameters, state, surface, motion, input.held_T);
-        if (load.let_go == LetGo::no) {
-            output.event = advance_phase(parameters, state, motion, load, input);
-        } else {
-            output.event = let_go(state, motion, load, input.time_s);
+        output.event = advance_contact(parameters, state, contact_of(motion, load), input);
+        if (load.let_go != LetGo::no) {
             load = status.phase == CupPhase::free
                        ? LipLoad{}
                        : load_on(parameters, state, surface, motion, input.held_T);
@@ -208,17 +252,7 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     status.shear_margin_N = load.shear_margin_N;
     status.peel_margin_N = load.peel_margin_N;
 
-    state.pump_resting = pump_rests(parameters, surface, state);
-    status.pump_running = input.pump_on && !state.pump_resting;
-    status.valve_open = input.valve_open;
-    state.mean_pressure_Pa = next_pressure_Pa(parameters, state, surface, dt_s);
-    const bool ripples = status.pump_running && is_sealed(status.phase);
-    status.pressure_Pa =
-        state.mean_pressure_Pa +
-        (ripples ? surface.pump_ripple_Pa * (kAtmosphere_Pa - state.mean_pressure_Pa) /
-                       (kAtmosphere_Pa - surface.vacuum_pressure_Pa) *
-                       std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
-                 : 0.0);
+    advance_pressure(parameters, state, surface, input, dt_s);
     return output;
 }
 

@@ -86,4 +86,38 @@ struct CupOutput {
 [[nodiscard]] CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
                              const Kinematics& cup, const CupInput& input, double dt_s);
 
+// The two halves of step(), for a cup whose lip is felt in one place and whose seal and pressure
+// are kept in another (the paper's Figs. 5 and 6: plugin and node).
+
+/// What seal and pressure go by, of the lip's motion and load.
+struct LipContact {
+    bool touches = false;  ///< on the wall, mouth first
+    double gap_m = 0.0;
+    double tilt_rad = 0.0;
+    bool lies_still = true;  ///< neither slides nor rocks: a seal needs the whole lip on the wall
+    LetGo let_go = LetGo::no;
+    double pull_N = 0.0;
+    double pull_margin_N = 0.0;
+    double shear_margin_N = 0.0;
+    double peel_margin_N = 0.0;
+};
+[[nodiscard]] LipContact contact_of(const LipMotion& motion, const LipLoad& load);
+
+/// Whether the vacuum acts between lip and wall.
+[[nodiscard]] bool is_sealed(CupPhase phase);
+
+/// The springs of a lip that has just touched.
+[[nodiscard]] Anchor anchor_at(const LipMotion& motion);
+
+/// The rows of the table that open the seal or end the contact.
+/// @param contact  why, in let_go
+/// @return contact_lost or detached, once a touch
+[[nodiscard]] std::optional<Event> let_go(CupState& state, const LipContact& contact,
+                                          double time_s);
+
+/// The half without forces: phase by the contact, then pressure over `dt_s`.
+[[nodiscard]] std::optional<Event> step(const CupParameters& parameters, CupState& state,
+                                        const Surface& surface, const LipContact& contact,
+                                        const CupInput& input, double dt_s);
+
 }  // namespace limpet

@@ -119,9 +119,9 @@ void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall&
     write_finish(visual, world, wall);
 }
 
-void write_plugin(pugi::xml_node model, const VehiclePlugin& plugin) {
-    auto node =
-        add(model, "plugin", "name", "limpet_vehicle", "filename", "libLimpetVehiclePlugin.so");
+void write_plugin(pugi::xml_node model, const WorldFlight& plugin) {
+    auto node = add(model, "plugin", "name", "limpet_vehicle", "filename",
+                    plugin.ros ? "libLimpetRosVehiclePlugin.so" : "libLimpetVehiclePlugin.so");
     add_text(node, "scenario", plugin.scenario);
     for (const std::string& set : plugin.sets) {
         add_text(node, "set", set);

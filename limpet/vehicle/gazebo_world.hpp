@@ -19,10 +19,11 @@ struct GazeboSensors {
     double force_rate_Hz = 250.0;  ///< force and torque in the slider, contacts of the legs
 };
 
-/// What LimpetVehiclePlugin is told.
-struct VehiclePlugin {
+/// What the vehicle's plugin is told.
+struct WorldFlight {
     std::string scenario;           ///< a name, or a file's path
     std::vector<std::string> sets;  ///< KEY=VALUE each, as of `limpet fly --set`
+    bool ros = false;               ///< by LimpetRosVehiclePlugin: guidance and cup over ROS
 };
 
 struct PlacedVehicle {
@@ -30,7 +31,7 @@ struct PlacedVehicle {
     Vector3 p_WB_m = Vector3::Zero();
     Quaternion q_WB = Quaternion::Identity();
     bool is_static = false;  ///< stays where it is, to be looked at
-    std::optional<VehiclePlugin> plugin;
+    std::optional<WorldFlight> plugin;
 };
 
 struct PlacedWall {

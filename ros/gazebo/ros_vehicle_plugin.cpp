@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+
+#include "gazebo/vehicle_plugin.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+#include "ros/src/ros_vehicle.hpp"
+
+namespace limpet {
+
+/// LimpetRosVehiclePlugin: LimpetVehiclePlugin (its elements are those of this one too) with ROS at
+/// its boundary. It publishes /clock, LiDARs, force, battery and the built-in autopilot's estimate,
+/// and is flown by set-points on MAVROS's topics (ros/README.md). Needs a ROS master.
+///
+///   element            what                                                      default
+///   cup_by_node        the cup's seal and pressure come from suction_cup_node    true
+///   ends_with_mission  the flight is over when perching_node's mission is        false
+///   offboard_loss_s    without set-points for so long it holds [s]               0.5
+class RosVehiclePlugin final : public VehiclePlugin {
+protected:
+    [[nodiscard]] std::vector<std::string_view> more_elements() const override {
+        return {"cup_by_node", "ends_with_mission", "offboard_loss_s"};
+    }
+
+    void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,
+                 HostedFlight& flight) override {
+        (void)model;
+        ros::RosVehicleOptions options;
+        const auto flag = [&parameters](const char* key, bool& value) {
+            if (const YamlNode* node = parameters.find(key)) {
+                value = read_flag(*node);
+            }
+        };
+        flag("cup_by_node", options.cup_by_node);
+        flag("ends_with_mission", options.ends_with_mission);
+        for (const BoundParameter& row : bind(ros::offboard_manners_table(), options.manners)) {
+            if (const YamlNode* node = parameters.find(row.name)) {
+                *row.value = read_number(*node, row);
+            }
+        }
+        if (const YamlNode* node = parameters.find("autopilot");
+            node != nullptr && read_text(*node) != "builtin") {
+            fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
+        }
+        join_ros();
+        vehicle_ = std::make_unique<ros::RosVehicle>(flight.scenario, options);
+        const Outside outside = vehicle_->outside();
+        flight.conduct.outside.guidance = outside.guidance;
+        flight.conduct.outside.cup = outside.cup;
+    }
+
+private:
+    static void join_ros() {
+        if (!::ros::isInitialized()) {
+            int argc = 0;
+            ::ros::init(argc, nullptr, "gazebo",
+                        ::ros::init_options::NoSigintHandler | ::ros::init_options::AnonymousName);
+        }
+        if (!::ros::master::check()) {
+            throw InputError("LimpetRosVehiclePlugin: no ROS master at " + ::ros::master::getURI() +
+                             ": start roscore or roslaunch first");
+        }
+    }
+
+    std::unique_ptr<ros::RosVehicle> vehicle_;
+};
+
+GZ_REGISTER_MODEL_PLUGIN(RosVehiclePlugin)
+
+}  // namespace limpet

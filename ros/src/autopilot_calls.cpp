@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/src/autopilot_calls.hpp"
+
+#include <limpet_ros/CommandLong.h>
+#include <limpet_ros/SetMode.h>
+
+#include <chrono>
+#include <utility>
+
+namespace limpet::ros {
+
+AutopilotCalls::AutopilotCalls(double retry_s) : retry_s_(retry_s) {
+    ::ros::NodeHandle node;
+    mode_call_ = node.serviceClient<limpet_ros::SetMode>("mavros/set_mode");
+    command_call_ = node.serviceClient<limpet_ros::CommandLong>("mavros/cmd/command");
+    thread_ = std::thread([this] { work(); });
+}
+
+AutopilotCalls::~AutopilotCalls() {
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+}
+
+void AutopilotCalls::want(std::string mode, std::optional<bool> armed) {
+    const std::lock_guard lock(mutex_);
+    const bool news = mode != mode_ || armed != armed_;
+    mode_ = std::move(mode);
+    armed_ = armed;
+    if (news) {
+        changed_.notify_all();
+    }
+}
+
+void AutopilotCalls::work() {
+    std::unique_lock lock(mutex_);
+    while (!over_) {
+        const std::string mode = mode_;
+        const std::optional<bool> armed = armed_;
+        const auto news = [&] { return over_ || mode != mode_ || armed != armed_; };
+        if (mode.empty() && !armed) {
+            changed_.wait(lock, news);
+            continue;
+        }
+        lock.unlock();
+        call(mode, armed);
+        lock.lock();
+        changed_.wait_for(lock, std::chrono::duration<double>(retry_s_), news);
+    }
+}
+
+void AutopilotCalls::call(const std::string& mode, std::optional<bool> armed) {
+    if (!mode.empty()) {
+        limpet_ros::SetMode call;
+        call.request.custom_mode = mode;
+        (void)mode_call_.call(call);
+    }
+    if (armed) {
+        constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD_COMPONENT_ARM_DISARM
+        constexpr float kForce = 21196.0F;         // PX4 does not disarm off the ground without it
+        limpet_ros::CommandLong call;
+        call.request.command = kArmDisarm;
+        call.request.param1 = *armed ? 1.0F : 0.0F;
+        call.request.param2 = *armed ? 0.0F : kForce;
+        (void)command_call_.call(call);
+    }
+}
+
+}  // namespace limpet::ros

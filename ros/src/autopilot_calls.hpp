@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace limpet::ros {
+
+/// Asks the autopilot for mode and arming, in a thread of its own: MAVROS answers a call when the
+/// autopilot does, and set-points must not wait for that. What is wanted is asked for again until
+/// nothing is wanted any more.
+class AutopilotCalls {
+public:
+    /// @param retry_s  of wall time, between two calls
+    explicit AutopilotCalls(double retry_s);
+    ~AutopilotCalls();
+    AutopilotCalls(const AutopilotCalls&) = delete;
+    AutopilotCalls& operator=(const AutopilotCalls&) = delete;
+
+    /// @param mode   "": none
+    /// @param armed  nullopt: as it is
+    void want(std::string mode, std::optional<bool> armed);
+
+private:
+    void work();
+    void call(const std::string& mode, std::optional<bool> armed);
+
+    double retry_s_;
+    ::ros::ServiceClient mode_call_;
+    ::ros::ServiceClient command_call_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::string mode_;
+    std::optional<bool> armed_;
+    bool over_ = false;
+    std::thread thread_;  ///< last: starts when all the rest is there
+};
+
+}  // namespace limpet::ros

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Guidance as a ROS node: sensors and the autopilot's estimate in, set-points, pump and valve out;
+// perch, take_off and abort by services. What it does is session.hpp, here are its wires.
+#include <limpet_ros/MechanismCommand.h>
+#include <limpet_ros/PerchingEvent.h>
+#include <limpet_ros/PerchingStatus.h>
+#include <limpet_ros/State.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "limpet/core/errors.hpp"
+#include "ros/src/autopilot_calls.hpp"
+#include "ros/src/convert.hpp"
+#include "ros/src/node_parameters.hpp"
+#include "ros/src/session.hpp"
+#include "ros/src/vehicle_mode.hpp"
+
+namespace limpet::ros {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+
+/// When a message was measured: by its stamp, if it has one that has been.
+double time_of(const std_msgs::Header& header) {
+    const double now_s = ::ros::Time::now().toSec();
+    return header.stamp.isZero() ? now_s : std::min(header.stamp.toSec(), now_s);
+}
+
+struct PerchingArguments {
+    SessionSetup session;
+};
+
+PerchingArguments read_arguments() {
+    NodeParameters parameters;
+    const Setup setup = load_setup(parameters.setup());
+    PerchingArguments arguments;
+    arguments.session.guidance = setup.scenario.guidance;
+    arguments.session.limits = setup.limits;
+    arguments.session.takes_off = setup.scenario.mission == Mission::perch_and_take_off;
+    arguments.session.asks_for_mode = parameters.flag("asks_for_mode", false);
+    parameters.refuse_others();
+    if (setup.scenario.mission == Mission::hover || !setup.scenario.airframe.has_cup) {
+        throw InputError(
+            "perching_node: needs a vehicle with a cup and mission perch or "
+            "perch_and_take_off");
+    }
+    return arguments;
+}
+
+class PerchingNode {
+public:
+    explicit PerchingNode(const PerchingArguments& arguments)
+        : session_(arguments.session), own_("~"), calls_(kRetry_s) {
+        status_ = own_.advertise<limpet_ros::PerchingStatus>("status", kQueue, true);
+        event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
+        position_ = node_.advertise<limpet_ros::PositionTarget>("mavros/setpoint_raw/local", 1);
+        attitude_ = node_.advertise<limpet_ros::AttitudeTarget>("mavros/setpoint_raw/attitude", 1);
+        mechanism_ = node_.advertise<limpet_ros::MechanismCommand>("mechanism/command", 1, true);
+        subscribe();
+        serve("perch", &PerchingSession::perch);
+        serve("take_off", &PerchingSession::take_off);
+        serve("abort", &PerchingSession::abort);
+        timer_ = node_.createTimer(::ros::Duration(1.0 / arguments.session.limits.guidance_rate_Hz),
+                                   [this](const ::ros::TimerEvent&) { tick(); });
+    }
+
+private:
+    static constexpr double kRetry_s = 0.3;  // as the companion, limpet/mavlink/offboard.hpp
+
+    /// @param put  (message, its time)
+    template <class Message, class Put>
+    void hear(const std::string& topic, Put put) {
+        subscribers_.push_back(node_.subscribe<Message>(
+            topic, kQueue,
+            boost::function<void(const boost::shared_ptr<const Message>&)>(
+                [put](const boost::shared_ptr<const Message>& m) { put(*m, time_of(m->header)); }),
+            ::ros::VoidConstPtr(), ::ros::TransportHints().tcpNoDelay()));
+    }
+    /// Into a sample, where the message is sound.
+    template <class Message, class T, class Read>
+    void read(const std::string& topic, Sample<T>& into, Read convert) {
+        hear<Message>(topic, [&into, convert](const Message& message, double time_s) {
+            if (const std::optional<T> value = convert(message)) {
+                into = {time_s, *value};
+            }
+        });
+    }
+    void subscribe() {
+        SessionInputs& in = session_.inputs();
+        Readings& readings = in.readings;
+        hear<limpet_ros::State>("mavros/state", [&in](const limpet_ros::State& m, double time_s) {
+            in.autopilot = {time_s,
+                            {.connected = m.connected != 0,
+                             .armed = m.armed != 0,
+                             .offboard = m.mode == kOffboard}};
+        });
+        using geometry_msgs::PoseStamped;
+        using geometry_msgs::TwistStamped;
+        using geometry_msgs::WrenchStamped;
+        using sensor_msgs::Range;
+        const auto range = [](const Range& m) { return std::optional(range_reading(m)); };
+        read<PoseStamped>("mavros/local_position/pose", in.pose, pose_reading);
+        read<TwistStamped>("mavros/local_position/velocity_local", in.velocity_W_m_s, velocity_W);
+        read<sensor_msgs::Imu>("mavros/imu/data", in.rate_B_rad_s, rate_B);
+        read<Range>("lidar/left", readings.lidar_left, range);
+        read<Range>("lidar/right", readings.lidar_right, range);
+        read<WrenchStamped>("cup/force", readings.force, force_reading);
+        read<sensor_msgs::FluidPressure>("cup/pressure", readings.cup_pressure, pressure_reading);
+        read<sensor_msgs::BatteryState>("mavros/battery", readings.battery, battery_reading);
+    }
+    void serve(const std::string& name, Answer (PerchingSession::*service)(double)) {
+        services_.push_back(
+            own_.advertiseService<std_srvs::TriggerRequest, std_srvs::TriggerResponse>(
+                name, boost::function<bool(std_srvs::TriggerRequest&, std_srvs::TriggerResponse&)>(
+                          [this, name, service](std_srvs::TriggerRequest&,
+                                                std_srvs::TriggerResponse& response) {
+                              const Answer answer = (session_.*service)(::ros::Time::now().toSec());
+                              response.success = answer.done ? 1 : 0;
+                              response.message = answer.message;
+                              ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
+                              return true;
+                          })));
+    }
+
+    void tick() {
+        const ::ros::Time now = ::ros::Time::now();
+        session_.tick(now.toSec());
+        steer(now);
+        actuate(now);
+        calls_.want(std::string(session_.wanted_mode()), session_.wanted_armed());
+        tell(now);
+    }
+
+    void steer(const ::ros::Time& now) {
+        if (!session_.streams()) {
+            return;
+        }
+        std::visit([&](const auto& target) { send(target, now); }, session_.setpoint().motion);
+    }
+    template <class Target>
+    void send(const Target& target, const ::ros::Time& now) {
+        auto message = target_message(target);
+        message.header.stamp = now;
+        if constexpr (std::is_same_v<Target, AttitudeSetpoint>) {
+            attitude_.publish(message);
+        } else {
+            position_.publish(message);
+        }
+    }
+    /// Motors idle: the attitude that it has, without thrust. Set-points go on.
+    void send(const IdleSetpoint&, const ::ros::Time& now) {
+        send(AttitudeSetpoint{.q_WB = session_.inputs().pose.value.q_WB, .thrust = 0.0}, now);
+    }
+
+    /// At every change, and again mechanism_rate_Hz times a second: a mechanism that was reset
+    /// learns it so.
+    void actuate(const ::ros::Time& now) {
+        const Setpoint& setpoint = session_.setpoint();
+        const bool same = said_.pump_on == static_cast<std::uint8_t>(setpoint.pump_on) &&
+                          said_.valve_open == static_cast<std::uint8_t>(setpoint.valve_open);
+        const double period_s = 1.0 / session_.setup().limits.mechanism_rate_Hz;
+        const double since_s = (now - said_.header.stamp).toSec();
+        if (!session_.drives_mechanism() || (same && since_s >= 0.0 && since_s < period_s)) {
+            return;
+        }
+        said_.header.stamp = now;
+        said_.pump_on = setpoint.pump_on ? 1 : 0;
+        said_.valve_open = setpoint.valve_open ? 1 : 0;
+        mechanism_.publish(said_);
+    }
+
+    void tell(const ::ros::Time& now) {
+        for (const Event& event : session_.events()) {
+            limpet_ros::PerchingEvent message = event_message(event);
+            message.header.stamp = now;
+            ROS_INFO("%s%s%s", message.name.c_str(), message.reason.empty() ? "" : ": ",
+                     message.reason.c_str());
+            event_.publish(message);
+        }
+        const PerchingMemory& memory = session_.memory();
+        limpet_ros::PerchingStatus status;
+        status.header.stamp = now;
+        status.phase = std::string(to_string(session_.phase()));
+        status.obstacle = session_.obstacle();
+        const bool flies = session_.phase() == SessionPhase::flying;
+        const PerchingState state = flies ? memory.state : PerchingState::hovering;
+        status.state = static_cast<std::uint8_t>(state);
+        status.state_name = std::string(limpet::to_string(state));
+        status.state_s = flies ? now.toSec() - memory.since_s : 0.0;
+        status.place = std::string(limpet::to_string(session_.place()));
+        status.attempt = static_cast<std::uint8_t>(std::min(memory.attempt, 255));
+        status.armed = session_.setpoint().armed ? 1 : 0;
+        status.pump_on = session_.setpoint().pump_on ? 1 : 0;
+        status.valve_open = session_.setpoint().valve_open ? 1 : 0;
+        status.outcome =
+            session_.outcome() ? std::string(limpet::to_string(*session_.outcome())) : "";
+        status.reason = session_.reason();
+        status_.publish(status);
+        if (status.phase != said_phase_ || status.obstacle != said_obstacle_) {
+            said_phase_ = status.phase;
+            said_obstacle_ = status.obstacle;
+            ROS_INFO("%s%s%s", status.phase.c_str(), status.obstacle.empty() ? "" : ": ",
+                     status.obstacle.c_str());
+        }
+    }
+
+    PerchingSession session_;
+    ::ros::NodeHandle node_;
+    ::ros::NodeHandle own_;
+    AutopilotCalls calls_;
+    ::ros::Publisher status_, event_, position_, attitude_, mechanism_;
+    std::vector<::ros::Subscriber> subscribers_;
+    std::vector<::ros::ServiceServer> services_;
+    ::ros::Timer timer_;
+    limpet_ros::MechanismCommand said_;
+    std::string said_phase_;
+    std::string said_obstacle_;
+};
+
+void perching_node() {
+    const PerchingArguments arguments = read_arguments();
+    PerchingNode node(arguments);
+    ::ros::spin();
+}
+
+}  // namespace
+}  // namespace limpet::ros
+
+int main(int argc, char** argv) {
+    return limpet::ros::run_node(argc, argv, "perching_node", limpet::ros::perching_node);
+}

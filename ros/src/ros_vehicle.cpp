@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/src/ros_vehicle.hpp"
+
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+
+#include "limpet_ros/State.h"
+
+namespace limpet::ros {
+namespace {
+
+// Rates at which MAVROS has them from a PX4, or more.
+constexpr int kClock_Hz = 250;
+constexpr int kEstimate_Hz = 100;
+constexpr int kState_Hz = 10;
+constexpr std::uint32_t kQueue = 1000;      ///< nothing is to be lost on one machine
+constexpr std::uint32_t kOneCommand = 400;  ///< MAV_CMD_COMPONENT_ARM_DISARM
+constexpr std::size_t kMostEvents = 4;      ///< told in one tick; the cup may have some of its own
+constexpr std::size_t kMostHeard = 256;     ///< events that wait: a flood must not fill the memory
+
+/// Stamps start anew when a flight begins: not only later ones are new.
+template <class T>
+bool is_new(const Sample<T>& sample, const Sample<T>& last) {
+    return sample.ever() && sample.time_s != last.time_s;
+}
+
+std::optional<EventName> event_name(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
+        if (to_string(static_cast<EventName>(i)) == name) {
+            return static_cast<EventName>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+RosVehicle::RosVehicle(const Scenario& scenario, const RosVehicleOptions& options)
+    : options_(options), sensors_(scenario.sensors), mode_(options.manners) {
+    node_.setCallbackQueue(&queue_);
+    advertise();
+    subscribe();
+    spinner_ = std::make_unique<::ros::AsyncSpinner>(1, &queue_);
+    spinner_->start();
+}
+
+RosVehicle::~RosVehicle() {
+    spinner_->stop();
+}
+
+Outside RosVehicle::outside() {
+    return {.guidance = this, .cup = options_.cup_by_node ? this : nullptr};
+}
+
+void RosVehicle::advertise() {
+    clock_out_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
+    pose_ = node_.advertise<geometry_msgs::PoseStamped>("mavros/local_position/pose", kQueue);
+    velocity_ = node_.advertise<geometry_msgs::TwistStamped>("mavros/local_position/velocity_local",
+                                                             kQueue);
+    imu_ = node_.advertise<sensor_msgs::Imu>("mavros/imu/data", kQueue);
+    state_ = node_.advertise<limpet_ros::State>("mavros/state", kQueue, true);
+    battery_ = node_.advertise<sensor_msgs::BatteryState>("mavros/battery", kQueue);
+    left_ = node_.advertise<sensor_msgs::Range>("lidar/left", kQueue);
+    right_ = node_.advertise<sensor_msgs::Range>("lidar/right", kQueue);
+    force_ = node_.advertise<geometry_msgs::WrenchStamped>("cup/force", kQueue);
+    if (options_.cup_by_node) {
+        contact_ = node_.advertise<limpet_ros::CupContact>("cup/contact", kQueue);
+    } else {
+        pressure_ = node_.advertise<sensor_msgs::FluidPressure>("cup/pressure", kQueue);
+    }
+}
+
+void RosVehicle::subscribe() {
+    // Small messages, each of which counts at once: none may wait for the next.
+    const auto hints = ::ros::TransportHints().tcpNoDelay();
+    const auto hear = [&](auto message, const char* topic, auto&& call) {
+        using Message = decltype(message);
+        const boost::function<void(const Message&)> function = call;
+        subscribers_.push_back(node_.subscribe<Message>(
+            topic, kQueue,
+            boost::function<void(const boost::shared_ptr<const Message>&)>(
+                [function](const boost::shared_ptr<const Message>& m) { function(*m); }),
+            ::ros::VoidConstPtr(), hints));
+    };
+    const auto hear_target = [this](const auto& m) { hear_motion(motion_from(m)); };
+    hear(limpet_ros::PositionTarget(), "mavros/setpoint_raw/local", hear_target);
+    hear(limpet_ros::AttitudeTarget(), "mavros/setpoint_raw/attitude", hear_target);
+    hear(geometry_msgs::PoseStamped(), "mavros/setpoint_position/local", hear_target);
+    hear(limpet_ros::MechanismCommand(), "mechanism/command",
+         [this](const limpet_ros::MechanismCommand& m) {
+             const std::lock_guard lock(mutex_);
+             pump_on_ = m.pump_on != 0;
+             valve_open_ = m.valve_open != 0;
+         });
+    hear(limpet_ros::PerchingStatus(), "perching_node/status",
+         [this](const limpet_ros::PerchingStatus& m) {
+             const std::lock_guard lock(mutex_);
+             status_ = m;
+         });
+    hear(limpet_ros::PerchingEvent(), "perching_node/event",
+         [this](const limpet_ros::PerchingEvent& m) { hear_event(m); });
+    hear(limpet_ros::CupState(), "cup/state",
+         [this](const limpet_ros::CupState& m) { hear_cup(m); });
+    services_.push_back(node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this));
+    services_.push_back(node_.advertiseService("mavros/set_mode", &RosVehicle::set_mode, this));
+}
+
+// --- what comes in ------------------------------------------------------------------------------
+
+void RosVehicle::hear_motion(const std::optional<Motion>& motion) {
+    if (motion) {
+        const std::lock_guard lock(mutex_);
+        mode_.set_point(*motion, heard_clock_s_);
+    }
+}
+
+void RosVehicle::hear_cup(const limpet_ros::CupState& message) {
+    const auto phase = phase_from(message);
+    if (!phase) {
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    answer_ = LipAnswer{.contact = message.contact,
+                        .phase = *phase,
+                        .pressure_Pa = message.pressure_Pa,
+                        .mean_pressure_Pa = message.mean_pressure_Pa,
+                        .seal_threshold_N = message.seal_threshold_N,
+                        .pump_running = message.pump_running != 0,
+                        .valve_open = message.valve_open != 0};
+}
+
+void RosVehicle::hear_event(const limpet_ros::PerchingEvent& message) {
+    const std::lock_guard lock(mutex_);
+    if (heard_events_.size() < kMostHeard) {
+        heard_events_.push_back(message);
+    }
+}
+
+bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
+                         limpet_ros::CommandLong::Response& response) {
+    constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
+    constexpr std::uint8_t kUnsupported = 3;
+    response.success = request.command == kOneCommand ? 1 : 0;
+    response.result = response.success != 0 ? kAccepted : kUnsupported;
+    if (response.success != 0) {
+        const std::lock_guard lock(mutex_);
+        mode_.arm(request.param1 > 0.5F);
+    }
+    return true;
+}
+
+bool RosVehicle::set_mode(limpet_ros::SetMode::Request& request,
+                          limpet_ros::SetMode::Response& response) {
+    const std::lock_guard lock(mutex_);
+    response.mode_sent = mode_.choose(request.custom_mode, heard_clock_s_) ? 1 : 0;
+    return true;
+}
+
+// --- what goes out ------------------------------------------------------------------------------
+
+/// @param time_s  of the flight
+template <class Message>
+void RosVehicle::send(::ros::Publisher& to, Message message, double time_s) {
+    message.header.stamp = ros_time(clock_s() - (flight_s_ - time_s));
+    to.publish(message);
+}
+
+template <class T, class Make>
+void RosVehicle::send_new(::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last,
+                          Make make) {
+    if (is_new(sample, last)) {
+        send(to, make(sample.value), sample.time_s);
+    }
+}
+
+void RosVehicle::send_readings(const Readings& readings) {
+    const auto range = [this](const RangeReading& reading) {
+        return range_message(reading, sensors_.lidar_range_min_m, sensors_.lidar_range_max_m);
+    };
+    send_new(left_, readings.lidar_left, last_.lidar_left, range);
+    send_new(right_, readings.lidar_right, last_.lidar_right, range);
+    send_new(force_, readings.force, last_.force, force_message);
+    send_new(battery_, readings.battery, last_.battery, battery_message);
+    if (!options_.cup_by_node) {
+        send_new(pressure_, readings.cup_pressure, last_.cup_pressure, pressure_message);
+    }
+    last_ = readings;
+}
+
+void RosVehicle::send_estimate(const Estimate& estimate) {
+    if (due(clock_, kEstimate_Hz) && estimate.valid) {
+        send(pose_, pose_message(estimate), flight_s_);
+        send(velocity_, velocity_message(estimate), flight_s_);
+        send(imu_, imu_message(estimate), flight_s_);
+    }
+}
+
+// --- the simulation's calls ---------------------------------------------------------------------
+
+std::string_view RosVehicle::keep(std::string_view text) {
+    return texts_.emplace_back(text);
+}
+
+/// By mutex_.
+void RosVehicle::take_status(double time_s, PerchingMemory& guidance) {
+    if (!status_) {
+        guidance.state = PerchingState::hovering;
+        return;
+    }
+    if (status_->state <= static_cast<int>(PerchingState::finished)) {
+        guidance.state = static_cast<PerchingState>(status_->state);
+    }
+    if (guidance.state != shown_) {
+        shown_ = guidance.state;
+        state_since_s_ = time_s;
+    }
+    guidance.since_s = std::min(state_since_s_, time_s);
+    guidance.attempt = std::max<int>(1, status_->attempt);
+    const auto outcome = outcome_from(status_->outcome);
+    if (options_.ends_with_mission && outcome && !guidance.ending) {
+        guidance.ending = Ending{.outcome = *outcome, .reason = keep(status_->reason)};
+    }
+}
+
+/// By mutex_.
+void RosVehicle::take_events(double time_s, EventList& events) {
+    std::size_t taken = 0;
+    for (; taken < std::min(heard_events_.size(), kMostEvents); ++taken) {
+        const limpet_ros::PerchingEvent& heard = heard_events_[taken];
+        const auto name = event_name(heard.name);
+        if (!name) {
+            continue;
+        }
+        Event event = make_event(time_s, keep(heard.station), *name, keep(heard.reason));
+        const std::size_t values =
+            std::min({heard.values.size(), heard.value_names.size(), Event::kMaxValues});
+        for (std::size_t i = 0; i < values; ++i) {
+            event.add(keep(heard.value_names[i]), heard.values[i]);
+        }
+        events.add(event);
+    }
+    heard_events_.erase(heard_events_.begin(),
+                        heard_events_.begin() + static_cast<std::ptrdiff_t>(taken));
+}
+
+void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, double time_s,
+                          PerchingMemory& guidance, EventList& events) {
+    ++clock_;
+    flight_s_ = time_s;
+    limpet_ros::State state;
+    bool shows_state = due(clock_, kState_Hz);
+    {
+        const std::lock_guard lock(mutex_);
+        heard_clock_s_ = clock_s();
+        const bool was_armed = guidance.setpoint.armed;
+        if (mode_.update(estimate, clock_s(), guidance.setpoint)) {
+            events.add(make_event(time_s, "autopilot", EventName::aborted,
+                                  "set-points have stopped: holds"));
+            shows_state = true;
+        }
+        shows_state = shows_state || was_armed != guidance.setpoint.armed;
+        guidance.setpoint.pump_on = pump_on_;
+        guidance.setpoint.valve_open = valve_open_;
+        take_status(time_s, guidance);
+        take_events(time_s, events);
+        state.armed = mode_.armed() ? 1 : 0;
+        state.mode = std::string(mode_.mode());
+        if (answer_) {
+            lip_.hear(*answer_);
+        }
+    }
+    if (due(clock_, kClock_Hz)) {
+        rosgraph_msgs::Clock clock;
+        clock.clock = ros_time(clock_s());
+        clock_out_.publish(clock);
+    }
+    send_readings(readings);
+    send_estimate(estimate);
+    if (shows_state) {
+        constexpr std::uint8_t kActive = 4;  // MAV_STATE
+        state.connected = state.guided = 1;
+        state.system_status = kActive;
+        send(state_, state, time_s);
+    }
+}
+
+std::string RosVehicle::obstacle() const {
+    const std::lock_guard lock(mutex_);
+    return status_ ? "" : "no perching_node is heard";
+}
+
+CupOutput RosVehicle::step(const CupModel& model, CupState& state, const Surface& surface,
+                           const Kinematics& cup, const CupInput& input, double /*dt_s*/) {
+    const CupOutput output = lip_.step(model, state, surface, cup, input);
+    if (const auto report = lip_.take_report()) {
+        limpet_ros::CupContact message = contact_message(report->contact);
+        message.number = report->number;
+        message.touch = report->touch;
+        message.press_N = report->press_N;
+        send(contact_, message, report->time_s);
+    }
+    return output;
+}
+
+}  // namespace limpet::ros

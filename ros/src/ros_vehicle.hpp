@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limpet_ros/CommandLong.h>
+#include <limpet_ros/CupState.h>
+#include <limpet_ros/MechanismCommand.h>
+#include <limpet_ros/PerchingEvent.h>
+#include <limpet_ros/PerchingStatus.h>
+#include <limpet_ros/SetMode.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/core/time.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/simulation/outside.hpp"
+#include "ros/src/apart_lip.hpp"
+#include "ros/src/convert.hpp"
+#include "ros/src/vehicle_mode.hpp"
+
+namespace limpet::ros {
+
+struct RosVehicleOptions {
+    OffboardManners manners;
+    /// The cup's seal and pressure come from suction_cup_node; else the simulator keeps them and
+    /// tells the pressure sensor itself.
+    bool cup_by_node = true;
+    /// The flight is over when perching_node's mission is; else when its time is.
+    bool ends_with_mission = false;
+};
+
+/// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
+/// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
+/// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
+/// of its own and never waited for.
+class RosVehicle final : public ExternalGuidance, public ExternalCup {
+public:
+    /// ros::init() has been called.
+    RosVehicle(const Scenario& scenario, const RosVehicleOptions& options);
+    ~RosVehicle() override;
+
+    /// Guidance, and the cup if it is kept by the node; `this` outlives the flight.
+    [[nodiscard]] Outside outside();
+
+    void exchange(const Readings& readings, const Estimate& estimate, double time_s,
+                  PerchingMemory& guidance, EventList& events) override;
+    [[nodiscard]] std::string obstacle() const override;
+    CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
+                   const Kinematics& cup, const CupInput& input, double dt_s) override;
+
+private:
+    void advertise();
+    void subscribe();
+    /// Time on /clock; it goes on when a flight begins anew.
+    [[nodiscard]] double clock_s() const { return kClockStart_s + seconds(clock_); }
+    template <class Message>
+    void send(::ros::Publisher& to, Message message, double time_s);
+    template <class T, class Make>
+    void send_new(::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last, Make make);
+    void send_readings(const Readings& readings);
+    void send_estimate(const Estimate& estimate);
+    void hear_motion(const std::optional<Motion>& motion);
+    void hear_cup(const limpet_ros::CupState& message);
+    void hear_event(const limpet_ros::PerchingEvent& message);
+    bool command(limpet_ros::CommandLong::Request& request,
+                 limpet_ros::CommandLong::Response& response);
+    bool set_mode(limpet_ros::SetMode::Request& request, limpet_ros::SetMode::Response& response);
+    void take_status(double time_s, PerchingMemory& guidance);
+    void take_events(double time_s, EventList& events);
+    [[nodiscard]] std::string_view keep(std::string_view text);
+
+    static constexpr double kClockStart_s = 1.0;  // ROS takes a time of zero for none
+
+    RosVehicleOptions options_;
+    SensorParameters sensors_;
+    ::ros::NodeHandle node_;
+    ::ros::CallbackQueue queue_;
+    std::vector<::ros::Subscriber> subscribers_;
+    std::vector<::ros::ServiceServer> services_;
+    ::ros::Publisher clock_out_, pose_, velocity_, imu_, state_, battery_, left_, right_, force_,
+        pressure_, contact_;
+
+    // of the simulation's thread
+    Tick clock_ = -1;
+    double flight_s_ = 0.0;  ///< the flight's own time at this clock
+    Readings last_;
+    ApartLip lip_;
+    std::deque<std::string> texts_;  ///< addresses stay
+    double state_since_s_ = 0.0;
+    PerchingState shown_ = PerchingState::hovering;
+
+    // shared; by mutex_
+    mutable std::mutex mutex_;
+    double heard_clock_s_ = kClockStart_s;  ///< clock_s() for the other thread
+    VehicleMode mode_;
+    bool pump_on_ = false;
+    bool valve_open_ = false;
+    std::optional<limpet_ros::PerchingStatus> status_;
+    std::vector<limpet_ros::PerchingEvent> heard_events_;
+    std::optional<LipAnswer> answer_;
+
+    std::unique_ptr<::ros::AsyncSpinner> spinner_;  ///< last: stops before what it calls goes
+};
+
+}  // namespace limpet::ros

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The suction cup as a ROS node (the paper's Figs. 5 and 6): what the lip feels comes in, from the
+// simulator's plugin; the state of the cup, which is its order to attach or detach, and the
+// pressure sensor go out. What it does is suction_cup.hpp, here are its wires.
+#include <limpet_ros/MechanismCommand.h>
+#include <limpet_ros/PerchingEvent.h>
+#include <std_srvs/SetBool.h>
+
+#include "limpet/core/errors.hpp"
+#include "ros/src/convert.hpp"
+#include "ros/src/node_parameters.hpp"
+#include "ros/src/suction_cup.hpp"
+
+namespace limpet::ros {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+
+Scenario read_scenario() {
+    NodeParameters parameters;
+    const Setup setup = load_setup(parameters.setup());
+    parameters.refuse_others();
+    if (!setup.scenario.wall.present || !setup.scenario.airframe.has_cup) {
+        throw InputError("suction_cup_node: needs a wall with a surface and a vehicle with a cup");
+    }
+    return setup.scenario;
+}
+
+class SuctionCupNode {
+public:
+    explicit SuctionCupNode(const Scenario& scenario) : cup_(scenario), own_("~") {
+        state_ = node_.advertise<limpet_ros::CupState>("cup/state", kQueue);
+        pressure_ = node_.advertise<sensor_msgs::FluidPressure>("cup/pressure", kQueue);
+        event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
+        const auto hints = ::ros::TransportHints().tcpNoDelay();
+        contacts_ =
+            node_.subscribe("cup/contact", kQueue, &SuctionCupNode::hear_contact, this, hints);
+        commands_ = node_.subscribe("mechanism/command", kQueue, &SuctionCupNode::hear_command,
+                                    this, hints);
+        pump_ = own_.advertiseService("pump", &SuctionCupNode::switch_pump, this);
+        valve_ = own_.advertiseService("valve", &SuctionCupNode::open_valve, this);
+    }
+
+private:
+    void hear_contact(const limpet_ros::CupContact& message) {
+        const auto contact = lip_contact(message);
+        if (!contact) {
+            ROS_WARN_THROTTLE(5.0, "cup/contact: a message with a number that is none");
+            return;
+        }
+        const auto event = cup_.feel(*contact, message.press_N, message.header.stamp.toSec());
+        limpet_ros::CupState state = cup_message(cup_.state());
+        state.header.stamp = message.header.stamp;
+        state.contact = message.number;
+        state_.publish(state);
+        if (cup_.pressure().time_s != sensed_s_) {
+            sensed_s_ = cup_.pressure().time_s;
+            sensor_msgs::FluidPressure pressure = pressure_message(cup_.pressure().value);
+            pressure.header.stamp = ros_time(sensed_s_);
+            pressure_.publish(pressure);
+        }
+        if (event) {
+            limpet_ros::PerchingEvent told = event_message(*event);
+            told.header.stamp = message.header.stamp;
+            event_.publish(told);
+            ROS_INFO("%s: %s", told.name.c_str(), told.reason.c_str());
+        }
+    }
+    void hear_command(const limpet_ros::MechanismCommand& message) {
+        cup_.command(message.pump_on != 0, message.valve_open != 0);
+    }
+    // By hand; whoever commands the mechanism over its topic says otherwise within a moment.
+    bool switch_pump(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
+        cup_.command(request.data != 0, cup_.valve_open());
+        response.success = 1;
+        response.message = request.data != 0 ? "pump on" : "pump off";
+        return true;
+    }
+    bool open_valve(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
+        cup_.command(cup_.pump_on(), request.data != 0);
+        const bool done = cup_.valve_open() == (request.data != 0);
+        response.success = done ? 1 : 0;
+        response.message = !done               ? "no valve is fitted: suction.valve_fitted=1"
+                           : request.data != 0 ? "valve open"
+                                               : "valve shut";
+        return true;
+    }
+
+    SuctionCup cup_;
+    ::ros::NodeHandle node_;
+    ::ros::NodeHandle own_;
+    ::ros::Publisher state_, pressure_, event_;
+    ::ros::Subscriber contacts_, commands_;
+    ::ros::ServiceServer pump_, valve_;
+    double sensed_s_ = -1.0;
+};
+
+void suction_cup_node() {
+    SuctionCupNode node(read_scenario());
+    ::ros::spin();
+}
+
+}  // namespace
+}  // namespace limpet::ros
+
+int main(int argc, char** argv) {
+    return limpet::ros::run_node(argc, argv, "suction_cup_node", limpet::ros::suction_cup_node);
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated vehicle as a ROS node, on the embedded engine: what Gazebo and its plugin are on
+// Debian 11 and Ubuntu 20.04. It hovers before the wall until somebody flies it.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <memory>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/simulation/flight.hpp"
+#include "limpet/simulation/result_json.hpp"
+#include "ros/src/node_parameters.hpp"
+#include "ros/src/ros_vehicle.hpp"
+
+namespace limpet::ros {
+namespace {
+
+void vehicle_node() {
+    NodeParameters parameters;
+    const Setup setup = load_setup(parameters.setup());
+    RosVehicleOptions options;
+    const auto& loss = offboard_manners_table().front();
+    options.manners.loss_s = parameters.number(std::string(loss.name), options.manners.loss_s,
+                                               loss.minimum, loss.maximum);
+    options.cup_by_node = parameters.flag("cup_by_node", options.cup_by_node);
+    options.ends_with_mission = parameters.flag("ends_with_mission", options.ends_with_mission);
+    const double speed = parameters.number("speed", 1.0, 0.01, 100.0);
+    const std::string recording = parameters.text("recording");
+    parameters.refuse_others();
+
+    const auto model = build_model(setup.scenario);
+    RosVehicle vehicle(setup.scenario, options);
+    std::atomic<bool> stop{false};
+    FlightWatch watch;
+    watch.on_event = [](const Event& event) {
+        ROS_INFO("%7.3f  %s %s%s%s", event.time_s, std::string(event.station).c_str(),
+                 std::string(to_string(event.name)).c_str(), event.reason.empty() ? "" : ": ",
+                 std::string(event.reason).c_str());
+    };
+    watch.on_tick = [&stop](Flight&, const EventList&) { stop = !::ros::ok(); };
+    const FlightResult result = fly(model, recording, watch, 0,
+                                    {.outside = vehicle.outside(), .speed = speed, .stop = &stop});
+    fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
+               result.performance.simulated_s);
+}
+
+}  // namespace
+}  // namespace limpet::ros
+
+int main(int argc, char** argv) {
+    return limpet::ros::run_node(argc, argv, "vehicle_node", limpet::ros::vehicle_node);
+}

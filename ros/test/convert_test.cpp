@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/src/convert.hpp"
+
+#include <gtest/gtest.h>
+#include <limpet_ros/CommandLong.h>
+#include <limpet_ros/SetMode.h>
+#include <limpet_ros/State.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace limpet::ros {
+namespace {
+
+constexpr double kTiny = 1e-9;
+
+Estimate somewhere() {
+    Estimate estimate;
+    estimate.p_WB_m = {1.0, 2.0, -3.0};   // 1 m north, 2 m east, 3 m up
+    estimate.v_WB_m_s = {0.1, 0.2, 0.3};  // falling
+    estimate.w_WB_B_rad_s = {0.01, 0.02, 0.03};
+    estimate.specific_force_B_m_s2 = {0.0, 0.0, -9.81};
+    estimate.valid = true;
+    return estimate;
+}
+
+TEST(RosConvert, NorthEastDownBecomesEastNorthUp) {
+    const auto pose = pose_message(somewhere());
+    EXPECT_EQ(pose.header.frame_id, "map");
+    EXPECT_DOUBLE_EQ(pose.pose.position.x, 2.0);
+    EXPECT_DOUBLE_EQ(pose.pose.position.y, 1.0);
+    EXPECT_DOUBLE_EQ(pose.pose.position.z, 3.0);
+    // Level and looking north: 90 deg from east, counter-clockwise.
+    EXPECT_NEAR(pose.pose.orientation.w, std::sqrt(0.5), kTiny);
+    EXPECT_NEAR(pose.pose.orientation.x, 0.0, kTiny);
+    EXPECT_NEAR(pose.pose.orientation.y, 0.0, kTiny);
+    EXPECT_NEAR(pose.pose.orientation.z, std::sqrt(0.5), kTiny);
+}
+
+TEST(RosConvert, NoseUpIsANegativePitchThere) {
+    Estimate estimate = somewhere();
+    estimate.q_WB = quaternion_from_euler({.pitch_rad = radians(66.0), .yaw_rad = radians(90.0)});
+    const auto pose = pose_message(estimate);
+    // Looking east: no yaw there; about y, which points left, nose up is negative.
+    EXPECT_NEAR(pose.pose.orientation.w, std::cos(radians(33.0)), kTiny);
+    EXPECT_NEAR(pose.pose.orientation.x, 0.0, kTiny);
+    EXPECT_NEAR(pose.pose.orientation.y, -std::sin(radians(33.0)), kTiny);
+    EXPECT_NEAR(pose.pose.orientation.z, 0.0, kTiny);
+    const auto back = pose_reading(pose);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(euler_from_quaternion(back->q_WB).pitch_rad, radians(66.0), kTiny);
+}
+
+TEST(RosConvert, VelocityAndRatesTurnWithTheirFrames) {
+    const auto velocity = velocity_message(somewhere());
+    EXPECT_DOUBLE_EQ(velocity.twist.linear.x, 0.2);
+    EXPECT_DOUBLE_EQ(velocity.twist.linear.y, 0.1);
+    EXPECT_DOUBLE_EQ(velocity.twist.linear.z, -0.3);
+    EXPECT_NEAR(velocity.twist.angular.x, 0.02, kTiny);  // level, north: B's axes are W's
+    EXPECT_NEAR(velocity.twist.angular.y, 0.01, kTiny);
+    EXPECT_NEAR(velocity.twist.angular.z, -0.03, kTiny);
+    const auto imu = imu_message(somewhere());
+    EXPECT_DOUBLE_EQ(imu.angular_velocity.x, 0.01);
+    EXPECT_DOUBLE_EQ(imu.angular_velocity.y, -0.02);
+    EXPECT_DOUBLE_EQ(imu.angular_velocity.z, -0.03);
+    EXPECT_DOUBLE_EQ(imu.linear_acceleration.z, 9.81);  // at rest: upwards (REP 145)
+    EXPECT_TRUE(velocity_W(velocity)->isApprox(somewhere().v_WB_m_s));
+    EXPECT_TRUE(rate_B(imu)->isApprox(somewhere().w_WB_B_rad_s));
+}
+
+TEST(RosConvert, NoEchoIsInfinity) {
+    const auto none = range_message({.distance_m = 0.0, .valid = false}, 0.1, 12.0);
+    EXPECT_TRUE(std::isinf(none.range));
+    EXPECT_FALSE(range_reading(none).valid);
+    const auto echo = range_message({.distance_m = 1.5, .valid = true}, 0.1, 12.0);
+    EXPECT_TRUE(range_reading(echo).valid);
+    EXPECT_NEAR(range_reading(echo).distance_m, 1.5, 1e-6);
+    auto far = echo;
+    far.range = 13.0F;
+    EXPECT_FALSE(range_reading(far).valid);
+}
+
+TEST(RosConvert, ABatteryThatGivesCurrentHasANegativeOne) {
+    const auto message = battery_message({.voltage_V = 23.5, .current_A = 40.0, .remaining = 0.75});
+    EXPECT_FLOAT_EQ(message.current, -40.0F);
+    const auto back = battery_reading(message);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->current_A, 40.0, 1e-5);
+    EXPECT_NEAR(back->remaining, 0.75, 1e-6);
+}
+
+TEST(RosConvert, SetPointsKeepTheirMeaning) {
+    const PositionSetpoint position{
+        .p_W_m = {1.0, 2.0, -3.0}, .yaw_rad = radians(30.0), .feedforward_v_W_m_s = {0.5, 0, 0}};
+    const auto message = target_message(position);
+    EXPECT_DOUBLE_EQ(message.position.x, 2.0);
+    EXPECT_DOUBLE_EQ(message.position.z, 3.0);
+    EXPECT_NEAR(message.yaw, radians(60.0), 1e-6);
+    EXPECT_DOUBLE_EQ(message.velocity.y, 0.5);
+    const auto back = motion_from(message);
+    ASSERT_TRUE(back && std::holds_alternative<PositionSetpoint>(*back));
+    EXPECT_TRUE(std::get<PositionSetpoint>(*back).p_W_m.isApprox(position.p_W_m));
+    EXPECT_NEAR(std::get<PositionSetpoint>(*back).yaw_rad, position.yaw_rad, 1e-6);
+    EXPECT_TRUE(std::get<PositionSetpoint>(*back).feedforward_v_W_m_s.isApprox(
+        position.feedforward_v_W_m_s));
+
+    const VelocitySetpoint velocity{
+        .v_W_m_s = {1.1, 0.1, 0.2}, .yaw_rad = -3.0, .feedforward_a_W_m_s2 = {1.5, 0, 0}};
+    const auto run = motion_from(target_message(velocity));
+    ASSERT_TRUE(run && std::holds_alternative<VelocitySetpoint>(*run));
+    EXPECT_TRUE(std::get<VelocitySetpoint>(*run).v_W_m_s.isApprox(velocity.v_W_m_s));
+    EXPECT_NEAR(std::get<VelocitySetpoint>(*run).yaw_rad, -3.0, 1e-6);
+    EXPECT_TRUE(std::get<VelocitySetpoint>(*run).feedforward_a_W_m_s2.isApprox(
+        velocity.feedforward_a_W_m_s2));
+
+    const AttitudeSetpoint attitude{.q_WB = quaternion_from_euler({.pitch_rad = 1.1}),
+                                    .thrust = 0.4};
+    const auto lean = motion_from(target_message(attitude));
+    ASSERT_TRUE(lean && std::holds_alternative<AttitudeSetpoint>(*lean));
+    EXPECT_LT(std::get<AttitudeSetpoint>(*lean).q_WB.angularDistance(attitude.q_WB), 1e-7);
+    EXPECT_NEAR(std::get<AttitudeSetpoint>(*lean).thrust, 0.4, 1e-6);
+}
+
+TEST(RosConvert, WhatIsNoSetPointIsNone) {
+    limpet_ros::PositionTarget target = target_message(PositionSetpoint{});
+    target.coordinate_frame = limpet_ros::PositionTarget::FRAME_BODY_NED;
+    EXPECT_FALSE(motion_from(target));
+    target = target_message(PositionSetpoint{});
+    target.position.y = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(motion_from(target));
+    target = target_message(PositionSetpoint{});
+    target.type_mask = 0;  // a position, a velocity and a rate of yaw at once
+    EXPECT_FALSE(motion_from(target));
+    limpet_ros::AttitudeTarget attitude = target_message(AttitudeSetpoint{});
+    attitude.orientation.w = 0.5;
+    EXPECT_FALSE(motion_from(attitude));
+}
+
+TEST(RosConvert, AContactComesBackWhole) {
+    const LipContact contact{.touches = true,
+                             .gap_m = -0.001,
+                             .tilt_rad = 0.1,
+                             .lies_still = false,
+                             .let_go = LetGo::sheared,
+                             .pull_N = -20.0,
+                             .pull_margin_N = 1.0,
+                             .shear_margin_N = -2.0,
+                             .peel_margin_N = 3.0};
+    const auto back = lip_contact(contact_message(contact));
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(back->touches);
+    EXPECT_FALSE(back->lies_still);
+    EXPECT_EQ(back->let_go, LetGo::sheared);
+    EXPECT_EQ(back->gap_m, contact.gap_m);
+    EXPECT_EQ(back->shear_margin_N, contact.shear_margin_N);
+    auto broken = contact_message(contact);
+    broken.let_go = 9;
+    EXPECT_FALSE(lip_contact(broken));
+    broken = contact_message(contact);
+    broken.tilt_rad = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(lip_contact(broken));
+}
+
+// What roscpp compares when two ends meet. Source: mavros_msgs of MAVROS 1.x as it connects in the
+// field (its State is quoted in many bug reports).
+TEST(RosConvert, MavrosUnderstandsTheState) {
+    EXPECT_STREQ(::ros::message_traits::MD5Sum<limpet_ros::State>::value(),
+                 "ce783f756cab1193cb71ba9e90fece50");
+}
+
+}  // namespace
+}  // namespace limpet::ros
