@@ -32,11 +32,13 @@ free_port() {
     return 1
 }
 
+set +u  # Gazebo's own script does not care
 . /usr/share/gazebo/setup.sh
+set -u
 plugins=build/bullseye
 export GAZEBO_IP=127.0.0.1 GAZEBO_MODEL_DATABASE_URI='' ALSOFT_DRIVERS=null
 export GAZEBO_PLUGIN_PATH=$PWD/$plugins:$GAZEBO_PLUGIN_PATH
-export GAZEBO_RESOURCE_PATH=$PWD/gazebo:$GAZEBO_RESOURCE_PATH
+export GAZEBO_RESOURCE_PATH=${world%/*}:$GAZEBO_RESOURCE_PATH  # materials stand beside the world
 port=$(free_port $((12000 + RANDOM % 8000))) || { say "limpet: no free port for Gazebo's master"; exit 1; }
 export GAZEBO_MASTER_URI=http://127.0.0.1:$port
 
@@ -61,14 +63,11 @@ children+=("$server_PID")
 pid=$server_PID
 while IFS= read -r line; do
     printf '%s\n' "$line"
-    case $line in
-        *perched*) touch "$out/.perched" ;;
-        *motors_on*) touch "$out/.motors_on" ;;
-    esac
+    [[ $line =~ ^\ +[0-9.]+\ +(perched|motors_on)\  ]] && touch "$out/.${BASH_REMATCH[1]}"
 done <&"${server[0]}"
 wait "$pid"
 code=$?
-children=("${children[@]/$pid/}")
+unset "children[-1]"
 case $code in
     0) ;;
     124 | 137) say "limpet: gzserver did not end within $time_limit s (--time-limit); $log"; exit 1 ;;

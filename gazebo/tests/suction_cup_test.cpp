@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <thread>
+#include <vector>
 
 #include "gazebo/suction_cup_plugin.hpp"
 #include "press_bench.hpp"
@@ -58,10 +60,10 @@ TEST(SuctionCup, APressBelowTheThresholdNeverSeals) {
 TEST_P(OfEachAttachment, HundredCyclesLeaveNothingBehind) {
     PressBench bench(settings(GetParam()));
     const unsigned int joints = bench.body->GetJointCount();
-    double before_B = 0.0;
+    std::vector<double> resident;  ///< [B], every ten cycles
     for (int cycle = 0; cycle < 100; ++cycle) {
-        if (cycle == 20) {
-            before_B = resident_B();
+        if (cycle % 10 == 0) {
+            resident.push_back(resident_B());
         }
         bench.cup.command({.pump_on = true, .valve_open = false});
         bench.push_N.X(40.0);
@@ -81,9 +83,12 @@ TEST_P(OfEachAttachment, HundredCyclesLeaveNothingBehind) {
         bench.push_N.X(0.0);
         bench.body->SetLinearVel({0.0, 0.0, 0.0});
     }
-    const double growth_B = resident_B() - before_B;
-    RecordProperty("resident_growth_kB", static_cast<int>(growth_B / 1024.0));
-    EXPECT_LT(growth_B, 4e6) << "of 80 cycles";
+    // The allocator may take a block or two for good; a leak grows in every ten.
+    int growing = 0;
+    for (std::size_t i = 1; i < resident.size(); ++i) {
+        growing += resident[i] > resident[i - 1] + 64e3 ? 1 : 0;
+    }
+    EXPECT_LE(growing, 3) << "times ten cycles, of nine";
 }
 
 TEST_P(OfEachAttachment, IsPulledOffAtTheVacuumsForce) {
@@ -177,6 +182,22 @@ TEST_P(OfEachAttachment, ADeletedTargetLetsGo) {
 INSTANTIATE_TEST_SUITE_P(All, OfEachAttachment,
                          ::testing::Values("compliant", "fixed", "universal"),
                          [](const auto& info) { return info.param; });
+
+TEST(SuctionCup, APauseStopsTheAirAndALaterStepGoesOn) {
+    PressBench bench(settings("compliant"));
+    bench.push_N.X(40.0);
+    ASSERT_GE(bench.run_until([&] { return bench.phase() == CupPhase::sealing; }, 3000), 0);
+    bench.server.world()->SetPaused(true);
+    const double before_Pa = bench.pressure_Pa();
+    std::thread stepping([&] { bench.run(50); });
+    while (bench.server.world()->PauseTime() < gazebo::common::Time(0.05)) {
+        std::this_thread::yield();
+    }
+    EXPECT_EQ(bench.pressure_Pa(), before_Pa);
+    bench.server.world()->SetPaused(false);
+    stepping.join();
+    EXPECT_NEAR(bench.pressure_Pa(), 60000.0 + (before_Pa - 60000.0) * std::exp(-0.05 / 0.2), 1.0);
+}
 
 TEST(SuctionCup, HoldsOnlyItsTargets) {
     PressBench bench(settings("compliant", "<target model='other'/>"), "0 0 0",
