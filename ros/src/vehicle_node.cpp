@@ -17,7 +17,7 @@ namespace {
 
 void vehicle_node() {
     NodeParameters parameters;
-    const Setup setup = load_setup(parameters.setup());
+    const NodeSetup setup = load_setup(parameters.setup());
     RosVehicleOptions options;
     const auto& loss = offboard_manners_table().front();
     options.manners.loss_s = parameters.number(std::string(loss.name), options.manners.loss_s,
