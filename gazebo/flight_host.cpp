@@ -4,6 +4,8 @@
 #include <boost/coroutine2/protected_fixedsize_stack.hpp>
 #include <utility>
 
+#include "limpet/vehicle/links.hpp"
+
 namespace limpet {
 namespace {
 
@@ -14,8 +16,15 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
-    const auto plant = std::make_shared<const GazeboModel>(std::move(vehicle), flight_.scenario,
-                                                           [this] { (*to_gazebo_)(); });
+    const Airframe& airframe = flight_.scenario.airframe;
+    const GazeboNames names{.base = called(airframe, "base"),
+                            .carriage = called(airframe, "carriage"),
+                            .cup = called(airframe, "cup"),
+                            .slider = called(airframe, "slider"),
+                            .hinges = {called(airframe, "cup_pitch"), called(airframe, "cup_yaw")}};
+    const auto plant = std::make_shared<const GazeboModel>(
+        std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
+    flight_.conduct.stop = &interrupted_;
     model_ = build_model(flight_.scenario, [&plant](const std::string&) { return plant; });
 }
 
@@ -32,6 +41,17 @@ void FlightHost::update() {
     }
     if (failure_) {
         std::rethrow_exception(std::exchange(failure_, nullptr));
+    }
+}
+
+void FlightHost::interrupt() {
+    interrupted_ = true;
+    update();
+}
+
+void FlightHost::wait_for_gazebo() {
+    if (!interrupted_) {
+        (*to_gazebo_)();
     }
 }
 

@@ -36,17 +36,23 @@ public:
     /// The world was reset: the flight begins anew at the next update.
     void restart();
 
+    /// Ends a flight that is under way where it is, its recording whole; Gazebo steps no more.
+    void interrupt();
+    [[nodiscard]] bool under_way() const { return coroutine_ != nullptr && *coroutine_; }
+
     /// @return nullptr until it is over
     [[nodiscard]] const FlightResult* result() const { return result_ ? &*result_ : nullptr; }
 
 private:
     using Coroutine = boost::coroutines2::coroutine<void>;
 
+    void wait_for_gazebo();
     void run(Coroutine::push_type& to_gazebo);
 
     HostedFlight flight_;
     std::shared_ptr<const SimulationModel> model_;
     Coroutine::push_type* to_gazebo_ = nullptr;
+    std::atomic<bool> interrupted_{false};
     std::optional<FlightResult> result_;
     std::exception_ptr failure_;
     std::unique_ptr<Coroutine::pull_type> coroutine_;  ///< last: unwinds what uses the others

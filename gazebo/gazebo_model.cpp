@@ -140,6 +140,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, Ne
     check_gravity(*world_);
     check_mass(*vehicle_, airframe);
     check_wall(*ray_, scenario);
+    first_ = GazeboPlant::state_of(*vehicle_);
 }
 
 }  // namespace limpet

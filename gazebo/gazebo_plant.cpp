@@ -29,7 +29,9 @@ constexpr std::size_t kValuesALink = 13;
 }  // namespace
 
 std::unique_ptr<Plant> GazeboModel::make() const {
-    return std::make_unique<GazeboPlant>(shared_from_this());
+    auto plant = std::make_unique<GazeboPlant>(shared_from_this());
+    plant->restore(first_);
+    return plant;
 }
 
 GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model) : model_(std::move(model)) {}
@@ -148,8 +150,12 @@ Vector3 GazeboPlant::contact_force_W() const {
 }
 
 PlantState GazeboPlant::save() const {
+    return state_of(*model_->vehicle_);
+}
+
+PlantState GazeboPlant::state_of(const physics::Model& vehicle) {
     PlantState state;
-    for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
+    for (const physics::LinkPtr& part : vehicle.GetLinks()) {
         const Pose3d pose = part->WorldPose();
         const Vector3d speed = part->WorldLinearVel();
         const Vector3d rate = part->WorldAngularVel();

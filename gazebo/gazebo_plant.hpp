@@ -38,6 +38,7 @@ public:
     GazeboModel(gazebo::physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
                 const GazeboNames& names = {});
 
+    /// A plant in the state in which the model was found.
     [[nodiscard]] std::unique_ptr<Plant> make() const override;
 
 private:
@@ -52,6 +53,7 @@ private:
     gazebo::physics::RayShapePtr ray_;
     Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
     NextUpdate next_;
+    PlantState first_;
 };
 
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
@@ -59,6 +61,8 @@ private:
 class GazeboPlant final : public Plant {
 public:
     explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
+    /// Poses and speeds of all links of a model: what save() gives.
+    [[nodiscard]] static PlantState state_of(const gazebo::physics::Model& vehicle);
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
     void apply_slider(double force_N) override;

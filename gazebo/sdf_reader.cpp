@@ -5,13 +5,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <locale>
 #include <sdf/Param.hh>
+#include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet {
 namespace {
@@ -130,6 +135,22 @@ YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading) {
         override_from_environment(root, key, reading);
     }
     return root;
+}
+
+ignition::math::Pose3d read_pose(const YamlNode& node) {
+    std::istringstream text(read_text(node));
+    text.imbue(std::locale::classic());
+    std::array<double, 6> numbers{};
+    for (double& number : numbers) {
+        text >> number;
+    }
+    const bool whole = !text.fail() && (text >> std::ws).eof();
+    if (!whole || !std::all_of(numbers.begin(), numbers.end(),
+                               [](double number) { return std::abs(number) <= 1e6; })) {
+        fail(node, fmt::format("\"{}\" is not a pose, allowed x y z roll pitch yaw [m, rad]",
+                               shown(node.text)));
+    }
+    return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
 }
 
 void end_server(int exit_code, std::string_view line) {

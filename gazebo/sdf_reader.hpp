@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <ignition/math/Pose3.hh>
 #include <sdf/Element.hh>
 #include <string>
 #include <string_view>
@@ -31,6 +32,10 @@ struct SdfReading {
 /// text
 ///         beside attributes or children
 [[nodiscard]] YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading);
+
+/// Six numbers as SDF writes a pose: x y z [m], roll pitch yaw [rad].
+/// @throws InputError
+[[nodiscard]] ignition::math::Pose3d read_pose(const YamlNode& node);
 
 /// Says `limpet: LINE` on stderr and ends the process at once, with what was written flushed: other
 /// threads of the server may wait for what will not come.

@@ -102,7 +102,7 @@ make_root() {
     trap "remove_root '$making'" EXIT
     trap 'exit 130' INT TERM HUP
     say "making a root folder of Debian 11 with Gazebo 11 and ROS 1, once: $root"
-    say "  530 MB to download, 2.3 GB on disk, about three minutes ..."
+    say "  530 MB to download, 2.1 GB on disk, three to five minutes ..."
     if [ -t 2 ]; then
         bootstrap "$mirror" "$making" >&2 || stop "mmdebstrap failed; what it said is above"
     else
@@ -171,4 +171,15 @@ enter() {
     [ -z "${DISPLAY:-}" ] || binds+=(--bind-try /tmp/.X11-unix /tmp/.X11-unix)
     env -i "${environment[@]}" HOME=/tmp/home bwrap "${binds[@]}" \
         --chdir "$PWD" --unshare-pid --die-with-parent "$@"
+}
+
+# build_gazebo [TARGET...]: the plugins and their tests, where Gazebo is
+build_gazebo() {
+    cd "$limpet_root" || exit 1
+    if [ ! -f build/bullseye/build.ninja ]; then
+        step "configuring (Gazebo) ..." enter cmake -S gazebo -B build/bullseye -G Ninja
+    fi
+    if ! enter ninja -C build/bullseye -n "$@" 2>/dev/null | grep -q 'no work to do'; then
+        step "building (Gazebo), a few minutes the first time ..." enter ninja -C build/bullseye "$@"
+    fi
 }

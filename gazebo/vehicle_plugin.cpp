@@ -45,7 +45,13 @@ void quit() {
 
 }  // namespace
 
-VehiclePlugin::~VehiclePlugin() = default;
+VehiclePlugin::~VehiclePlugin() {
+    on_update_.reset();
+    if (host_ != nullptr && host_->under_way()) {
+        host_->interrupt();
+        say("interrupted; the recording is whole up to here");
+    }
+}
 
 void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/, const YamlNode& /*parameters*/,
                             HostedFlight& /*flight*/) {}
@@ -88,8 +94,12 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
 }
 
 void VehiclePlugin::update() {
+    if (told_) {
+        world_->SetPaused(true);  // nothing flies it any more; a world reset begins anew
+        return;
+    }
     host_->update();
-    if (host_->result() != nullptr && !told_) {
+    if (host_->result() != nullptr) {
         told_ = true;
         end();
     }

@@ -131,7 +131,7 @@ ExitCode compare_flights(const CompareOptions& options) {
 void add_compare(CLI::App& app, ExitCode& code) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* verb = app.add_subcommand(
-        "compare", "Lay flights over each other and tell how far they differ from the first");
+        "compare", "Lay flights over each other and tell how they differ from the first");
     verb->add_option("recordings", options->recordings, "the reference, then the others (.mcap)")
         ->required()
         ->expected(2, 16)

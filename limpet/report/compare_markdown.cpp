@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "limpet/report/compare_text.hpp"
@@ -16,12 +17,32 @@ constexpr std::string_view kShownChannels[] = {
     "slider_force_N", "cup_pull_N", "thrust_N",
 };
 
+/// Figures of the table; the text and the JSON have them all.
+constexpr std::string_view kShownFigures[] = {
+    "impact_speed_m_s",
+    "impact_force_N",
+    "cup_press_max_N",
+    "cup_pull_max_N",
+    "cup_margin_min_N",
+    "time_to_land_pressure_s",
+    "pressure_at_hold_end_Pa",
+    "pressure_min_Pa",
+    "release_s",
+    "pitch_oscillation_max_deg",
+    "rest_pitch_deg",
+    "rest_roll_deg",
+    "rest_cup_pull_N",
+    "rest_cup_shear_N",
+    "rest_hanging_load_N",
+    "rest_hanging_load_off_weight",
+};
+
 std::string cell(double value, int digits) {
     return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
-std::string digits4(double value) {
-    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+std::string digits5(double value) {
+    return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-";
 }
 
 /// A row of cells.
@@ -87,13 +108,17 @@ std::string event_rows(const std::vector<FlightComparison>& comparisons) {
 std::string figure_rows(const std::vector<FlightComparison>& comparisons) {
     std::string text;
     for (const FlightFigure& figure : comparisons.front().figures) {
+        if (std::find(std::begin(kShownFigures), std::end(kShownFigures), figure.name) ==
+            std::end(kShownFigures)) {
+            continue;
+        }
         Row row(figure.name);
-        row.add(digits4(figure.reference));
+        row.add(digits5(figure.reference));
         for (const FlightComparison& c : comparisons) {
             const auto same =
                 std::find_if(c.figures.begin(), c.figures.end(),
                              [&figure](const FlightFigure& f) { return f.name == figure.name; });
-            row.add(same == c.figures.end() ? "-" : digits4(same->other));
+            row.add(same == c.figures.end() ? "-" : digits5(same->other));
         }
         text += row.end();
     }

@@ -19,8 +19,7 @@ namespace limpet {
 [[nodiscard]] std::string comparison_json(const std::vector<FlightComparison>& comparisons,
                                           const std::vector<Excess>& checked);
 
-/// Tables of Markdown, a column a flight: outcome, events, figures, channels that figures of merit
-/// do not show already.
+/// A table of Markdown, a column a flight: outcome, events, what perching is judged by.
 [[nodiscard]] std::string comparison_markdown(const std::vector<FlightComparison>& comparisons);
 
 }  // namespace limpet

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/cad_section.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -63,11 +64,12 @@ void read_rotors(const YamlNode* node, Airframe& airframe) {
 }
 
 /// @param with_base  in a scenario; a vehicle file stands for itself
-void read_vehicle(const YamlNode& map, bool with_base, Airframe& airframe) {
+/// @param folder     from which relative paths count
+void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder, Airframe& airframe) {
     if (!is_section(&map)) {
         fail(map, "is empty, must describe a vehicle");
     }
-    std::vector<std::string_view> others = {"name", "description", "has_cup", "rotors"};
+    std::vector<std::string_view> others = {"name", "description", "has_cup", "rotors", "model"};
     if (with_base) {
         others.push_back("base");
     }
@@ -91,6 +93,7 @@ void read_vehicle(const YamlNode& map, bool with_base, Airframe& airframe) {
     if (const YamlNode* node = map.find("has_cup")) {
         airframe.has_cup = read_flag(*node);
     }
+    read_model(map, folder, airframe);
     read_rotors(map.find("rotors"), airframe);
     for (Vector3& p_B_m : airframe.rotor_p_B_m) {
         p_B_m.z() = -airframe.rotor.height_m;
@@ -109,7 +112,7 @@ Airframe load_vehicle_file(const fs::path& file) {
     const YamlNode root = parse_yaml_file(file);
     Airframe airframe;
     airframe.name = file.stem().string();
-    read_vehicle(root, false, airframe);
+    read_vehicle(root, false, file.parent_path(), airframe);
     validate_at(root, airframe);
     return airframe;
 }
@@ -187,7 +190,7 @@ Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path
         airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file);
     }
     if (node.kind == YamlNode::Kind::map) {
-        read_vehicle(node, true, airframe);
+        read_vehicle(node, true, folder, airframe);
         validate_at(node, airframe);
     }
     return airframe;

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <iterator>
 
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
+#include "limpet/vehicle/cad_model.hpp"
 
 namespace limpet {
 namespace {
@@ -43,11 +45,31 @@ private:
     std::string text_;
 };
 
+void write_model(Writer& writer, const CadModel& cad, bool has_cup) {
+    const auto names = [&](const char* key, std::initializer_list<std::string_view> parts) {
+        writer.line(2, fmt::format("{}:", key));
+        for (const std::string_view part : parts) {
+            writer.value(3, part, in_quotes(cad.names.of(part)));
+        }
+    };
+    writer.line(1, "model:");
+    writer.value(2, "urdf", in_quotes(cad.file));
+    if (!has_cup) {
+        names("links", {"base"});
+        return;
+    }
+    names("links", {"base", "carriage", "cup_yoke", "cup"});
+    names("joints", {"slider", "cup_pitch", "cup_yaw"});
+}
+
 void write_vehicle(Writer& writer, Airframe& airframe) {
     writer.line(0, "vehicle:");
     writer.value(1, "name", in_quotes(airframe.name));
     writer.value(1, "description", in_quotes(airframe.description));
     writer.value(1, "has_cup", airframe.has_cup ? "true" : "false");
+    if (airframe.cad) {
+        write_model(writer, *airframe.cad, airframe.has_cup);
+    }
     for (const Section& section : vehicle_sections(airframe)) {
         if (section.name.empty()) {
             writer.rows(1, section.rows);

@@ -63,10 +63,13 @@ void touch(CupState& state, const Surface& surface) {
 
 /// The lip's load in the phase it is in now.
 LipLoad load_on(const CupParameters& parameters, CupState& state, const Surface& surface,
-                const LipMotion& motion) {
+                const LipMotion& motion, const std::optional<Wrench>& held_T) {
     const bool sealed = is_sealed(state.status.phase);
     const double vacuum_N =
         sealed ? vacuum_force_N(state.mean_pressure_Pa, parameters.lip.radius_m) : 0.0;
+    if (sealed && held_T) {
+        return held_load(parameters.lip, *held_T, surface.friction, vacuum_N);
+    }
     return lip_load(parameters.lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
 }
 
@@ -227,11 +230,12 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     }
     LipLoad load;
     if (status.phase != CupPhase::free) {
-        load = load_on(parameters, state, surface, motion);
+        load = load_on(parameters, state, surface, motion, input.held_T);
         output.event = advance_contact(parameters, state, contact_of(motion, load), input);
         if (load.let_go != LetGo::no) {
-            load = status.phase == CupPhase::free ? LipLoad{}
-                                                  : load_on(parameters, state, surface, motion);
+            load = status.phase == CupPhase::free
+                       ? LipLoad{}
+                       : load_on(parameters, state, surface, motion, input.held_T);
         }
         output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
                            .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};

@@ -70,10 +70,13 @@ struct CupInput {
     double press_N = 0.0;  ///< through the mechanism, > 0 presses the cup on the wall [N]
     bool pump_on = false;
     bool valve_open = false;
+    /// In T, about the lip's centre: what a joint, that holds the cup in the lip's place, does to
+    /// it.
+    std::optional<Wrench> held_T = {};
 };
 
 struct CupOutput {
-    Wrench wrench_W;             ///< by the wall on the cup about the lip's centre, in W
+    Wrench wrench_W;  ///< by the wall (or its joint) on the cup about the lip's centre, in W
     std::optional<Event> event;  ///< attached, contact_lost, detached
 };
 

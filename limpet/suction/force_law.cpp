@@ -25,6 +25,17 @@ double pull_demand_N(const LipParameters& lip, const LipMotion& motion, bool sea
     return sealed ? -push_N : std::min(0.0, -push_N);
 }
 
+/// Beyond which limit a sealed lip is loaded; the gravest first.
+LetGo let_go_of(const LipLoad& load, bool twisted_open) {
+    if (load.pull_margin_N < 0.0) {
+        return LetGo::pulled;
+    }
+    if (load.shear_margin_N < 0.0 || twisted_open) {
+        return LetGo::sheared;
+    }
+    return load.peel_margin_N < 0.0 ? LetGo::peeled : LetGo::no;
+}
+
 }  // namespace
 
 const ParameterTable<LipParameters>& lip_table() {
@@ -158,13 +169,27 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
     load.wrench_T.moment_N_m = {twist_N_m, tilt_y_N_m, tilt_z_N_m};
     if (!sealed) {
         load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
-    } else if (load.pull_margin_N < 0.0) {
-        load.let_go = LetGo::pulled;
-    } else if (load.shear_margin_N < 0.0 || twist_N_m != twist_demand_N_m) {
-        load.let_go = LetGo::sheared;
-    } else if (load.peel_margin_N < 0.0) {
-        load.let_go = LetGo::peeled;
+    } else {
+        load.let_go = let_go_of(load, twist_N_m != twist_demand_N_m);
     }
+    return load;
+}
+
+LipLoad held_load(const LipParameters& lip, const Wrench& wrench_T, double friction,
+                  double vacuum_N) {
+    const Vector3& force_N = wrench_T.force_N;
+    const Vector3& moment_N_m = wrench_T.moment_N_m;
+    const double lip_N = std::max(0.0, vacuum_N - force_N.x());
+    const double lever_m = 0.5 * lip.radius_m;
+    LipLoad load;
+    load.wrench_T = wrench_T;
+    load.pull_N = force_N.x();
+    load.shear_N = std::hypot(force_N.y(), force_N.z());
+    load.peel_N_m = std::hypot(moment_N_m.y(), moment_N_m.z());
+    load.pull_margin_N = vacuum_N - load.pull_N;
+    load.shear_margin_N = friction * lip_N - load.shear_N;
+    load.peel_margin_N = lip_N - load.peel_N_m / lever_m;
+    load.let_go = let_go_of(load, std::abs(moment_N_m.x()) > friction * lip_N * lip.radius_m);
     return load;
 }
 

@@ -96,6 +96,11 @@ struct LipLoad {
 [[nodiscard]] LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor,
                                double friction, double vacuum_N, bool sealed);
 
+/// Load on a sealed lip that a joint holds to the wall in the law's place, against the same limits.
+/// @param wrench_T  by the joint on the cup about the lip's centre, in T
+[[nodiscard]] LipLoad held_load(const LipParameters& lip, const Wrench& wrench_T, double friction,
+                                double vacuum_N);
+
 /// Force with which vacuum holds a cup of this radius: (P_atm - P) pi R^2 [N].
 [[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/vehicle/cad_model.hpp"
 
 namespace limpet {
 
@@ -21,7 +22,8 @@ Matrix3 about_origin(const BodyInertia& body) {
     return body.inertia_kg_m2 - body.mass_kg * arm * arm;
 }
 
-/// @throws InputError unless some real body has this mass and inertia
+}  // namespace
+
 void require_physical(const std::string& what, double mass_kg, const Matrix3& inertia_kg_m2) {
     if (!(mass_kg > 0.0)) {
         throw InputError(fmt::format("{}: mass_kg is {}, must be > 0", what, mass_kg));
@@ -35,8 +37,6 @@ void require_physical(const std::string& what, double mass_kg, const Matrix3& in
             what, principal[0], principal[1], principal[2]));
     }
 }
-
-}  // namespace
 
 void validate(const Airframe& airframe) {
     for (int i = 0; i < kRotors; ++i) {
@@ -65,6 +65,9 @@ void validate(const Airframe& airframe) {
 }
 
 BodyInertia carriage_inertia(const Airframe& airframe) {
+    if (airframe.cad) {
+        return airframe.cad->carriage;
+    }
     const double mass_kg = airframe.slider.mass_kg;
     const double length_m = 2.0 * airframe.slider.travel_m;
     const double along = 0.5 * mass_kg * kRodRadius_m * kRodRadius_m;
@@ -76,6 +79,9 @@ BodyInertia carriage_inertia(const Airframe& airframe) {
 }
 
 BodyInertia cup_inertia(const Airframe& airframe) {
+    if (airframe.cad) {
+        return cup_with_yoke(*airframe.cad);
+    }
     const CupMountParameters& cup = airframe.cup;
     const double along = 0.5 * cup.mass_kg * cup.radius_m * cup.radius_m;
     const double across = 0.5 * along + cup.mass_kg * cup.lip_offset_m * cup.lip_offset_m / 12.0;
@@ -85,6 +91,9 @@ BodyInertia cup_inertia(const Airframe& airframe) {
 }
 
 BodyInertia base_inertia(const Airframe& airframe) {
+    if (airframe.cad) {
+        return airframe.cad->base;
+    }
     BodyInertia base{.mass_kg = airframe.mass_kg,
                      .centre_B_m = Vector3::Zero(),
                      .inertia_kg_m2 = airframe.inertia_kg_m2.asDiagonal()};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct BatteryParameters {
     double initial_charge = 1.0;     ///< 0..1
 };
 
+struct CadModel;
+
 /// ONE description of a vehicle, from which MJCF, SDF and URDF are made. Positions are in B: origin
 /// at the centre of mass of the whole vehicle with the slider at its outer stop,
 /// forward-right-down.
@@ -95,6 +98,9 @@ struct Airframe {
     double lidar_x_m = 0.205;          ///< both LiDARs on the front arms
     double lidar_separation_m = 0.41;  ///< l of eq. (7)
     double lidar_z_m = 0.0;
+    /// Bodies and looks as a CAD program gives them, else null: then they are made of the above.
+    /// Masses, inertias and the cup's joint above are the same as its.
+    std::shared_ptr<const CadModel> cad{};
 };
 
 /// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery` of a vehicle file.
@@ -109,6 +115,10 @@ struct Airframe {
 /// @throws InputError when the parts do not make a body: the base's share of mass or inertia is not
 ///         positive or breaks the triangle inequality, a stated z differs from rotor.height_m
 void validate(const Airframe& airframe);
+
+/// @param what  for the message: "base"
+/// @throws InputError unless some real body has this mass and inertia
+void require_physical(const std::string& what, double mass_kg, const Matrix3& inertia_kg_m2);
 
 /// Mass of one body, with the slider at its outer stop and the joint centred.
 struct BodyInertia {

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "limpet/vehicle/cad_model.hpp"
+
 namespace limpet {
 
 namespace {
@@ -131,7 +133,14 @@ const PaintLook& look(Paint paint) {
     return looks[static_cast<std::size_t>(paint)];
 }
 
+const std::array<double, 4>& colour(const Part& part) {
+    return part.rgba ? *part.rgba : look(part.paint).rgba;
+}
+
 std::vector<Part> draw(const Airframe& airframe) {
+    if (airframe.cad) {
+        return airframe.cad->parts;
+    }
     std::vector<Part> parts;
     draw_body(parts);
     for (std::size_t i = 0; i < airframe.rotor_p_B_m.size(); ++i) {

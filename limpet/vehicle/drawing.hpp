@@ -2,19 +2,24 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "limpet/vehicle/airframe.hpp"
+#include "limpet/vehicle/stl_reader.hpp"
 
 namespace limpet {
 
-/// The shapes that MJCF, SDF 1.6 and URDF have in common.
+/// The shapes that MJCF, SDF 1.6 and URDF have in common. A mesh has its own axes: x forward, y
+/// left, z up where its frame is not turned.
 enum class Shape {
     box,       ///< size: edge lengths
     cylinder,  ///< size: radius, radius, length along its z
     sphere,    ///< size: radius three times
+    mesh,      ///< size: scale of a file's triangles
 };
 
 enum class Paint {
@@ -41,7 +46,7 @@ struct PaintLook {
 };
 [[nodiscard]] const PaintLook& look(Paint paint);
 
-/// One primitive of the vehicle's picture, placed in its body's frame F: forward-right-down, origin
+/// One shape of the vehicle's picture, placed in its body's frame F: forward-right-down, origin
 /// at the centre of mass (base) or in the cup's joint (carriage, cup).
 struct Part {
     std::string name;  ///< unique in the vehicle
@@ -51,7 +56,12 @@ struct Part {
     Quaternion q_F = Quaternion::Identity();
     Vector3 size_m = Vector3::Zero();
     Paint paint = Paint::carbon;
+    std::optional<std::array<double, 4>> rgba{};  ///< instead of the paint's
+    std::string mesh_file{};                      ///< absolute path
+    std::shared_ptr<const Mesh> mesh{};           ///< its triangles, of an STL
 };
+/// The part's own colour or its paint's.
+[[nodiscard]] const std::array<double, 4>& colour(const Part& part);
 
 /// What the vehicle looks like; massless, touches nothing.
 [[nodiscard]] std::vector<Part> draw(const Airframe& airframe);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "limpet/vehicle/links.hpp"
 #include "limpet/vehicle/model_text.hpp"
 #include "limpet/vehicle/sdf_model.hpp"
 
@@ -40,7 +41,7 @@ void write_lidar(pugi::xml_node base, const char* name, const Vector3& p_B_m,
 }  // namespace
 
 void write_sensors(pugi::xml_node model, const Airframe& airframe, const GazeboSensors& sensors) {
-    auto base = model.find_child_by_attribute("link", "name", "base");
+    auto base = model.find_child_by_attribute("link", "name", called(airframe, "base").c_str());
     add_sensor(base, "imu", "imu", sensors.imu_rate_Hz);
     if (!airframe.has_cup) {
         return;
@@ -53,8 +54,9 @@ void write_sensors(pugi::xml_node model, const Airframe& airframe, const GazeboS
             add_sensor(base, (tip.name + "_contact").c_str(), "contact", sensors.force_rate_Hz);
         add_text(add(contact, "contact"), "collision", tip.name);
     }
-    auto force = add_sensor(model.find_child_by_attribute("joint", "name", "slider"),
-                            "slider_force", "force_torque", sensors.force_rate_Hz);
+    auto force = add_sensor(
+        model.find_child_by_attribute("joint", "name", called(airframe, "slider").c_str()),
+        "slider_force", "force_torque", sensors.force_rate_Hz);
     auto frame = add(force, "force_torque");
     add_text(frame, "frame", "child");
     add_text(frame, "measure_direction", "child_to_parent");

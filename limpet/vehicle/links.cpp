@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/vehicle/links.hpp"
 
+#include "limpet/vehicle/cad_model.hpp"
+
 namespace limpet {
 
 namespace {
@@ -65,15 +67,19 @@ std::vector<Link> make_links(const Airframe& airframe) {
                      .joint = slider_joint(airframe)});
     links.push_back({.name = "cup_yoke",
                      .p_BF_m = joint_B_m,
-                     .inertia = share_of(cup, kYokeShare),
+                     .inertia = airframe.cad ? airframe.cad->cup_yoke : share_of(cup, kYokeShare),
                      .parent = "carriage",
                      .joint = cup_pitch_joint(airframe)});
     links.push_back({.name = "cup",
                      .p_BF_m = joint_B_m,
-                     .inertia = share_of(cup, 1.0 - kYokeShare),
+                     .inertia = airframe.cad ? airframe.cad->cup : share_of(cup, 1.0 - kYokeShare),
                      .parent = "cup_yoke",
                      .joint = cup_yaw_joint(airframe)});
     return links;
+}
+
+std::string called(const Airframe& airframe, std::string_view part) {
+    return airframe.cad && !part.empty() ? airframe.cad->names.of(part) : std::string(part);
 }
 
 }  // namespace limpet

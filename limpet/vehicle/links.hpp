@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -43,5 +44,8 @@ struct Link {
 /// base; with a cup also carriage, cup_yoke and cup, parents first. The yoke between the two hinges
 /// is a fiftieth of the cup: engines with hard joints cannot have a massless one.
 [[nodiscard]] std::vector<Link> make_links(const Airframe& airframe);
+
+/// How the vehicle's own URDF calls a link or a joint of ours; without one, as we do.
+[[nodiscard]] std::string called(const Airframe& airframe, std::string_view part);
 
 }  // namespace limpet

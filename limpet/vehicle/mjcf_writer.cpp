@@ -51,16 +51,47 @@ void write_part(pugi::xml_node body, const Part& part, bool visuals, const char*
             set(geom, "type", "cylinder", "size", text(part.size_m.x(), half.z()));
             break;
         case Shape::sphere: set(geom, "type", "sphere", "size", text(part.size_m.x())); break;
+        case Shape::mesh: set(geom, "type", "mesh", "mesh", part.name); break;
     }
     set(geom, "pos", text(flu(part.p_F_m)), "quat", text(flu(part.q_F)), "group", group);
-    if (visuals) {
+    if (visuals && part.rgba) {
+        const auto& c = *part.rgba;
+        set(geom, "rgba", text(c[0], c[1], c[2], c[3]));
+    } else if (visuals) {
         set(geom, "material", std::string(look(part.paint).name));
     }
 }
 
-void write_parts(pugi::xml_node body, const std::vector<Part>& parts) {
+/// What cannot be drawn: a mesh of which there is only the file's name.
+bool is_blank(const Part& part) {
+    return part.shape == Shape::mesh && !part.mesh;
+}
+
+/// Triangles stand in the text itself: MuJoCo is given no files.
+void write_meshes(pugi::xml_node root, const std::vector<Part>& parts) {
     for (const Part& part : parts) {
-        if (part.body == body.attribute("name").value()) {
+        if (part.shape != Shape::mesh || is_blank(part)) {
+            continue;
+        }
+        std::string points;
+        for (const Vector3& point : part.mesh->points) {
+            points += text(Vector3(point.cwiseProduct(part.size_m))) + " ";
+        }
+        std::string triangles;
+        for (const auto& corners : part.mesh->triangles) {
+            triangles += fmt::format("{} {} {} ", corners[0], corners[1], corners[2]);
+        }
+        auto asset = root.child("asset");
+        add(asset, "mesh", "name", part.name, "vertex", points, "face", triangles);
+    }
+}
+
+void write_parts(pugi::xml_node body, const std::vector<Part>& parts) {
+    // The yoke is no body of its own here: both hinges are the cup's.
+    const std::string name = body.attribute("name").value();
+    for (const Part& part : parts) {
+        const std::string_view at = part.body == "cup_yoke" ? "cup" : part.body;
+        if (at == name && !is_blank(part)) {
             write_part(body, part, true, "1");
         }
     }
@@ -125,6 +156,7 @@ std::string write_mjcf(const Airframe& airframe, const Scene& scene) {
     write_settings(root);
     if (scene.visuals) {
         mjcf::write_looks(root, scene);
+        write_meshes(root, draw(airframe));
     }
     auto world = add(root, "worldbody");
     mjcf::write_surroundings(world, scene);

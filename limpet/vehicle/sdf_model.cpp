@@ -43,16 +43,25 @@ void write_geometry(pugi::xml_node parent, const Part& part) {
         case Shape::sphere:
             add_text(add(geometry, "sphere"), "radius", text(part.size_m.x()));
             break;
+        case Shape::mesh: {
+            auto mesh = add(geometry, "mesh");
+            add_text(mesh, "uri", "file://" + part.mesh_file);
+            add_text(mesh, "scale", text(part.size_m));
+            break;
+        }
     }
 }
 
 void write_visual(pugi::xml_node link, const Part& part) {
     auto visual = add(link, "visual", "name", part.name);
     write_geometry(visual, part);
-    const PaintLook& paint = look(part.paint);
-    write_colour(visual, paint.rgba, paint.specular);
-    if (paint.rgba[3] < 1.0) {
-        add_text(visual, "transparency", text(1.0 - paint.rgba[3]));
+    if (part.shape == Shape::mesh && !part.mesh) {
+        return;  // a file with colours of its own
+    }
+    const auto& rgba = colour(part);
+    write_colour(visual, rgba, look(part.paint).specular);
+    if (rgba[3] < 1.0) {
+        add_text(visual, "transparency", text(1.0 - rgba[3]));
     }
 }
 
@@ -65,12 +74,12 @@ void write_foot(pugi::xml_node link, const Part& tip, double friction) {
                               .damping_N_s_m = kFootDamping_N_s_m});
 }
 
-void write_joint(pugi::xml_node model, const Link& link) {
+void write_joint(pugi::xml_node model, const Airframe& airframe, const Link& link) {
     const Joint& spec = *link.joint;
-    auto joint = add(model, "joint", "name", std::string(spec.name), "type",
+    auto joint = add(model, "joint", "name", called(airframe, spec.name), "type",
                      spec.kind == Joint::Kind::prismatic ? "prismatic" : "revolute");
-    add_text(joint, "parent", std::string(link.parent));
-    add_text(joint, "child", std::string(link.name));
+    add_text(joint, "parent", called(airframe, link.parent));
+    add_text(joint, "child", called(airframe, link.name));
     auto axis = add(joint, "axis");
     add_text(axis, "xyz", text(flu(spec.axis)));
     auto limit = add(axis, "limit");
@@ -120,7 +129,7 @@ void write_surface(pugi::xml_node collision, const ContactSurface& surface) {
 void write_vehicle(pugi::xml_node model, const Airframe& airframe) {
     const auto parts = draw(airframe);
     for (const Link& spec : make_links(airframe)) {
-        auto link = add(model, "link", "name", std::string(spec.name));
+        auto link = add(model, "link", "name", called(airframe, spec.name));
         add_text(link, "pose", pose(spec.p_BF_m));
         write_inertial(link, spec);
         for (const Part& part : parts) {
@@ -134,7 +143,7 @@ void write_vehicle(pugi::xml_node model, const Airframe& airframe) {
             }
         }
         if (spec.joint) {
-            write_joint(model, spec);
+            write_joint(model, airframe, spec);
         }
     }
     // Asleep it would not feel the rotors.

@@ -34,23 +34,34 @@ void write_geometry(pugi::xml_node parent, const Part& part) {
                 text(part.size_m.z()));
             break;
         case Shape::sphere: add(geometry, "sphere", "radius", text(part.size_m.x())); break;
+        case Shape::mesh:
+            add(geometry, "mesh", "filename", "file://" + part.mesh_file, "scale",
+                text(part.size_m));
+            break;
     }
 }
 
 void write_visual(pugi::xml_node link, const Part& part) {
     auto visual = add(link, "visual", "name", part.name);
     write_geometry(visual, part);
-    add(visual, "material", "name", std::string(look(part.paint).name));
+    if (part.rgba) {
+        const auto& c = *part.rgba;
+        add(add(visual, "material", "name", part.name), "color", "rgba",
+            text(c[0], c[1], c[2], c[3]));
+    } else {
+        add(visual, "material", "name", std::string(look(part.paint).name));
+    }
 }
 
-void write_joint(pugi::xml_node robot, const Link& link, const Vector3& p_parent_B_m) {
+void write_joint(pugi::xml_node robot, const Airframe& airframe, const Link& link,
+                 const Vector3& p_parent_B_m) {
     // The format wants limits of effort and speed; these bind nothing that this vehicle does.
     constexpr double kUnlimited = 1e4;
     const Joint& spec = *link.joint;
-    auto joint = add(robot, "joint", "name", std::string(spec.name), "type",
+    auto joint = add(robot, "joint", "name", called(airframe, spec.name), "type",
                      spec.kind == Joint::Kind::prismatic ? "prismatic" : "revolute");
-    add(joint, "parent", "link", std::string(link.parent));
-    add(joint, "child", "link", std::string(link.name));
+    add(joint, "parent", "link", called(airframe, link.parent));
+    add(joint, "child", "link", called(airframe, link.name));
     write_origin(joint, link.p_BF_m - p_parent_B_m);
     add(joint, "axis", "xyz", text(flu(spec.axis)));
     add(joint, "limit", "lower", text(spec.lower), "upper", text(spec.upper), "effort",
@@ -71,7 +82,7 @@ std::string write_urdf(const Airframe& airframe) {
     const auto parts = draw(airframe);
     Vector3 p_parent_B_m = Vector3::Zero();
     for (const Link& spec : make_links(airframe)) {
-        auto link = add(robot, "link", "name", std::string(spec.name));
+        auto link = add(robot, "link", "name", called(airframe, spec.name));
         write_inertial(link, spec);
         for (const Part& part : parts) {
             if (part.body == spec.name) {
@@ -85,7 +96,7 @@ std::string write_urdf(const Airframe& airframe) {
             }
         }
         if (spec.joint) {
-            write_joint(robot, spec, p_parent_B_m);
+            write_joint(robot, airframe, spec, p_parent_B_m);
         }
         p_parent_B_m = spec.p_BF_m;
     }

@@ -182,5 +182,22 @@ TEST_F(CupOnTheWall, WallPushesBackInTheWorld) {
     EXPECT_NEAR(state_.status.pull_N, -20.0, 1e-9);
 }
 
+// Where a joint holds the cup its load counts, not the law's.
+TEST_F(CupOnTheWall, AJointsLoadIsHeldAgainstTheVacuum) {
+    hold(0.001, 40.0, 5.0);
+    ASSERT_EQ(phase(), CupPhase::attached);
+    const double vacuum_N = vacuum_force_N(state_.mean_pressure_Pa, model_.parameters.lip.radius_m);
+    input_.held_T = Wrench{.force_N = {0.99 * vacuum_N, 0.0, 0.0}};
+    hold(0.001, 0.0, 1.0);
+    EXPECT_EQ(phase(), CupPhase::attached);
+    EXPECT_NEAR(state_.status.pull_N, 0.99 * vacuum_N, 1e-9);
+    input_.held_T = Wrench{.force_N = {1.01 * vacuum_N, 0.0, 0.0}};
+    hold(0.001, 0.0, 2e-3);
+    EXPECT_EQ(phase(), CupPhase::touching) << "still pressed, no longer sealed";
+    EXPECT_EQ(events_.back().name, EventName::contact_lost);
+    EXPECT_EQ(events_.back().reason, "pulled off");
+    EXPECT_LT(state_.status.pull_N, 0.0) << "the law again: it pushes";
+}
+
 }  // namespace
 }  // namespace limpet

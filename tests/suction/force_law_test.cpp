@@ -104,6 +104,26 @@ TEST(ForceLaw, RestoringForcesOpposeTheDisplacement) {
     EXPECT_NEAR(wrench.moment_N_m.z(), -0.6, 1e-9);
 }
 
+TEST(HeldLoad, HasTheLimitsOfTheLaw) {
+    const LipParameters lip;  // R 40 mm
+    const double vacuum_N = 100.0;
+    const auto held = [&](const Vector3& force_N, const Vector3& moment_N_m) {
+        return held_load(lip, {.force_N = force_N, .moment_N_m = moment_N_m}, 0.5, vacuum_N);
+    };
+    // Pulled with 60 N, 40 N press lip on wall: 20 N of shear, 0.8 N m of peel, 0.8 N m of twist.
+    const LipLoad load = held({60.0, 9.0, 12.0}, {0.1, 0.3, 0.4});
+    EXPECT_NEAR(load.pull_margin_N, 40.0, 1e-12);
+    EXPECT_NEAR(load.shear_N, 15.0, 1e-12);
+    EXPECT_NEAR(load.shear_margin_N, 5.0, 1e-12);
+    EXPECT_NEAR(load.peel_margin_N, 40.0 - 0.5 / 0.02, 1e-12);
+    EXPECT_EQ(load.let_go, LetGo::no);
+    EXPECT_EQ(held({100.5, 0.0, 0.0}, Vector3::Zero()).let_go, LetGo::pulled);
+    EXPECT_EQ(held({60.0, 0.0, 20.5}, Vector3::Zero()).let_go, LetGo::sheared);
+    EXPECT_EQ(held({60.0, 0.0, 0.0}, {0.81, 0.0, 0.0}).let_go, LetGo::sheared);
+    EXPECT_EQ(held({60.0, 0.0, 0.0}, {0.0, 0.81, 0.0}).let_go, LetGo::peeled);
+    EXPECT_EQ(held({-20.0, 0.0, 59.0}, Vector3::Zero()).let_go, LetGo::no) << "pressed on";
+}
+
 TEST(LipMotion, IsRelativeToATurnedWall) {
     WallPlane wall;
     wall.p_WT_m = {1.0, 2.0, 0.0};

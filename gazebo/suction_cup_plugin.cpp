@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/suction_cup_plugin.hpp"
+
+#include <fmt/format.h>
+
+#include <gazebo/common/Console.hh>
+#include <gazebo/physics/physics.hh>
+
+#include "gazebo/frames.hpp"
+#include "gazebo/sdf_reader.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/suggestion.hpp"
+
+namespace limpet {
+namespace {
+
+using gazebo_frames::turn;
+using ignition::math::Pose3d;
+
+/// A wall that no lip reaches.
+constexpr double kNoWall_m = 1e3;
+
+gazebo::physics::LinkPtr find_link(const gazebo::physics::Model& model, const std::string& name,
+                                   const std::string& place) {
+    std::vector<std::string> names;
+    for (const gazebo::physics::LinkPtr& link : model.GetLinks()) {
+        names.push_back(link->GetName());
+        if (names.back() == name) {
+            return link;
+        }
+    }
+    throw InputError(fmt::format("{}: link: \"{}\" is not a link of the model{}", place,
+                                 shown(name), hint(name, {names.begin(), names.end()})));
+}
+
+WallPlane plane_of(const Pose3d& X_WT) {
+    return {.p_WT_m = turn(X_WT.Pos()), .R_WT = turn(X_WT.Rot()).toRotationMatrix()};
+}
+
+Kinematics lip_kinematics(const gazebo::physics::Link& link, const Pose3d& X_LC) {
+    const Pose3d X_WC = link.WorldPose() * X_LC;
+    const auto w_W_rad_s = link.WorldAngularVel();
+    return {.p_WF_m = turn(X_WC.Pos()),
+            .q_WF = turn(X_WC.Rot()),
+            .v_WF_W_m_s = turn(link.WorldLinearVel(X_LC.Pos())),
+            .w_WF_F_rad_s = turn(X_WC.Rot().RotateVectorReverse(w_W_rad_s))};
+}
+
+}  // namespace
+
+void SuctionCupPlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
+    load_or_end([&] { configure(model, sdf); });
+}
+
+void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf) {
+    place_ = "model " + model->GetName() + ": LimpetSuctionCupPlugin";
+    settings_ = suction_cup_settings(sdf_tree(sdf, {.place = place_, .lists = {"target"}}));
+    model_ = model;
+    link_ = find_link(*model, settings_.link, place_);
+    const std::string engine = model->GetWorld()->Physics()->GetType();
+    if (settings_.attachment != Attachment::compliant) {
+        if (engine != "ode") {
+            throw InputError(
+                fmt::format("{}: attachment: a joint that is made as the world runs "
+                            "does not hold in {}, allowed compliant, or ode",
+                            place_, engine));
+        }
+        joint_ = std::make_unique<CupJoint>(model, link_, settings_.X_LC, settings_.attachment,
+                                            settings_.plugin.load_time_constant_s);
+    }
+    // A cup at rest on a wall must not fall asleep: it would hang there without pressure.
+    for (const gazebo::physics::LinkPtr& link : model->GetLinks()) {
+        link->SetAutoDisable(false);
+    }
+    topics_ = std::make_unique<SuctionCupTopics>(
+        model->GetWorld(), model->GetName(),
+        CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
+        settings_.cup.valve_fitted > 0.5, settings_.plugin.publish_rate_Hz);
+    cup_.parameters = settings_.cup;
+    start();
+    on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
+        [this](const gazebo::common::UpdateInfo& info) {
+            load_or_end([this, &info] { update(info); });
+        });
+}
+
+void SuctionCupPlugin::start() {
+    if (joint_) {
+        joint_->release();
+    }
+    spot_.reset();
+    state_ = CupState{};
+    state_.random = RandomStream(settings_.seed, 0, Stream::seal);
+    topics_->reset();
+}
+
+void SuctionCupPlugin::Reset() {
+    start();
+}
+
+void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
+    const CupPhase phase = state_.status.phase;
+    if (phase == CupPhase::free) {
+        spot_ = walls_->find(X_WC);
+    } else if (phase == CupPhase::touching && spot_ && !walls_->is_over(*spot_, X_WC)) {
+        spot_.reset();  // slid off its edge
+    }
+    const auto X_WT = spot_ ? spot_->pose(*model_->GetWorld()) : std::nullopt;
+    if (!X_WT) {
+        spot_.reset();
+        cup_.wall = WallPlane{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
+        return;
+    }
+    cup_.wall = plane_of(*X_WT);
+}
+
+void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
+    if (!walls_) {
+        walls_ = std::make_unique<WallFinder>(model_, settings_, place_);
+    }
+    const double dt_s = model_->GetWorld()->Physics()->GetMaxStepSize();
+    const Pose3d X_WC = link_->WorldPose() * settings_.X_LC;
+    look_for_wall(X_WC);
+    const bool held = joint_ && joint_->holds();
+    const CupCommands commands = topics_->commands();
+    CupInput input{.time_s = info.simTime.Double(),
+                   .press_N = -state_.status.pull_N,
+                   .pump_on = commands.pump_on,
+                   .valve_open = commands.valve_open};
+    if (held && spot_) {
+        input.held_T = joint_->load_T(cup_.wall.R_WT.transpose(), dt_s);
+    }
+    const CupOutput output = step(cup_, state_, spot_ ? spot_->surface : settings_.surface,
+                                  lip_kinematics(*link_, settings_.X_LC), input, dt_s);
+    const CupPhase phase = state_.status.phase;
+    if (joint_ && !held && phase == CupPhase::attached) {
+        joint_->hold(*spot_);
+    } else if (held && (phase == CupPhase::free || phase == CupPhase::touching)) {
+        joint_->release();
+    }
+    if (!joint_ || !joint_->holds()) {
+        link_->AddForceAtWorldPosition(turn(output.wrench_W.force_N), X_WC.Pos());
+        link_->AddTorque(turn(output.wrench_W.moment_N_m));
+    }
+    report(output);
+    topics_->publish(state_.status, input.time_s);
+}
+
+void SuctionCupPlugin::report(const CupOutput& output) const {
+    if (!output.event) {
+        return;
+    }
+    gzmsg << fmt::format("limpet: {:.3f} s {}: {} {}: {}\n", output.event->time_s,
+                         model_->GetName(), to_string(output.event->name),
+                         spot_ ? (spot_->of_world ? "the world" : spot_->collision) : "no wall",
+                         output.event->reason);
+}
+
+}  // namespace limpet

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/suction_cup_settings.hpp"
+
+#include "gazebo/sdf_reader.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/parts.hpp"
+#include "limpet/scenario/suggestion.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet {
+namespace {
+
+Attachment attachment_of(const YamlNode& node) {
+    const std::string text = read_text(node);
+    if (text == "compliant") {
+        return Attachment::compliant;
+    }
+    if (text == "fixed") {
+        return Attachment::fixed;
+    }
+    if (text == "universal") {
+        return Attachment::universal;
+    }
+    fail(node, "\"" + shown(text) + "\" is not an attachment, allowed compliant, fixed, universal");
+}
+
+/// sdformat writes a child that says true as 1.
+bool read_switch(const YamlNode& node) {
+    return read_number(node, {.name = node.key,
+                              .unit = "switch",
+                              .minimum = 0.0,
+                              .maximum = 1.0,
+                              .value = nullptr,
+                              .description = {},
+                              .source = {}}) > 0.5;
+}
+
+CupTarget target_of(const YamlNode& node, const Surface& surface) {
+    if (node.kind != YamlNode::Kind::map) {
+        fail(node, "must have attributes, allowed model, collision, plane, surface");
+    }
+    check_keys(node, {"model", "collision", "plane", "surface"});
+    CupTarget target{.model = {}, .collision = {}, .plane = {}, .surface = surface};
+    const YamlNode* const model = node.find("model");
+    const YamlNode* const plane = node.find("plane");
+    if ((model == nullptr) == (plane == nullptr)) {
+        fail(node, "needs one of model=\"NAME\" and plane=\"x y z roll pitch yaw\"");
+    }
+    if (model != nullptr) {
+        target.model = read_text(*model);
+    } else {
+        target.plane = read_pose(*plane);
+    }
+    if (const YamlNode* collision = node.find("collision")) {
+        if (model == nullptr) {
+            fail(*collision, "stands beside plane, allowed beside model");
+        }
+        target.collision = read_text(*collision);
+    }
+    if (const YamlNode* named = node.find("surface")) {
+        target.surface = surface_from(*named, data_root());
+    }
+    return target;
+}
+
+}  // namespace
+
+const ParameterTable<CupPluginParameters>& cup_plugin_table() {
+    using P = CupPluginParameters;
+    static const ParameterTable<P> table = {
+        {"publish_rate_Hz", "Hz", 0.1, 1000.0, [](P& p) -> double& { return p.publish_rate_Hz; },
+         "pressure and state on their topics, in simulated time",
+         "assumed: as fast as guidance reads them"},
+        {"flatness_m", "m", 1e-4, 0.1, [](P& p) -> double& { return p.flatness_m; },
+         "a wall that leaves a plane by more below the lip is none",
+         "assumed: the depth at which the lip bottoms out, baseline.md"},
+        {"load_time_constant_s", "s", 1e-4, 1.0,
+         [](P& p) -> double& { return p.load_time_constant_s; },
+         "of the low-pass over a joint's load, against the solver's spikes",
+         "assumed: five steps of 1 ms"},
+    };
+    return table;
+}
+
+SuctionCupSettings suction_cup_settings(const YamlNode& tree) {
+    SuctionCupSettings settings;
+    const auto plugin_rows = bind(cup_plugin_table(), settings.plugin);
+    std::vector<std::string_view> keys = {"link",       "lip_pose", "suction", "surface", "target",
+                                          "attachment", "pump",     "valve",   "seed"};
+    for (const BoundParameter& row : plugin_rows) {
+        keys.push_back(row.name);
+    }
+    check_keys(tree, keys);
+    read_rows(&tree, plugin_rows, keys);
+    const YamlNode* const link = tree.find("link");
+    if (link == nullptr) {
+        fail(tree, "link: is missing, needed: the link that carries the lip");
+    }
+    settings.link = read_text(*link);
+    if (const YamlNode* pose = tree.find("lip_pose")) {
+        settings.X_LC = read_pose(*pose);
+    }
+    auto rows = bind(cup_table(), settings.cup);
+    for (const auto& more :
+         {bind(pneumatic_table(), settings.cup.pneumatics), bind(lip_table(), settings.cup.lip)}) {
+        rows.insert(rows.end(), more.begin(), more.end());
+    }
+    read_rows(tree.find("suction"), rows);
+    if (const YamlNode* surface = tree.find("surface")) {
+        settings.surface = surface_from(*surface, data_root());
+    }
+    if (const YamlNode* targets = tree.find("target")) {
+        for (const YamlNode& target : targets->children) {
+            settings.targets.push_back(target_of(target, settings.surface));
+        }
+    }
+    if (const YamlNode* attachment = tree.find("attachment")) {
+        settings.attachment = attachment_of(*attachment);
+    }
+    if (const YamlNode* pump = tree.find("pump")) {
+        settings.pump_on = read_switch(*pump);
+    }
+    if (const YamlNode* valve = tree.find("valve")) {
+        settings.valve_open = read_switch(*valve);
+        if (settings.valve_open && settings.cup.valve_fitted < 0.5) {
+            fail(*valve, "open, but no valve is fitted, allowed with suction.valve_fitted 1");
+        }
+    }
+    if (const YamlNode* seed = tree.find("seed")) {
+        settings.seed = read_count(*seed);
+    }
+    return settings;
+}
+
+}  // namespace limpet

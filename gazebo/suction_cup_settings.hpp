@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <ignition/math/Pose3.hh>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/core/parameters.hpp"
+#include "limpet/scenario/yaml_tree.hpp"
+#include "limpet/suction/cup.hpp"
+
+namespace limpet {
+
+/// What holds an attached cup.
+enum class Attachment {
+    compliant,  ///< the lip's force law (limpet/suction/force_law.hpp)
+    fixed,      ///< a fixed joint, made and removed as the world runs: the paper's
+    universal,  ///< a joint that leaves pitch and yaw free; softer in ODE
+};
+
+/// What a cup may hold.
+struct CupTarget {
+    std::string model;      ///< a static model; empty: `plane`
+    std::string collision;  ///< one of its collisions; empty: all
+    /// In Gazebo's world: a plane of the world itself that has no model, x into it.
+    std::optional<ignition::math::Pose3d> plane = {};
+    Surface surface;
+};
+
+/// Numbers of the plugin itself.
+struct CupPluginParameters {
+    double publish_rate_Hz = 50.0;
+    double flatness_m = 0.004;
+    double load_time_constant_s = 0.005;
+};
+[[nodiscard]] const ParameterTable<CupPluginParameters>& cup_plugin_table();
+
+/// What LimpetSuctionCupPlugin's element says; its keys are described there.
+struct SuctionCupSettings {
+    std::string link;
+    ignition::math::Pose3d X_LC;  ///< lip in its link, forward-left-up
+    CupParameters cup;
+    Surface surface;                 ///< of what no target names
+    std::vector<CupTarget> targets;  ///< none: every static model
+    Attachment attachment = Attachment::compliant;
+    bool pump_on = false;
+    bool valve_open = false;
+    std::uint64_t seed = 1;
+    CupPluginParameters plugin;
+};
+
+/// @param tree  of the plugin's element (sdf_tree), with `target` a list
+/// @throws InputError in a line: place, key, value, what is allowed
+[[nodiscard]] SuctionCupSettings suction_cup_settings(const YamlNode& tree);
+
+}  // namespace limpet

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gazebo/suction_cup_topics.hpp"
+
+#include <gazebo/common/Console.hh>
+#include <gazebo/physics/World.hh>
+#include <optional>
+#include <string_view>
+
+namespace limpet {
+namespace {
+
+gazebo::msgs::Any pressure_message(const CupStatus& status) {
+    gazebo::msgs::Any message;
+    message.set_type(gazebo::msgs::Any::DOUBLE);
+    message.set_double_value(status.pressure_Pa);
+    return message;
+}
+
+gazebo::msgs::GzString state_message(const CupStatus& status) {
+    gazebo::msgs::GzString message;
+    message.set_data(std::string(to_string(status.phase)));
+    return message;
+}
+
+std::optional<bool> switch_of(const std::string& text) {
+    if (text == "on" || text == "1" || text == "true" || text == "open") {
+        return true;
+    }
+    if (text == "off" || text == "0" || text == "false" || text == "shut") {
+        return false;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+SuctionCupTopics::SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& model,
+                                   const CupCommands& start, bool valve_fitted, double rate_Hz)
+    : start_(start),
+      valve_fitted_(valve_fitted),
+      prefix_(model + "/suction_cup/"),
+      period_s_(1.0 / rate_Hz),
+      commands_(start),
+      node_(new gazebo::transport::Node()) {
+    node_->Init(world->Name());
+    const std::string topic = "~/" + prefix_;
+    pressure_ = node_->Advertise<gazebo::msgs::Any>(topic + "pressure");
+    state_ = node_->Advertise<gazebo::msgs::GzString>(topic + "state");
+    response_ = node_->Advertise<gazebo::msgs::Response>("~/response");
+    pump_ = node_->Subscribe(topic + "pump", &SuctionCupTopics::on_pump, this);
+    valve_ = node_->Subscribe(topic + "valve", &SuctionCupTopics::on_valve, this);
+    request_ = node_->Subscribe("~/request", &SuctionCupTopics::on_request, this);
+}
+
+SuctionCupTopics::~SuctionCupTopics() {
+    node_->Fini();  // no message comes in from here on
+}
+
+CupCommands SuctionCupTopics::commands() const {
+    const std::lock_guard lock(mutex_);
+    return commands_;
+}
+
+void SuctionCupTopics::command(const CupCommands& commands) {
+    const std::lock_guard lock(mutex_);
+    commands_ = commands;
+}
+
+void SuctionCupTopics::reset() {
+    const std::lock_guard lock(mutex_);
+    commands_ = start_;
+    next_s_ = 0.0;
+}
+
+void SuctionCupTopics::publish(const CupStatus& status, double time_s) {
+    bool changed = false;
+    {
+        const std::lock_guard lock(mutex_);
+        changed = status.phase != status_.phase;
+        status_ = status;
+    }
+    if (changed || time_s >= next_s_ || time_s < next_s_ - period_s_) {
+        next_s_ = time_s + period_s_;
+        pressure_->Publish(pressure_message(status));
+        state_->Publish(state_message(status));
+    }
+}
+
+void SuctionCupTopics::on_pump(const IntPtr& message) {
+    const std::lock_guard lock(mutex_);
+    commands_.pump_on = message->data() != 0;
+}
+
+void SuctionCupTopics::on_valve(const IntPtr& message) {
+    if (message->data() != 0 && !valve_fitted_) {
+        gzwarn << "limpet: " << prefix_ << "valve: no valve is fitted (suction.valve_fitted)\n";
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    commands_.valve_open = message->data() != 0;
+}
+
+bool SuctionCupTopics::answer(const gazebo::msgs::Request& request, const std::string& what,
+                              gazebo::msgs::Response& response) {
+    const std::lock_guard lock(mutex_);
+    if (what == "pressure") {
+        const auto message = pressure_message(status_);
+        response.set_type(message.GetTypeName());
+        return message.SerializeToString(response.mutable_serialized_data());
+    }
+    if (what == "state") {
+        const auto message = state_message(status_);
+        response.set_type(message.GetTypeName());
+        return message.SerializeToString(response.mutable_serialized_data());
+    }
+    const std::optional<bool> wanted = switch_of(request.data());
+    if (!wanted || (what != "pump" && what != "valve") ||
+        (what == "valve" && *wanted && !valve_fitted_)) {
+        return false;
+    }
+    (what == "pump" ? commands_.pump_on : commands_.valve_open) = *wanted;
+    return true;
+}
+
+void SuctionCupTopics::on_request(const RequestPtr& request) {
+    if (request->request().rfind(prefix_, 0) != 0) {
+        return;
+    }
+    gazebo::msgs::Response response;
+    response.set_id(request->id());
+    response.set_request(request->request());
+    const bool done = answer(*request, request->request().substr(prefix_.size()), response);
+    response.set_response(done ? "success" : "error");
+    response_->Publish(response);
+}
+
+}  // namespace limpet

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gazebo/msgs/msgs.hh>
+#include <gazebo/physics/PhysicsTypes.hh>
+#include <gazebo/transport/transport.hh>
+#include <mutex>
+#include <string>
+
+#include "limpet/core/signals/cup_status.hpp"
+
+namespace limpet {
+
+/// What was asked of a cup from outside.
+struct CupCommands {
+    bool pump_on = false;
+    bool valve_open = false;
+};
+
+/// A cup on Gazebo's transport; described at SuctionCupPlugin. Messages come in on threads of the
+/// transport's; commands wait here for the next world update.
+class SuctionCupTopics {
+public:
+    /// @param model         as it is called on topics
+    /// @param valve_fitted  else it is refused to open one
+    SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& model,
+                     const CupCommands& start, bool valve_fitted, double rate_Hz);
+
+    ~SuctionCupTopics();
+    SuctionCupTopics(const SuctionCupTopics&) = delete;
+    SuctionCupTopics& operator=(const SuctionCupTopics&) = delete;
+
+    [[nodiscard]] CupCommands commands() const;
+    void command(const CupCommands& commands);
+    /// Back to what they were at the start.
+    void reset();
+    /// Once a world update: a change of phase at once, pressure and phase at their rate.
+    void publish(const CupStatus& status, double time_s);
+
+private:
+    using IntPtr = boost::shared_ptr<const gazebo::msgs::Int>;
+    using RequestPtr = boost::shared_ptr<const gazebo::msgs::Request>;
+    void on_pump(const IntPtr& message);
+    void on_valve(const IntPtr& message);
+    void on_request(const RequestPtr& request);
+    [[nodiscard]] bool answer(const gazebo::msgs::Request& request, const std::string& what,
+                              gazebo::msgs::Response& response);
+
+    const CupCommands start_;
+    const bool valve_fitted_;
+    const std::string prefix_;  ///< of requests: MODEL/suction_cup/
+    const double period_s_;
+    double next_s_ = 0.0;
+    mutable std::mutex mutex_;
+    CupCommands commands_;
+    CupStatus status_;
+    gazebo::transport::NodePtr node_;
+    gazebo::transport::PublisherPtr pressure_, state_, response_;
+    gazebo::transport::SubscriberPtr pump_, valve_, request_;
+};
+
+}  // namespace limpet

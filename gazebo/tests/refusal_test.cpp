@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plugin cannot use, through the real gzserver: one line, exit code 2, never inert.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include "press_bench.hpp"
+
+namespace limpet {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Ended {
+    int code = -1;
+    std::string text;  ///< both outputs
+};
+
+/// gzserver on a world whose body carries the plugin.
+Ended serve(const std::string& inside, const std::string& more_models = "",
+            const std::string& limit_s = "30") {
+    const TemporaryWorld world(bench_world(
+        "0 0 0", more_models,
+        "<plugin name='cup' filename='libLimpetSuctionCupPlugin.so'>" + inside + "</plugin>"));
+    ::setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
+    ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
+    ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
+    ::setenv("ALSOFT_DRIVERS", "null", 1);
+    const std::string command =
+        "timeout -s KILL " + limit_s + " gzserver " + world.path() + " 2>&1";
+    Ended ended;
+    FILE* const pipe = ::popen(command.c_str(), "r");
+    std::array<char, 4096> part{};
+    while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe)) {
+        ended.text.append(part.data(), size);
+    }
+    const int status = ::pclose(pipe);
+    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return ended;
+}
+
+struct Refused {
+    std::string name;
+    std::string inside;
+    std::string line;
+};
+
+class WhatCannotBeUsed : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(WhatCannotBeUsed, StopsTheServerWithOneLine) {
+    const Ended ended =
+        serve(GetParam().inside, box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false));
+    EXPECT_EQ(ended.code, 2) << ended.text;
+    EXPECT_THAT(ended.text,
+                HasSubstr("limpet: model body: LimpetSuctionCupPlugin: " + GetParam().line));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, WhatCannotBeUsed,
+    ::testing::Values(
+        Refused{"NoLink", "", "link: is missing, needed"},
+        Refused{"UnknownLink", "<link>hul</link>",
+                "link: \"hul\" is not a link of the model, did you mean hull?\n"},
+        Refused{"UnknownElement", "<link>hull</link><pumpe>true</pumpe>",
+                "pumpe: unknown key, did you mean pump?\n"},
+        Refused{"UnknownRow", "<link>hull</link><suction><radius>1</radius></suction>",
+                "suction.radius: unknown key, did you mean radius_m?\n"},
+        Refused{"OutOfRange", "<link>hull</link><suction><radius_m>-1</radius_m></suction>",
+                "suction.radius_m: -1 is out of range, allowed 0.001..1 m\n"},
+        Refused{"NoNumber", "<link>hull</link><flatness_m>flat</flatness_m>",
+                "flatness_m: must be a number, is \"flat\", allowed 0.0001..0.1 m\n"},
+        Refused{"NoPose", "<link>hull</link><lip_pose>0 0 1</lip_pose>",
+                "lip_pose: \"0 0 1\" is not a pose, allowed x y z roll pitch yaw [m, rad]\n"},
+        Refused{"UnknownSurface", "<link>hull</link><surface>metall</surface>", "surface: "},
+        Refused{"UnknownAttachment", "<link>hull</link><attachment>glue</attachment>",
+                "attachment: \"glue\" is not an attachment, allowed compliant, fixed, universal\n"},
+        Refused{"AbsentTarget", "<link>hull</link><target model='moon'/>",
+                "target: model \"moon\" is not in the world\n"},
+        Refused{"MovableTarget", "<link>hull</link><target model='ball'/>",
+                "target: model \"ball\" is not static, allowed static models\n"},
+        Refused{"TargetOfNothing", "<link>hull</link><target surface='metal'/>",
+                "target[0]: needs one of model="},
+        Refused{"NoValve", "<link>hull</link><valve>true</valve>",
+                "valve: open, but no valve is fitted"},
+        Refused{"TwoLinks", "<link>hull</link><link>hull</link>",
+                "link: stands twice, allowed once\n"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
+    // It would serve on: the time limit ends it.
+    const Ended ended = serve("<link>hull</link><pump>true</pump>", "", "6");
+    EXPECT_EQ(ended.text.find("limpet:"), std::string::npos) << ended.text;
+    EXPECT_NE(ended.code, 2);
+}
+
+}  // namespace
+}  // namespace limpet

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <gazebo/sensors/sensors.hh>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "gazebo/flight_host.hpp"
+#include "gazebo/frames.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/worlds.hpp"
+#include "server.hpp"
+
+/// Gazebo's own sensors against the truth that ours read, in one flight at real time: hover,
+/// approach, impact, landing, the first seconds of rest.
+namespace limpet {
+namespace {
+
+using gazebo_frames::turn;
+
+constexpr double kFlight_s = 12.8;
+constexpr double kContacts_s = 12.3;  ///< from here on the vehicle rests on its legs
+
+/// What one sensor said and when, by the world's clock.
+struct Said {
+    double time_s = 0.0;
+    Vector3 value = Vector3::Zero();
+    Vector3 second = Vector3::Zero();
+};
+
+/// A state of the flight by the world's clock.
+struct Was {
+    double time_s = 0.0;
+    Truth truth;
+};
+
+/// Differences of a sensor.
+struct Off {
+    double rms = 0.0;
+    double largest = 0.0;
+    double rate_Hz = 0.0;
+    std::size_t count = 0;
+};
+
+class GazeboSensorsTest : public ::testing::Test {
+protected:
+    GazeboSensorsTest() {
+        flight.scenario = load_scenario("perch_concrete", {});
+        GazeboWorld text = world_of(flight.scenario, "perch_concrete", {});
+        text.vehicles.front().plugin.reset();
+        text.sensors = gazebo_sensors(flight.scenario.sensors);
+        server.emplace(write_world(flight.scenario.airframe, text));
+        world = server->world();
+        vehicle = world->ModelByName(flight.scenario.airframe.name);
+        gazebo::sensors::run_once(true);
+        gazebo::sensors::run_threads();
+        left = find<gazebo::sensors::RaySensor>("lidar_left");
+        right = find<gazebo::sensors::RaySensor>("lidar_right");
+        imu = find<gazebo::sensors::ImuSensor>("imu");
+        force = find<gazebo::sensors::ForceTorqueSensor>("slider_force");
+        for (const auto& sensor : gazebo::sensors::SensorManager::Instance()->GetSensors()) {
+            if (auto contact = std::dynamic_pointer_cast<gazebo::sensors::ContactSensor>(sensor)) {
+                contacts.push_back(contact);
+            }
+        }
+    }
+    ~GazeboSensorsTest() override { gazebo::sensors::stop(); }
+
+    template <class Sensor>
+    static std::shared_ptr<Sensor> find(const std::string& name) {
+        for (const auto& sensor : gazebo::sensors::SensorManager::Instance()->GetSensors()) {
+            if (sensor->Name() == name) {
+                return std::dynamic_pointer_cast<Sensor>(sensor);
+            }
+        }
+        throw InternalError("no sensor " + name);
+    }
+
+    void fly() {
+        flight.conduct.speed = 1.0;
+        flight.watch.on_tick = [this](Flight& flown, const EventList&) {
+            // The world's clock is ahead by the step that is about to be taken.
+            now_s = world->SimTime().Double() - world->Physics()->GetMaxStepSize();
+            was.push_back({now_s, flown.state().truth});
+            listen();
+        };
+        host = std::make_unique<FlightHost>(vehicle, flight);
+        on_update = gazebo::event::Events::ConnectWorldUpdateBegin(
+            [this](const gazebo::common::UpdateInfo&) { host->update(); });
+        while (now_s < kFlight_s) {
+            gazebo::runWorld(world, 100);
+        }
+        on_update.reset();
+    }
+
+    /// What is new since the last tick.
+    void listen() {
+        hear(*left, said_left, [this] { return Said{0, {left->Range(0), 0, 0}, {}}; });
+        hear(*right, said_right, [this] { return Said{0, {right->Range(0), 0, 0}, {}}; });
+        hear(*imu, said_imu, [this] {
+            return Said{0, turn(imu->LinearAcceleration(true)), turn(imu->AngularVelocity(true))};
+        });
+        hear(*force, said_force, [this] { return Said{0, turn(force->Force()), {}}; });
+        if (now_s > kContacts_s) {
+            legs_W_N.push_back(legs());
+        }
+    }
+    template <class Read>
+    static void hear(gazebo::sensors::Sensor& sensor, std::vector<Said>& said, Read read) {
+        const double time_s = sensor.LastMeasurementTime().Double();
+        if (time_s > 0.0 && (said.empty() || time_s > said.back().time_s)) {
+            Said reading = read();
+            reading.time_s = time_s;
+            if (sensor.LastMeasurementTime().Double() == time_s) {  // not torn by its thread
+                said.push_back(reading);
+            }
+        }
+    }
+    /// What the contact sensors of both tips say, turned into the world.
+    [[nodiscard]] Vector3 legs() const {
+        Vector3 sum = Vector3::Zero();
+        for (const auto& sensor : contacts) {
+            const gazebo::msgs::Contacts all = sensor->Contacts();
+            if (all.contact_size() == 0) {
+                continue;
+            }
+            // The last one is the newest.
+            const gazebo::msgs::Contact& contact = all.contact(all.contact_size() - 1);
+            const bool first = contact.collision1().find(vehicle->GetName()) == 0;
+            for (const auto& wrench : contact.wrench()) {
+                const auto& part = first ? wrench.body_1_wrench() : wrench.body_2_wrench();
+                const Vector3 on_body_N = turn(gazebo::msgs::ConvertIgn(part.force()));
+                sum += was.back().truth.base.q_WF * on_body_N;
+            }
+        }
+        return sum;
+    }
+
+    /// @return nullptr before the first tick and after the last
+    [[nodiscard]] const Truth* truth_at(double time_s) const {
+        const auto after = std::lower_bound(was.begin(), was.end(), time_s - 2e-4,
+                                            [](const Was& w, double t) { return w.time_s < t; });
+        return after == was.end() || after->time_s > time_s + 5e-4 ? nullptr : &after->truth;
+    }
+
+    /// Distance from a LiDAR to the wall's plane by the truth alone.
+    [[nodiscard]] double range_m(const Truth& truth, double side) const {
+        const Airframe& frame = flight.scenario.airframe;
+        const Vector3 p_B_m(frame.lidar_x_m, side * 0.5 * frame.lidar_separation_m,
+                            frame.lidar_z_m);
+        const Vector3 origin_W_m = truth.base.p_WF_m + truth.base.q_WF * p_B_m;
+        const Vector3 along_W = truth.base.q_WF * Vector3::UnitX();
+        const WallPlane& wall = flight.scenario.wall.plane;
+        const Vector3 into_W = wall.R_WT.col(0);
+        return into_W.dot(wall.p_WT_m - origin_W_m) / into_W.dot(along_W);
+    }
+
+    /// @param difference  of a reading, given the one before, from the truth; NaN: not compared
+    template <class Difference>
+    static Off off(const std::vector<Said>& said, Difference difference) {
+        Off sum;
+        double squares = 0.0;
+        for (std::size_t i = 1; i < said.size(); ++i) {
+            const double d = difference(said[i - 1], said[i]);
+            if (!std::isnan(d)) {
+                squares += d * d;
+                sum.largest = std::max(sum.largest, std::abs(d));
+                ++sum.count;
+            }
+        }
+        sum.rms = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(sum.count)));
+        sum.rate_Hz = said.size() < 2 ? 0.0
+                                      : static_cast<double>(said.size() - 1) /
+                                            (said.back().time_s - said.front().time_s);
+        return sum;
+    }
+    /// Sensors run in threads of their own, and machines may be busy: few readings are no fault of
+    /// theirs, too few are no comparison.
+    static void expect_within(const Off& off, double rms, double largest) {
+        EXPECT_GT(off.count, 200u);
+        EXPECT_LT(off.rms, rms);
+        EXPECT_LT(off.largest, largest);
+    }
+    static void print(const char* what, const Off& off, const char* unit) {
+        fmt::print("{:<28} {:5.1f} Hz  {:5d} readings  RMS {:8.4f}  largest {:8.4f} {}\n", what,
+                   off.rate_Hz, off.count, off.rms, off.largest, unit);
+    }
+
+    std::optional<GazeboServer> server;
+    HostedFlight flight;
+    gazebo::physics::WorldPtr world;
+    gazebo::physics::ModelPtr vehicle;
+    std::unique_ptr<FlightHost> host;
+    gazebo::event::ConnectionPtr on_update;
+    double now_s = 0.0;
+
+    std::shared_ptr<gazebo::sensors::RaySensor> left;
+    std::shared_ptr<gazebo::sensors::RaySensor> right;
+    std::shared_ptr<gazebo::sensors::ImuSensor> imu;
+    std::shared_ptr<gazebo::sensors::ForceTorqueSensor> force;
+    std::vector<std::shared_ptr<gazebo::sensors::ContactSensor>> contacts;
+    std::vector<Was> was;
+    std::vector<Said> said_left;
+    std::vector<Said> said_right;
+    std::vector<Said> said_imu;
+    std::vector<Said> said_force;
+    std::vector<Vector3> legs_W_N;
+};
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
+    fly();
+
+    const auto range_off = [this](double side) {
+        return [this, side](const Said&, const Said& said) {
+            const Truth* truth = truth_at(said.time_s);
+            const bool level =
+                truth != nullptr &&
+                std::abs(euler_from_quaternion(truth->base.q_WF).pitch_rad) < radians(45.0);
+            return level ? said.value.x() - range_m(*truth, side) : kNone;
+        };
+    };
+    const Off off_left = off(said_left, range_off(-1.0));
+    const Off off_right = off(said_right, range_off(1.0));
+    print("LiDAR left", off_left, "m");
+    print("LiDAR right", off_right, "m");
+
+    const auto gyro = [this](const Said&, const Said& said) {
+        const Truth* truth = truth_at(said.time_s);
+        return truth != nullptr ? (said.second - truth->base.w_WF_F_rad_s).norm() : kNone;
+    };
+    const Off off_rate = off(said_imu, gyro);
+    print("IMU rates", off_rate, "rad/s");
+
+    // The mean specific force between two readings, from the speeds; off the wall.
+    const auto accelerometer = [this](const Said& before, const Said& said) {
+        const Truth* a = truth_at(before.time_s);
+        const Truth* b = truth_at(said.time_s);
+        if (a == nullptr || b == nullptr || b->cup_status.phase != CupPhase::free) {
+            return kNone;
+        }
+        const Vector3 gravity_W(0.0, 0.0, kGravity_m_s2);
+        const Vector3 force_W =
+            (b->base.v_WF_W_m_s - a->base.v_WF_W_m_s) / (said.time_s - before.time_s) - gravity_W;
+        return (said.value - b->base.q_WF.conjugate() * force_W).norm();
+    };
+    const Off off_force = off(said_imu, accelerometer);
+    print("IMU specific force", off_force, "m/s^2");
+
+    // Gazebo's sensor tells what is put on the joint from outside, the stops here, and not the
+    // joint's own spring and damper; ours tells their sum.
+    const auto slider = [this](const Said&, const Said& said) {
+        const Truth* truth = truth_at(said.time_s);
+        if (truth == nullptr) {
+            return kNone;
+        }
+        const SliderParameters& parameters = flight.scenario.airframe.slider;
+        const double spring_N = parameters.preload_N -
+                                parameters.stiffness_N_m * truth->slider.position_m -
+                                parameters.damping_N_s_m * truth->slider.velocity_m_s;
+        return said.value.x() - spring_N - truth->slider.force_N;
+    };
+    const Off off_slider = off(said_force, slider);
+    print("force through the slider", off_slider, "N");
+    expect_within(off_left, 0.005, 0.03);
+    expect_within(off_right, 0.005, 0.03);
+    expect_within(off_rate, 0.01, 0.2);
+    expect_within(off_force, 0.02, 0.2);
+    expect_within(off_slider, 0.5, 10.0);
+
+    Vector3 heard_N = Vector3::Zero();
+    for (const Vector3& legs_N : legs_W_N) {
+        heard_N += legs_N / static_cast<double>(legs_W_N.size());
+    }
+    const Vector3 truth_N = was.back().truth.legs_force_W_N;
+    fmt::print(
+        "contacts of the legs         {:.2f} {:.2f} {:.2f} N, truth {:.2f} {:.2f} {:.2f} N\n",
+        heard_N.x(), heard_N.y(), heard_N.z(), truth_N.x(), truth_N.y(), truth_N.z());
+}
+
+}  // namespace
+}  // namespace limpet

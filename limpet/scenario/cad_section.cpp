@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/cad_section.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+#include "limpet/vehicle/cad_model.hpp"
+
+namespace limpet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSameShare = 0.01;  // of masses and inertias
+constexpr double kSameLength_m = 1e-3;
+
+struct NamedPart {
+    std::string_view key;
+    std::string* name;
+};
+
+template <class All>
+std::string names_of(const All& all) {
+    std::string names;
+    for (const auto& one : all) {
+        names += (names.empty() ? "" : ", ") + one.name;
+    }
+    return names.empty() ? "none" : names;
+}
+
+/// Reads the names of one kind and sees that the URDF has them.
+/// @param all  its links or its joints
+template <class All>
+void read_names(const YamlNode& model, const char* section, const char* kind,
+                const std::vector<NamedPart>& parts, const UrdfRobot& robot, const All& all) {
+    const YamlNode* node = model.find(section);
+    if (is_section(node)) {
+        std::vector<std::string_view> keys;
+        for (const NamedPart& part : parts) {
+            keys.push_back(part.key);
+        }
+        check_keys(*node, keys);
+    }
+    for (const NamedPart& part : parts) {
+        const YamlNode* given = is_section(node) ? node->find(part.key) : nullptr;
+        if (given != nullptr) {
+            *part.name = read_text(*given);
+        }
+        const bool there = std::any_of(all.begin(), all.end(),
+                                       [&](const auto& one) { return one.name == *part.name; });
+        if (!there) {
+            fail(given != nullptr ? *given : model,
+                 fmt::format("{}: there is no {} \"{}\" for the {}, there are: {}", robot.file,
+                             kind, shown(*part.name), part.key, names_of(all)));
+        }
+    }
+}
+
+std::shared_ptr<const CadModel> load_model(const YamlNode& model, const fs::path& folder,
+                                           bool has_cup) {
+    if (!is_section(&model)) {
+        fail(model, "is empty, needs urdf");
+    }
+    check_keys(model, {"urdf", "links", "joints"});
+    const YamlNode* urdf = model.find("urdf");
+    if (urdf == nullptr) {
+        fail(model, "needs urdf, the path of a URDF");
+    }
+    const fs::path file = folder / read_text(*urdf);
+    if (!fs::is_regular_file(file)) {
+        fail(*urdf, fmt::format("there is no file {}", shown_path(file)));
+    }
+    UrdfRobot robot = read_urdf(shown_path(file));
+    CadNames names;
+    std::vector<NamedPart> links = {{"base", &names.base}};
+    if (has_cup) {
+        links.insert(
+            links.end(),
+            {{"carriage", &names.carriage}, {"cup_yoke", &names.cup_yoke}, {"cup", &names.cup}});
+    }
+    read_names(model, "links", "link", links, robot, robot.links);
+    if (has_cup) {
+        read_names(model, "joints", "joint",
+                   {{"slider", &names.slider},
+                    {"cup_pitch", &names.cup_pitch},
+                    {"cup_yaw", &names.cup_yaw}},
+                   robot, robot.joints);
+    } else if (model.find("joints") != nullptr) {
+        fail(*model.find("joints"), "has_cup is false: no joint is needed");
+    }
+    return std::make_shared<const CadModel>(
+        make_cad_model(robot, fs::absolute(file).lexically_normal().string(), names, has_cup));
+}
+
+/// A number that follows from the model.
+struct Following {
+    const char* section;  ///< of the vehicle file, "" its top
+    const char* key;
+    double value;
+    double* into;
+    double tolerance;
+};
+
+std::vector<Following> following(const CadModel& cad, Airframe& airframe) {
+    const auto share = [](double value) { return kSameShare * std::abs(value); };
+    std::vector<Following> all = {
+        {"", "mass_kg", cad.mass_kg, &airframe.mass_kg, share(cad.mass_kg)}};
+    const char* axes[] = {"xx", "yy", "zz"};
+    for (int i = 0; i < 3; ++i) {
+        all.push_back({"inertia_kg_m2", axes[i], cad.inertia_kg_m2[i], &airframe.inertia_kg_m2[i],
+                       share(cad.inertia_kg_m2[i])});
+    }
+    if (!airframe.has_cup) {
+        return all;
+    }
+    const BodyInertia cup = cup_with_yoke(cad);
+    all.push_back({"slider", "mass_kg", cad.carriage.mass_kg, &airframe.slider.mass_kg,
+                   share(cad.carriage.mass_kg)});
+    all.push_back({"cup", "mass_kg", cup.mass_kg, &airframe.cup.mass_kg, share(cup.mass_kg)});
+    all.push_back({"cup", "joint_x_m", cad.joint_B_m.x(), &airframe.cup.joint_x_m, kSameLength_m});
+    all.push_back({"cup", "joint_z_m", cad.joint_B_m.z(), &airframe.cup.joint_z_m, kSameLength_m});
+    all.push_back({"cup", "mass_offset_m", cup.centre_B_m.x() - cad.joint_B_m.x(),
+                   &airframe.cup.mass_offset_m, kSameLength_m});
+    return all;
+}
+
+/// Where a number is written: in its section, for inertias also as an item of a list.
+const YamlNode* written(const YamlNode& vehicle, const Following& one) {
+    if (*one.section == '\0') {
+        return vehicle.find(one.key);
+    }
+    const YamlNode* section = vehicle.find(one.section);
+    if (section == nullptr || section->kind != YamlNode::Kind::list) {
+        return section == nullptr ? nullptr : section->find(one.key);
+    }
+    const std::size_t item = std::string_view("xyz").find(one.key[0]);
+    return item < section->children.size() ? &section->children[item] : nullptr;
+}
+
+}  // namespace
+
+void read_model(const YamlNode& vehicle, const fs::path& folder, Airframe& airframe) {
+    if (const YamlNode* model = vehicle.find("model")) {
+        airframe.cad = load_model(*model, folder, airframe.has_cup);
+    }
+    if (!airframe.cad) {
+        return;
+    }
+    for (const Following& one : following(*airframe.cad, airframe)) {
+        const YamlNode* node = written(vehicle, one);
+        if (node != nullptr && !(std::abs(*one.into - one.value) <= one.tolerance)) {
+            fail(*node,
+                 fmt::format("{} differs from {:.6g} of {}, leave it out", number_text(*one.into),
+                             one.value, shown_path(airframe.cad->file)));
+        }
+        *one.into = one.value;
+    }
+    if (airframe.has_cup && !(std::abs(airframe.cad->joint_B_m.y()) <= kSameLength_m)) {
+        throw InputError(fmt::format(
+            "{}: the cup's joint is {:.4g} m to the right of the centre "
+            "of mass, must be ahead of it within {} m",
+            shown_path(airframe.cad->file), airframe.cad->joint_B_m.y(), kSameLength_m));
+    }
+}
+
+}  // namespace limpet
