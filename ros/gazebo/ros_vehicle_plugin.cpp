@@ -19,10 +19,11 @@ namespace limpet {
 ///   cup_by_node        the cup's seal and pressure come from suction_cup_node    true
 ///   ends_with_mission  the flight is over when perching_node's mission is        false
 ///   offboard_loss_s    without set-points for so long it holds [s]               0.5
+///   hold_speed_m_s     before that it brakes down to this [m/s]                  0.1
 class RosVehiclePlugin final : public VehiclePlugin {
 protected:
     [[nodiscard]] std::vector<std::string_view> more_elements() const override {
-        return {"cup_by_node", "ends_with_mission", "offboard_loss_s"};
+        return {"cup_by_node", "ends_with_mission", "offboard_loss_s", "hold_speed_m_s"};
     }
 
     void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,

@@ -34,7 +34,7 @@ struct PerchingArguments {
 
 PerchingArguments read_arguments() {
     NodeParameters parameters;
-    const Setup setup = load_setup(parameters.setup());
+    const NodeSetup setup = load_setup(parameters.setup());
     PerchingArguments arguments;
     arguments.session.guidance = setup.scenario.guidance;
     arguments.session.limits = setup.limits;

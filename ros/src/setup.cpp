@@ -42,7 +42,7 @@ std::vector<std::string> split_settings(const std::string& text) {
     return pieces;
 }
 
-Setup load_setup(const SetupArguments& arguments) {
+NodeSetup load_setup(const SetupArguments& arguments) {
     LoadOptions options;
     options.seed = arguments.seed;
     const auto say = [&options](const char* key, const std::string& value) {

@@ -21,14 +21,14 @@ struct SetupArguments {
     std::optional<std::uint64_t> seed;
 };
 
-struct Setup {
+struct NodeSetup {
     Scenario scenario;
     CompanionLimits limits;  ///< set by "limits.KEY=VALUE"
 };
 
 /// What the nodes know of vehicle, guidance, cup and surface: derived and checked as for a flight.
 /// @throws InputError one line: place, key, value, what is allowed
-[[nodiscard]] Setup load_setup(const SetupArguments& arguments);
+[[nodiscard]] NodeSetup load_setup(const SetupArguments& arguments);
 
 /// "a=1; b=2" into its pieces.
 [[nodiscard]] std::vector<std::string> split_settings(const std::string& text);

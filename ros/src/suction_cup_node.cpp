@@ -18,7 +18,7 @@ constexpr std::uint32_t kQueue = 1000;
 
 Scenario read_scenario() {
     NodeParameters parameters;
-    const Setup setup = load_setup(parameters.setup());
+    const NodeSetup setup = load_setup(parameters.setup());
     parameters.refuse_others();
     if (!setup.scenario.wall.present || !setup.scenario.airframe.has_cup) {
         throw InputError("suction_cup_node: needs a wall with a surface and a vehicle with a cup");

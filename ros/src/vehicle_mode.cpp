@@ -9,6 +9,9 @@ const ParameterTable<OffboardManners>& offboard_manners_table() {
         {"offboard_loss_s", "s", 0.02, 60.0, [](M& m) -> double& { return m.loss_s; },
          "without set-points for so long it holds",
          "PX4 allows 1 s (COM_OF_LOSS_T); half of it, as set-points come 50 times a second"},
+        {"hold_speed_m_s", "m/s", 0.01, 10.0, [](M& m) -> double& { return m.hold_speed_m_s; },
+         "it brakes down to this, then holds where it is",
+         "assumed; PX4 brakes too before it locks its position (MPC_HOLD_MAX_XY)"},
     };
     return table;
 }
@@ -30,22 +33,31 @@ bool VehicleMode::choose(std::string_view mode, double time_s) {
     return false;
 }
 
+decltype(Setpoint::motion) VehicleMode::hold(const Estimate& estimate) {
+    if (!held_ && !brake_yaw_rad_) {
+        brake_yaw_rad_ = euler_from_quaternion(estimate.q_WB).yaw_rad;
+    }
+    if (!held_ && estimate.v_WB_m_s.norm() < manners_.hold_speed_m_s) {
+        held_ = PositionSetpoint{.p_W_m = estimate.p_WB_m, .yaw_rad = *brake_yaw_rad_};
+    }
+    if (held_) {
+        return *held_;
+    }
+    return VelocitySetpoint{.yaw_rad = *brake_yaw_rad_};
+}
+
 bool VehicleMode::update(const Estimate& estimate, double time_s, Setpoint& setpoint) {
     const bool lost = offboard_ && !fresh(time_s);
     offboard_ = offboard_ && !lost;
-    if (offboard_) {
+    if (offboard_ || !armed_) {  // who holds after that begins anew
         held_.reset();
-    } else if (!armed_) {
-        held_.reset();  // armed again it holds where it is then
-    } else if (!held_) {
-        held_ = PositionSetpoint{.p_W_m = estimate.p_WB_m,
-                                 .yaw_rad = euler_from_quaternion(estimate.q_WB).yaw_rad};
+        brake_yaw_rad_.reset();
     }
     setpoint.armed = armed_;
     if (offboard_) {
         setpoint.motion = motion_;
-    } else if (held_) {
-        setpoint.motion = *held_;
+    } else if (armed_) {
+        setpoint.motion = hold(estimate);
     } else {
         setpoint.motion = IdleSetpoint{};
     }

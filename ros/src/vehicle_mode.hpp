@@ -13,7 +13,8 @@ namespace limpet::ros {
 
 /// The manners of an autopilot that flies set-points.
 struct OffboardManners {
-    double loss_s = 0.5;  ///< set-points older than this are none
+    double loss_s = 0.5;          ///< set-points older than this are none
+    double hold_speed_m_s = 0.1;  ///< it brakes down to this, then holds where it is
 };
 [[nodiscard]] const ParameterTable<OffboardManners>& offboard_manners_table();
 
@@ -21,8 +22,8 @@ inline constexpr std::string_view kOffboard = "OFFBOARD";
 inline constexpr std::string_view kHold = "AUTO.LOITER";
 
 /// What the built-in autopilot is told by ROS: PX4's modes, as far as perching needs them. It
-/// begins armed and holding; in OFFBOARD it flies set-points, and without them it holds again,
-/// where it is. At rest on the wall there is nothing to hold: disarmed stays disarmed
+/// begins armed and holding; in OFFBOARD it flies set-points, and without them it brakes, then
+/// holds where it is. At rest on the wall there is nothing to hold: disarmed stays disarmed
 /// (docs/decisions/0013). Time is injected.
 class VehicleMode {
 public:
@@ -41,6 +42,7 @@ public:
     [[nodiscard]] std::string_view mode() const { return offboard_ ? kOffboard : kHold; }
 
 private:
+    [[nodiscard]] decltype(Setpoint::motion) hold(const Estimate& estimate);
     [[nodiscard]] bool fresh(double time_s) const {
         return set_s_ && time_s - *set_s_ <= manners_.loss_s;
     }
@@ -50,7 +52,8 @@ private:
     bool offboard_ = false;
     decltype(Setpoint::motion) motion_;
     std::optional<double> set_s_;
-    std::optional<PositionSetpoint> held_;  ///< where it holds
+    std::optional<PositionSetpoint> held_;  ///< where it holds, once it has braked
+    std::optional<double> brake_yaw_rad_;   ///< where it looks while it brakes
 };
 
 }  // namespace limpet::ros

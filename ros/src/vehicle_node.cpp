@@ -17,11 +17,12 @@ namespace {
 
 void vehicle_node() {
     NodeParameters parameters;
-    const Setup setup = load_setup(parameters.setup());
+    const NodeSetup setup = load_setup(parameters.setup());
     RosVehicleOptions options;
-    const auto& loss = offboard_manners_table().front();
-    options.manners.loss_s = parameters.number(std::string(loss.name), options.manners.loss_s,
-                                               loss.minimum, loss.maximum);
+    for (const auto& row : offboard_manners_table()) {
+        double& value = row.field(options.manners);
+        value = parameters.number(std::string(row.name), value, row.minimum, row.maximum);
+    }
     options.cup_by_node = parameters.flag("cup_by_node", options.cup_by_node);
     options.ends_with_mission = parameters.flag("ends_with_mission", options.ends_with_mission);
     const double speed = parameters.number("speed", 1.0, 0.01, 100.0);

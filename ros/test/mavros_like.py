@@ -7,19 +7,20 @@ import time
 
 import roslib.packages
 import rospy
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from limpet_ros.msg import CupContact, CupState, PerchingStatus, State
 from std_srvs.srv import Trigger
 
 
 class Watch:
     def __init__(self):
-        self.status = self.state = self.cup = self.pose = self.contact = None
+        self.status = self.state = self.cup = self.pose = self.contact = self.velocity = None
         self.news = threading.Condition()
         for name, topic, kind in (("status", "/perching_node/status", PerchingStatus),
                                   ("state", "/mavros/state", State),
                                   ("cup", "/cup/state", CupState),
                                   ("contact", "/cup/contact", CupContact),
+                                  ("velocity", "/mavros/local_position/velocity_local", TwistStamped),
                                   ("pose", "/mavros/local_position/pose", PoseStamped)):
             rospy.Subscriber(topic, kind, self.hear, name, queue_size=1, tcp_nodelay=True)
 

@@ -35,9 +35,10 @@ class PerchingByService(unittest.TestCase):
 
         answer = call("/perching_node/perch")
         self.assertTrue(answer.success, answer.message)
-        watch.until("at rest", lambda w: w.status.state_name == "resting" and not w.state.armed, 90)
+        watch.until("at rest", lambda w: w.status.place == "at rest on the wall", 90)
+        self.assertEqual(watch.status.state_name, "resting")
+        self.assertFalse(watch.state.armed)
         self.assertTrue(watch.cup.attached)
-        self.assertEqual(watch.status.place, "at rest on the wall")
         refused = call("/perching_node/perch")
         self.assertFalse(refused.success)
         watch.until("outcome perched", lambda w: w.status.outcome == "perched", 60)

@@ -19,6 +19,7 @@ protected:
         setup.asks_for_mode = true;
         setup.guidance.land_pitch_s = 0.5;
         setup.guidance.rest_s = 1.0;
+        setup.guidance.slip_limit_m = 10.0;  // the puppet pitches about itself, not about its cup
         return setup;
     }
 

@@ -20,27 +20,27 @@ TEST(NodeSetup, SettingsAreCutAtSemicolons) {
 }
 
 TEST(NodeSetup, GuidanceIsThatOfTheScenario) {
-    const Setup setup = load_setup({.scenario = "perch_metal_valve",
-                                    .vehicle = "",
-                                    .surface = "",
-                                    .mission = "",
-                                    .set = {"guidance.hold_s=0.7", "limits.late_limit_s=1.5"},
-                                    .seed = {}});
+    const NodeSetup setup = load_setup({.scenario = "perch_metal_valve",
+                                        .vehicle = "",
+                                        .surface = "",
+                                        .mission = "",
+                                        .set = {"guidance.hold_s=0.7", "limits.late_limit_s=0.8"},
+                                        .seed = {}});
     const Scenario scenario = load_scenario("perch_metal_valve");
     EXPECT_EQ(setup.scenario.guidance.hover_thrust, scenario.guidance.hover_thrust);
     EXPECT_EQ(setup.scenario.guidance.valve_fitted, 1.0);
     EXPECT_EQ(setup.scenario.guidance.hold_s, 0.7);
-    EXPECT_EQ(setup.limits.late_limit_s, 1.5);
+    EXPECT_EQ(setup.limits.late_limit_s, 0.8);
     EXPECT_EQ(setup.scenario.wall.surface.name, scenario.wall.surface.name);
 }
 
 TEST(NodeSetup, WithoutAScenarioVehicleAndSurfaceDo) {
-    const Setup setup = load_setup({.scenario = "",
-                                    .vehicle = "perching_uav",
-                                    .surface = "metal",
-                                    .mission = "perch_and_take_off",
-                                    .set = {},
-                                    .seed = 7});
+    const NodeSetup setup = load_setup({.scenario = "",
+                                        .vehicle = "perching_uav",
+                                        .surface = "metal",
+                                        .mission = "perch_and_take_off",
+                                        .set = {},
+                                        .seed = 7});
     EXPECT_EQ(setup.scenario.wall.surface.name, "metal");
     EXPECT_EQ(setup.scenario.mission, Mission::perch_and_take_off);
     EXPECT_EQ(setup.scenario.seed, 7U);

@@ -56,6 +56,24 @@ TEST_F(VehicleModes, WithoutSetPointsItHoldsAfterHalfASecond) {
     EXPECT_EQ(mode_.mode(), kHold);
 }
 
+TEST_F(VehicleModes, BrakesBeforeItHolds) {
+    mode_.set_point(VelocitySetpoint{.v_W_m_s = {1.0, 0.0, 0.0}}, 1.0);
+    (void)mode_.choose("OFFBOARD", 1.0);
+    estimate_.v_WB_m_s = {0.8, 0.0, 0.0};
+    EXPECT_TRUE(update(1.51));
+    const auto* brake = std::get_if<VelocitySetpoint>(&setpoint_.motion);
+    ASSERT_NE(brake, nullptr);
+    EXPECT_TRUE(brake->v_W_m_s.isZero(0.0));
+    estimate_.p_WB_m = {0.4, 0.0, 0.0};
+    estimate_.v_WB_m_s = {0.09, 0.0, 0.0};
+    (void)update(2.0);
+    ASSERT_NE(held(), nullptr);
+    EXPECT_TRUE(held()->p_W_m.isApprox(Vector3(0.4, 0.0, 0.0)));
+    estimate_.v_WB_m_s = {0.5, 0.0, 0.0};  // a gust
+    (void)update(2.1);
+    EXPECT_NE(held(), nullptr);
+}
+
 TEST_F(VehicleModes, DisarmedItStaysSo) {
     mode_.arm(false);
     (void)update(1.0);

@@ -149,6 +149,9 @@ TEST(GazeboWorld, ThePluginIsToldTheScenarioAndItsOverrides) {
     }
     EXPECT_THAT(sets, ElementsAre("suction.valve_fitted=1", "seed=3"));
     EXPECT_FALSE(Written(flight()).model("uav").child("plugin"));
+    world.vehicles[0].plugin->ros = true;
+    EXPECT_STREQ(Written(world).model("uav").child("plugin").attribute("filename").value(),
+                 "libLimpetRosVehiclePlugin.so");
 }
 
 TEST(GazeboWorld, SensorsHaveOurRangesAndRatesAndPlaces) {
