@@ -50,6 +50,10 @@ public:
     [[nodiscard]] Vector3 contact_force_W() const override { return plant_.contact_force_W(); }
     [[nodiscard]] PlantState save() const override { return plant_.save(); }
     void restore(const PlantState& state) override { plant_.restore(state); }
+    void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+                  const Vector3& w_WB_B_rad_s) override {
+        plant_.set_pose(p_WB_m, q_WB, v_WB_W_m_s, w_WB_B_rad_s);
+    }
 
     [[nodiscard]] const std::vector<PlantStep>& steps() const { return steps_; }
 

@@ -28,6 +28,7 @@ public:
     [[nodiscard]] Vector3 contact_force_W() const override { return Vector3::Zero(); }
     [[nodiscard]] PlantState save() const override { return {}; }
     void restore(const PlantState&) override {}
+    void set_pose(const Vector3&, const Quaternion&, const Vector3&, const Vector3&) override {}
 };
 
 /// Sensors without any error: what is left is sampling, latency and resolution.
