@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <gazebo/transport/transport.hh>
 #include <utility>
@@ -46,10 +47,19 @@ void quit() {
 }  // namespace
 
 VehiclePlugin::~VehiclePlugin() {
+    end_flight();
+}
+
+void VehiclePlugin::end_flight() noexcept {
     on_update_.reset();
-    if (host_ != nullptr && host_->under_way()) {
+    if (host_ == nullptr || !host_->under_way()) {
+        return;
+    }
+    try {
         host_->interrupt();
         say("interrupted; the recording is whole up to here");
+    } catch (const std::exception& error) {  // a full disk, say: destructors must not throw
+        fmt::print(stderr, "limpet: the flight was not ended well: {}\n", error.what());
     }
 }
 

@@ -52,6 +52,9 @@ protected:
     /// @param flight      may be given stations from outside and a watch
     virtual void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,
                          HostedFlight& flight);
+    /// Ends a flight that is under way, its recording whole. Whoever gives stations in prepare()
+    /// calls it in its destructor: the flight goes on to the end of its tick and asks them.
+    void end_flight() noexcept;
 
 private:
     void configure(gazebo::physics::ModelPtr model, const YamlNode& parameters);

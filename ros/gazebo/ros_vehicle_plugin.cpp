@@ -21,6 +21,9 @@ namespace limpet {
 ///   offboard_loss_s    without set-points for so long it holds [s]               0.5
 ///   hold_speed_m_s     before that it brakes down to this [m/s]                  0.1
 class RosVehiclePlugin final : public VehiclePlugin {
+public:
+    ~RosVehiclePlugin() override { end_flight(); }
+
 protected:
     [[nodiscard]] std::vector<std::string_view> more_elements() const override {
         return {"cup_by_node", "ends_with_mission", "offboard_loss_s", "hold_speed_m_s"};
