@@ -29,8 +29,7 @@ struct SdfReading {
 /// map, its attributes entries; an empty one is null; another is a scalar without blanks at its
 /// ends. One of `lists` is a list, also when it stands once.
 /// @throws InputError for a child that stands twice and is not of `lists`, and for one that has
-/// text
-///         beside attributes or children
+///         text beside attributes or children
 [[nodiscard]] YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading);
 
 /// Six numbers as SDF writes a pose: x y z [m], roll pitch yaw [rad].

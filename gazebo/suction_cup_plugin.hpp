@@ -31,13 +31,15 @@ namespace limpet {
 ///               is made of; or plane="x y z roll pitch yaw" surface="NAME"?: a plane of the
 ///               world itself, x into it. May stand more than once. None: every static model
 ///   attachment  compliant: the lip's force law. fixed: a fixed joint from `attached` until the
-///               cup lets go, the paper's. universal: one that leaves pitch and yaw free compliant
+///               cup lets go, the paper's. universal: one that leaves pitch
+///               and yaw free                                                      compliant
 ///   pump        whether it is on at the start                                     false
 ///   valve       whether it is open at the start; with suction.valve_fitted 1      false
 ///   seed        of the forces and tilts that seal, a draw a touch                 1
 ///   publish_rate_Hz       of pressure and state, 0.1..1000                        50
-///   flatness_m            a wall that leaves a plane by more below the lip is none, 1e-4..0.1
-///   0.004 load_time_constant_s  low-pass over a joint's load, 1e-4..1                   0.005
+///   flatness_m            a wall that leaves a plane by more below the lip is
+///                         none [m], 1e-4..0.1                                     0.004
+///   load_time_constant_s  low-pass over a joint's load [s], 1e-4..1               0.005
 ///
 /// What cannot be used stops the server with one line and exit code 2: an unknown element, a value
 /// out of range, a link, target or surface that is not there, a target that is not static.
