@@ -31,6 +31,7 @@ class GuidanceLost(unittest.TestCase):
         watch = Watch()
         guidance = start("limpet_ros", "perching_node", "_scenario:=perch_concrete",
                          "_mission:=perch", "_asks_for_mode:=true")
+        self.addCleanup(guidance.end)
         watch.until("ready", lambda w: w.status is not None and w.status.phase == "ready", 60)
         answer = call("/perching_node/perch")
         self.assertTrue(answer.success, answer.message)

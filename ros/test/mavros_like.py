@@ -56,6 +56,11 @@ class Program(subprocess.Popen):
         self.send_signal(signal.SIGINT)
         self.wait(20)
 
+    def end(self):
+        """Also after a test that failed: nothing is left."""
+        self.kill()
+        self.wait(20)
+
 
 def start(package, name, *arguments):
     return Program([roslib.packages.find_node(package, name)[0], *arguments])

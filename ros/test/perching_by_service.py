@@ -3,6 +3,7 @@
 """A perching commanded by services, seen on topics, recorded with rosbag and read back."""
 import math
 import os
+import shutil
 import sys
 import tempfile
 import unittest
@@ -25,8 +26,10 @@ class PerchingByService(unittest.TestCase):
     def test_perches_rests_takes_off(self):
         watch = Watch()
         folder = tempfile.mkdtemp(prefix="limpet_bag.")
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
         path = os.path.join(folder, "perch.bag")
         bag = start("rosbag", "record", "-O", path, *TOPICS)
+        self.addCleanup(bag.end)
 
         watch.until("ready", lambda w: w.status.phase == "ready", 60)
         refused = call("/perching_node/take_off")
