@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -48,16 +51,39 @@ Choice choose(const YamlNode& section, const char* key, const std::pair<const ch
     return word == usual.first ? usual.second : other.second;
 }
 
-TransportAddress address(const YamlNode& section, const char* key, const char* by_default) {
+/// @param media  that serve, with their forms for people
+TransportAddress address(const YamlNode& section, const char* key, const char* by_default,
+                         std::initializer_list<Medium> media, const char* forms) {
     const YamlNode* node = section.find(key);
     if (node == nullptr) {
         return parse_address(by_default);
     }
+    const std::string given = read_text(*node);
     try {
-        return parse_address(read_text(*node));
+        const TransportAddress found = parse_address(given);
+        if (std::find(media.begin(), media.end(), found.medium) != media.end()) {
+            return found;
+        }
     } catch (const InputError& error) {
         fail(*node, error.what());
     }
+    fail(*node, fmt::format("\"{}\", allowed {}", shown(given), forms));
+}
+
+/// A board on a serial wire has its own clock, which is real time.
+double speed_of(const YamlNode& section, const VehicleOptions& options) {
+    const bool board =
+        options.autopilot == VehicleOptions::Autopilot::px4 && options.hil.medium == Medium::serial;
+    const double speed = number(section, "speed", 0.0, kFastest, board ? 1.0 : options.speed);
+    const YamlNode* node = section.find("speed");
+    if (node != nullptr && board && speed != 1.0) {
+        fail(*node, fmt::format("{}, allowed 1 with a px4 on a serial wire", speed));
+    }
+    if (node != nullptr && speed > 0.0 && speed < kSlowest) {
+        fail(*node, fmt::format("{} is out of range, allowed 0 (as fast as it goes) or {}..{}",
+                                speed, kSlowest, kFastest));
+    }
+    return speed;
 }
 
 Scenario scenario_of(const YamlNode& section) {
@@ -92,19 +118,16 @@ VehicleOptions read_vehicle_options(const YamlNode& parameters,
     options.scenario = scenario_of(parameters);
     options.autopilot = choose<Autopilot>(parameters, "autopilot", {"builtin", Autopilot::builtin},
                                           {"px4", Autopilot::px4});
-    options.hil = address(parameters, "hil", "tcp:127.0.0.1:4560");
-    options.offboard = address(parameters, "offboard", "udp:127.0.0.1:14540");
+    options.hil = address(parameters, "hil", "tcp:127.0.0.1:4560", {Medium::tcp, Medium::serial},
+                          "tcp:HOST:PORT or serial:DEVICE:BAUD");
+    options.offboard =
+        address(parameters, "offboard", "udp:127.0.0.1:14540", {Medium::udp}, "udp:HOST:PORT");
     options.wait_s = number(parameters, "wait_s", 0.1, 86400.0, options.wait_s);
     options.recording = text(parameters, "recording");
     options.result = text(parameters, "result");
     options.when_over = choose<WhenOver>(parameters, "when_over", {"pause", WhenOver::pause},
                                          {"quit", WhenOver::quit});
-    options.speed = number(parameters, "speed", 0.0, kFastest, options.speed);
-    if (options.speed > 0.0 && options.speed < kSlowest) {
-        fail(*parameters.find("speed"),
-             fmt::format("{} is out of range, allowed 0 (as fast as it goes) or {}..{}",
-                         options.speed, kSlowest, kFastest));
-    }
+    options.speed = speed_of(parameters, options);
     if (options.autopilot == Autopilot::px4 && options.scenario.mount != Mount::free) {
         fail(parameters, options.scenario.name + " hangs on a mount; a PX4 is for what flies");
     }

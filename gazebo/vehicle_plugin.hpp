@@ -28,7 +28,8 @@ namespace limpet {
 ///   hil        px4's simulator link, tcp:HOST:PORT or serial:DEVICE:BAUD      tcp:127.0.0.1:4560
 ///   offboard   where px4's onboard link comes in                              udp:127.0.0.1:14540
 ///   wait_s     longest wait for a px4 [s]                                     60
-///   speed      times real time; 0: as fast as it goes                         0
+///   speed      times real time; 0: as fast as it goes. 1 alone with a px4 on
+///              a serial wire, which has a clock of its own                    0
 ///   recording  MCAP file to write                                             none
 ///   result     JSON file to write when the flight is over                     none
 ///   when_over  pause the world, or quit the server                            pause
