@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ostream>
 
 #include "press_bench.hpp"
 
@@ -21,12 +23,15 @@ struct Ended {
     std::string text;  ///< both outputs
 };
 
+constexpr const char* kCup = "libLimpetSuctionCupPlugin.so";
+constexpr const char* kVehicle = "libLimpetVehiclePlugin.so";
+
 /// gzserver on a world whose body carries the plugin.
-Ended serve(const std::string& inside, const std::string& more_models = "",
-            const std::string& limit_s = "30") {
-    const TemporaryWorld world(bench_world(
-        "0 0 0", more_models,
-        "<plugin name='cup' filename='libLimpetSuctionCupPlugin.so'>" + inside + "</plugin>"));
+Ended serve(const std::string& library, const std::string& inside,
+            const std::string& more_models = "", const std::string& limit_s = "30") {
+    const TemporaryWorld world(
+        bench_world("0 0 0", more_models,
+                    "<plugin name='it' filename='" + library + "'>" + inside + "</plugin>"));
     ::setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
     ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
     ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
@@ -50,12 +55,17 @@ struct Refused {
     std::string line;
 };
 
+void PrintTo(const Refused& refused, std::ostream* out) {
+    *out << refused.name;
+}
+
 class WhatCannotBeUsed : public ::testing::TestWithParam<Refused> {};
 
 TEST_P(WhatCannotBeUsed, StopsTheServerWithOneLine) {
     const Ended ended =
-        serve(GetParam().inside, box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false));
+        serve(kCup, GetParam().inside, box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false));
     EXPECT_EQ(ended.code, 2) << ended.text;
+    EXPECT_EQ(std::count(ended.text.begin(), ended.text.end(), '\n'), 1) << ended.text;
     EXPECT_THAT(ended.text,
                 HasSubstr("limpet: model body: LimpetSuctionCupPlugin: " + GetParam().line));
 }
@@ -91,9 +101,44 @@ INSTANTIATE_TEST_SUITE_P(
                 "link: stands twice, allowed once\n"}),
     [](const auto& info) { return info.param.name; });
 
+class WhatNoVehicleCanUse : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(WhatNoVehicleCanUse, StopsTheServerWithOneLine) {
+    const Ended ended = serve(kVehicle, GetParam().inside);
+    EXPECT_EQ(ended.code, 2) << ended.text;
+    EXPECT_EQ(std::count(ended.text.begin(), ended.text.end(), '\n'), 1) << ended.text;
+    EXPECT_THAT(ended.text, HasSubstr("limpet: " + GetParam().line));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, WhatNoVehicleCanUse,
+    ::testing::Values(
+        Refused{"NoScenario", "", "model body: libLimpetVehiclePlugin.so: scenario is missing"},
+        Refused{
+            "UnknownElement", "<scenario>hover</scenario><speeed>1</speeed>",
+            "model body: libLimpetVehiclePlugin.so: speeed: unknown key, did you mean speed?\n"},
+        Refused{"UnknownAutopilot", "<scenario>hover</scenario><autopilot>ardu</autopilot>",
+                "model body: libLimpetVehiclePlugin.so: autopilot: \"ardu\", allowed builtin or "
+                "px4\n"},
+        Refused{"TooSlow", "<scenario>hover</scenario><speed>0.001</speed>",
+                "model body: libLimpetVehiclePlugin.so: speed: 0.001 is out of range"},
+        Refused{"BoardFasterThanItsClock",
+                "<scenario>hover</scenario><autopilot>px4</autopilot>"
+                "<hil>serial:/dev/null:921600</hil><speed>2</speed>",
+                "model body: libLimpetVehiclePlugin.so: speed: 2, allowed 1 with a px4 on a serial "
+                "wire\n"},
+        Refused{"SimulatorLinkOverUdp",
+                "<scenario>hover</scenario><autopilot>px4</autopilot>"
+                "<hil>udp:127.0.0.1:4560</hil>",
+                "model body: libLimpetVehiclePlugin.so: hil: \"udp:127.0.0.1:4560\", allowed "
+                "tcp:HOST:PORT or serial:DEVICE:BAUD\n"},
+        Refused{"AnotherBody", "<scenario>hover</scenario>",
+                "model \"body\" has no link \"base\", which perching needs\n"}),
+    [](const auto& info) { return info.param.name; });
+
 TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
     // It would serve on: the time limit ends it.
-    const Ended ended = serve("<link>hull</link><pump>true</pump>", "", "6");
+    const Ended ended = serve(kCup, "<link>hull</link><pump>true</pump>", "", "6");
     EXPECT_EQ(ended.text.find("limpet:"), std::string::npos) << ended.text;
     EXPECT_EQ(ended.code, 128 + SIGKILL) << "it came to an end by itself: " << ended.text;
 }
