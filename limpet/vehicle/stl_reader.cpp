@@ -87,6 +87,7 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
     std::istringstream in(bytes);
     std::array<Vector3, 3> corners;
     std::size_t found = 0;
+    bool whole = false;
     int line = 0;
     for (std::string text; std::getline(in, text);) {
         ++line;
@@ -112,6 +113,10 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
             joiner.triangle(corners);
             found = 0;
         }
+        whole = first == "endsolid" || (whole && first.empty());
+    }
+    if (!whole) {
+        throw InputError(fmt::format("{}:{}: the file ends without `endsolid`", name, line));
     }
     return joiner.take();
 }

@@ -91,6 +91,7 @@ TEST_F(StlReader, RefusesWhatIsNone) {
     EXPECT_THAT(error(binary().substr(0, 200)), HasSubstr("no STL"));
     EXPECT_THAT(error("solid empty\nendsolid empty\n"), HasSubstr("without a triangle"));
     EXPECT_THAT(error("solid x\nfacet\nvertex 1 2\n"), HasSubstr(":3: "));
+    EXPECT_THAT(error(ascii().substr(0, ascii().size() - 20)), HasSubstr("ends without"));
     EXPECT_THAT(error("solid x\nfacet\nvertex 1 2 3\nendfacet\n"), HasSubstr(":4: "));
     std::string bad = binary();
     const float nan = std::nanf("");
