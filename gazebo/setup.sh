@@ -102,7 +102,7 @@ make_root() {
     trap "remove_root '$making'" EXIT
     trap 'exit 130' INT TERM HUP
     say "making a root folder of Debian 11 with Gazebo 11 and ROS 1, once: $root"
-    say "  530 MB to download, 2.1 GB on disk, three to five minutes ..."
+    say "  530 MB to download, 2.0 GB on disk, three to five minutes ..."
     if [ -t 2 ]; then
         bootstrap "$mirror" "$making" >&2 || stop "mmdebstrap failed; what it said is above"
     else
