@@ -154,6 +154,9 @@ std::vector<ContactDifference> compare_contacts(
         const double guess_s = theirs[k].window.from_s - from_s;
         const double shift_s = best_shift_s(a, b, window, guess_s, reach_s);
         const Misfit left = misfit(a, b, window, shift_s);
+        if (left.samples == 0) {
+            continue;  // nothing was compared, which is not agreement
+        }
         found.push_back({.sealing = ours[k].sealing,
                          .reference_from_s = from_s,
                          .other_from_s = theirs[k].window.from_s,

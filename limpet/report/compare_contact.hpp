@@ -32,7 +32,8 @@ struct ContactDifference {
 /// Recordings have samples, contacts begin between them: the shift is searched within two samples
 /// of what the phases say. Where the cup's loads were recorded, the pressure is that which acts,
 /// (pull + pull to spare) / area, without the pump's ripple, which runs by the clock of the flight
-/// and not from the contact on; else it is the pressure recorded.
+/// and not from the contact on; else it is the pressure recorded. A stage too short or too sparse
+/// to hold one sample in common is left out.
 [[nodiscard]] std::vector<ContactDifference> compare_contacts(
     const Recording& reference, const std::vector<FlightChannel>& reference_channels,
     const Recording& other, const std::vector<FlightChannel>& other_channels);
