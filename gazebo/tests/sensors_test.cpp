@@ -282,6 +282,9 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
     fmt::print(
         "contacts of the legs         {:.2f} {:.2f} {:.2f} N, truth {:.2f} {:.2f} {:.2f} N\n",
         heard_N.x(), heard_N.y(), heard_N.z(), truth_N.x(), truth_N.y(), truth_N.z());
+    EXPECT_GT(legs_W_N.size(), 200u);
+    EXPECT_GT(truth_N.norm(), 5.0) << "it rests on its legs";
+    EXPECT_LT((heard_N - truth_N).norm(), 0.5);
 }
 
 }  // namespace
