@@ -162,7 +162,8 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
         drain(*wires.sensors, [&](const mavlink::Frame& frame) { hear_sensors(frame, time_s); });
     }
     if (wires.motion_capture) {
-        if (const auto pose = wires.motion_capture->receive(time_s)) {
+        // In the first moments a pose may have been taken before our clock began.
+        if (const auto pose = wires.motion_capture->receive(time_s); pose && pose->ever()) {
             readings_.motion_capture = *pose;
         }
     }

@@ -100,7 +100,7 @@ void Recorder::battery(const Sample<BatteryReading>& sample) {
 
 void Recorder::new_readings(const Readings& readings, Readings& last) {
     const auto when_new = [&](const auto& sample, auto& before, auto record) {
-        if (sample.time_s > before.time_s) {
+        if (sample.ever() && sample.time_s > before.time_s) {
             (this->*record)(sample);
             before.time_s = sample.time_s;
         }

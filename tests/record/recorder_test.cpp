@@ -283,6 +283,22 @@ TEST_F(Recorded, SaysWhatItIs) {
     EXPECT_EQ(recording_.attachment("other"), nullptr);
 }
 
+TEST(Recorder, NewReadingsAreThoseSinceTheClockBegan) {
+    const TestFolder folder;
+    Readings readings;
+    Readings last;
+    {
+        Recorder recorder(folder / "a.mcap", sample_info());
+        readings.motion_capture = {-0.02, {}};  // arrived at once, measured before
+        recorder.new_readings(readings, last);
+        readings.motion_capture = {0.01, {}};
+        recorder.new_readings(readings, last);
+        recorder.finish("{}");
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_EQ(recording.table("/sensors/motion_capture").time_s.size(), 1U);
+}
+
 TEST(Recorder, ASampleThatNeverCameIsAMistake) {
     const TestFolder folder;
     Recorder recorder(folder / "a.mcap", sample_info());
