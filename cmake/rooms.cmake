@@ -25,6 +25,8 @@ function(limpet_test room)
   target_link_libraries(${room}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${LIMPET_ROOT}")
   limpet_compile_options(${room}_test)
+  # What is tested is optimised; the tests themselves compile a fifth faster so.
+  target_compile_options(${room}_test PRIVATE -O1)
   gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
 endfunction()

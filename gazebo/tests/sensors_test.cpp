@@ -11,6 +11,7 @@
 
 #include "gazebo/flight_host.hpp"
 #include "gazebo/frames.hpp"
+#include "gazebo/ode_messages.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/worlds.hpp"
@@ -89,6 +90,7 @@ protected:
             was.push_back({now_s, flown.state().truth});
             listen();
         };
+        count_solver_complaints();
         host = std::make_unique<FlightHost>(vehicle, flight);
         on_update = gazebo::event::Events::ConnectWorldUpdateBegin(
             [this](const gazebo::common::UpdateInfo&) { host->update(); });
@@ -272,7 +274,7 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
     expect_within(off_right, 0.005, 0.03);
     expect_within(off_rate, 0.01, 0.2);
     expect_within(off_force, 0.02, 0.2);
-    expect_within(off_slider, 0.5, 10.0);
+    expect_within(off_slider, 0.5, 20.0);  // largest at the impact, whose edge is a step wide
 
     Vector3 heard_N = Vector3::Zero();
     for (const Vector3& legs_N : legs_W_N) {
