@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "limpet/core/signals/new_sample.hpp"
+#include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
 
 namespace limpet::ros {
@@ -14,16 +16,8 @@ namespace {
 constexpr int kClock_Hz = 250;
 constexpr int kEstimate_Hz = 100;
 constexpr int kState_Hz = 10;
-constexpr std::uint32_t kQueue = 1000;      ///< nothing is to be lost on one machine
-constexpr std::uint32_t kOneCommand = 400;  ///< MAV_CMD_COMPONENT_ARM_DISARM
-constexpr std::size_t kMostEvents = 4;      ///< told in one tick; the cup may have some of its own
-constexpr std::size_t kMostHeard = 256;     ///< events that wait: a flood must not fill the memory
-
-/// Stamps start anew when a flight begins: not only later ones are new.
-template <class T>
-bool is_new(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.ever() && sample.time_s != last.time_s;
-}
+constexpr std::uint32_t kQueue = 1000;   ///< nothing is to be lost on one machine
+constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not fill the memory
 
 std::optional<EventName> event_name(const std::string& name) {
     for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
@@ -141,7 +135,7 @@ bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
                          limpet_ros::CommandLong::Response& response) {
     constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
     constexpr std::uint8_t kUnsupported = 3;
-    response.success = request.command == kOneCommand ? 1 : 0;
+    response.success = request.command == mavlink::kCommandArm ? 1 : 0;
     response.result = response.success != 0 ? kAccepted : kUnsupported;
     if (response.success != 0) {
         const std::lock_guard lock(mutex_);
