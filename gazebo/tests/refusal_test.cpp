@@ -2,62 +2,20 @@
 // What a plugin cannot use, through the real gzserver: one line, exit code 2, never inert.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <ostream>
 
 #include "press_bench.hpp"
+#include "served.hpp"
 
 namespace limpet {
 namespace {
 
 using ::testing::HasSubstr;
 
-struct Ended {
-    int code = -1;
-    std::string text;  ///< both outputs
-};
-
 constexpr const char* kCup = "libLimpetSuctionCupPlugin.so";
 constexpr const char* kVehicle = "libLimpetVehiclePlugin.so";
-
-/// gzserver on a world whose body carries the plugin.
-Ended serve(const std::string& library, const std::string& inside,
-            const std::string& more_models = "", const std::string& limit_s = "30") {
-    const TemporaryWorld world(
-        bench_world("0 0 0", more_models,
-                    "<plugin name='it' filename='" + library + "'>" + inside + "</plugin>"));
-    ::setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
-    ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
-    ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
-    ::setenv("ALSOFT_DRIVERS", "null", 1);
-    const std::string command =
-        "timeout -s KILL " + limit_s + " gzserver " + world.path() + " 2>&1";
-    Ended ended;
-    FILE* const pipe = ::popen(command.c_str(), "r");
-    std::array<char, 4096> part{};
-    while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe)) {
-        ended.text.append(part.data(), size);
-    }
-    const int status = ::pclose(pipe);
-    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return ended;
-}
-
-struct Refused {
-    std::string name;
-    std::string inside;
-    std::string line;
-};
-
-void PrintTo(const Refused& refused, std::ostream* out) {
-    *out << refused.name;
-}
 
 class WhatCannotBeUsed : public ::testing::TestWithParam<Refused> {};
 
@@ -99,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "valve: open, but no valve is fitted"},
         Refused{"TwoLinks", "<link>hull</link><link>hull</link>",
                 "link: stands twice, allowed once\n"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 class WhatNoVehicleCanUse : public ::testing::TestWithParam<Refused> {};
 
@@ -134,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "tcp:HOST:PORT or serial:DEVICE:BAUD\n"},
         Refused{"AnotherBody", "<scenario>hover</scenario>",
                 "model \"body\" has no link \"base\", which perching needs\n"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
     // It would serve on: the time limit ends it.

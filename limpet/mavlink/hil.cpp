@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/core/signals/new_sample.hpp"
+
 namespace limpet::mavlink {
 namespace {
 
@@ -22,13 +24,6 @@ constexpr std::size_t kBootSensors = 50;
 constexpr milliseconds kSlowBootWait{50};
 /// It has answered earlier sensors just now: the answer to these is on its way.
 constexpr milliseconds kCatchUpWait{1000};
-
-/// A sample that has not been sent. Stamps start again when a flight begins: not only later ones
-/// are new.
-template <class T>
-bool is_new(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.ever() && sample.time_s != last.time_s;
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "limpet/autopilot/external.hpp"
@@ -10,6 +11,9 @@
 #include "limpet/suction/cup.hpp"
 
 namespace limpet {
+
+/// Events that guidance elsewhere tells in one tick at most; the cup may have some of its own.
+inline constexpr std::size_t kMostEvents = 4;
 
 /// Guidance elsewhere, in place of ours.
 class ExternalGuidance {

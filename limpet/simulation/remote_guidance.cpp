@@ -7,6 +7,7 @@
 #include <span>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/signals/new_sample.hpp"
 #include "limpet/devices/tfmini.hpp"
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
@@ -18,14 +19,7 @@ using mavlink::Frame;
 
 constexpr std::chrono::nanoseconds kNoWait{0};
 constexpr double kPascal_hPa = 100.0;
-constexpr int kMostFrames = 256;        ///< heard in one tick: a flood must not stop the simulation
-constexpr std::size_t kMostEvents = 4;  ///< told in one tick; the cup may have some of its own
-
-/// Stamps start anew when a flight begins: not only later ones are new.
-template <class T>
-bool is_new(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.ever() && sample.time_s != last.time_s;
-}
+constexpr int kMostFrames = 256;  ///< heard in one tick: a flood must not stop the simulation
 
 void send_bytes(Transport& wire, std::span<const std::byte> bytes) {
     (void)wire.send(bytes, kNoWait);  // nobody reads: lost, as on a real cable

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <utility>
 
+#include "limpet/mavlink/translate.hpp"
+
 namespace limpet::ros {
 
 AutopilotCalls::AutopilotCalls(double retry_s) : retry_s_(retry_s) {
@@ -59,12 +61,10 @@ void AutopilotCalls::call(const std::string& mode, std::optional<bool> armed) {
         (void)mode_call_.call(call);
     }
     if (armed) {
-        constexpr std::uint16_t kArmDisarm = 400;  // MAV_CMD_COMPONENT_ARM_DISARM
-        constexpr float kForce = 21196.0F;         // PX4 does not disarm off the ground without it
         limpet_ros::CommandLong call;
-        call.request.command = kArmDisarm;
+        call.request.command = mavlink::kCommandArm;
         call.request.param1 = *armed ? 1.0F : 0.0F;
-        call.request.param2 = *armed ? 0.0F : kForce;
+        call.request.param2 = *armed ? 0.0F : mavlink::kForce;  // PX4 asks for it off the ground
         (void)command_call_.call(call);
     }
 }

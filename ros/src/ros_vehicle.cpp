@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "limpet/core/signals/new_sample.hpp"
+#include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
 
 namespace limpet::ros {
@@ -14,30 +16,14 @@ namespace {
 constexpr int kClock_Hz = 250;
 constexpr int kEstimate_Hz = 100;
 constexpr int kState_Hz = 10;
-constexpr std::uint32_t kQueue = 1000;      ///< nothing is to be lost on one machine
-constexpr std::uint32_t kOneCommand = 400;  ///< MAV_CMD_COMPONENT_ARM_DISARM
-constexpr std::size_t kMostEvents = 4;      ///< told in one tick; the cup may have some of its own
-constexpr std::size_t kMostHeard = 256;     ///< events that wait: a flood must not fill the memory
-
-/// Stamps start anew when a flight begins: not only later ones are new.
-template <class T>
-bool is_new(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.ever() && sample.time_s != last.time_s;
-}
-
-std::optional<EventName> event_name(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
-        if (to_string(static_cast<EventName>(i)) == name) {
-            return static_cast<EventName>(i);
-        }
-    }
-    return std::nullopt;
-}
+constexpr std::uint32_t kQueue = 1000;  ///< nothing is to be lost on one machine
 
 }  // namespace
 
 RosVehicle::RosVehicle(const Scenario& scenario, const RosVehicleOptions& options)
-    : options_(options), sensors_(scenario.sensors), mode_(options.manners) {
+    : options_(options),
+      sensors_(scenario.sensors),
+      heard_(options.manners, options.ends_with_mission) {
     node_.setCallbackQueue(&queue_);
     advertise();
     subscribe();
@@ -90,16 +76,18 @@ void RosVehicle::subscribe() {
     hear(limpet_ros::MechanismCommand(), "mechanism/command",
          [this](const limpet_ros::MechanismCommand& m) {
              const std::lock_guard lock(mutex_);
-             pump_on_ = m.pump_on != 0;
-             valve_open_ = m.valve_open != 0;
+             heard_.hear(m);
          });
     hear(limpet_ros::PerchingStatus(), "perching_node/status",
          [this](const limpet_ros::PerchingStatus& m) {
              const std::lock_guard lock(mutex_);
-             status_ = m;
+             heard_.hear(m);
          });
     hear(limpet_ros::PerchingEvent(), "perching_node/event",
-         [this](const limpet_ros::PerchingEvent& m) { hear_event(m); });
+         [this](const limpet_ros::PerchingEvent& m) {
+             const std::lock_guard lock(mutex_);
+             heard_.hear(m);
+         });
     hear(limpet_ros::CupState(), "cup/state",
          [this](const limpet_ros::CupState& m) { hear_cup(m); });
     services_.push_back(node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this));
@@ -111,7 +99,7 @@ void RosVehicle::subscribe() {
 void RosVehicle::hear_motion(const std::optional<Motion>& motion) {
     if (motion) {
         const std::lock_guard lock(mutex_);
-        mode_.set_point(*motion, heard_clock_s_);
+        heard_.hear(*motion);
     }
 }
 
@@ -121,31 +109,25 @@ void RosVehicle::hear_cup(const limpet_ros::CupState& message) {
         return;
     }
     const std::lock_guard lock(mutex_);
-    answer_ = LipAnswer{.contact = message.contact,
-                        .phase = *phase,
-                        .pressure_Pa = message.pressure_Pa,
-                        .mean_pressure_Pa = message.mean_pressure_Pa,
-                        .seal_threshold_N = message.seal_threshold_N,
-                        .pump_running = message.pump_running != 0,
-                        .valve_open = message.valve_open != 0};
-}
-
-void RosVehicle::hear_event(const limpet_ros::PerchingEvent& message) {
-    const std::lock_guard lock(mutex_);
-    if (heard_events_.size() < kMostHeard) {
-        heard_events_.push_back(message);
-    }
+    heard_.hear(LipAnswer{.contact = message.contact,
+                          .phase = *phase,
+                          .pressure_Pa = message.pressure_Pa,
+                          .mean_pressure_Pa = message.mean_pressure_Pa,
+                          .seal_threshold_N = message.seal_threshold_N,
+                          .pump_running = message.pump_running != 0,
+                          .valve_open = message.valve_open != 0},
+                message.header.stamp.toSec());
 }
 
 bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
                          limpet_ros::CommandLong::Response& response) {
     constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
     constexpr std::uint8_t kUnsupported = 3;
-    response.success = request.command == kOneCommand ? 1 : 0;
+    response.success = request.command == mavlink::kCommandArm ? 1 : 0;
     response.result = response.success != 0 ? kAccepted : kUnsupported;
     if (response.success != 0) {
         const std::lock_guard lock(mutex_);
-        mode_.arm(request.param1 > 0.5F);
+        heard_.arm(request.param1 > 0.5F);
     }
     return true;
 }
@@ -153,7 +135,7 @@ bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
 bool RosVehicle::set_mode(limpet_ros::SetMode::Request& request,
                           limpet_ros::SetMode::Response& response) {
     const std::lock_guard lock(mutex_);
-    response.mode_sent = mode_.choose(request.custom_mode, heard_clock_s_) ? 1 : 0;
+    response.mode_sent = heard_.choose(request.custom_mode) ? 1 : 0;
     return true;
 }
 
@@ -162,7 +144,7 @@ bool RosVehicle::set_mode(limpet_ros::SetMode::Request& request,
 /// @param time_s  of the flight
 template <class Message>
 void RosVehicle::send(::ros::Publisher& to, Message message, double time_s) {
-    message.header.stamp = ros_time(clock_s() - (flight_s_ - time_s));
+    message.header.stamp = ros_time(clock_s_ - (flight_s_ - time_s));
     to.publish(message);
 }
 
@@ -198,81 +180,32 @@ void RosVehicle::send_estimate(const Estimate& estimate) {
 
 // --- the simulation's calls ---------------------------------------------------------------------
 
-std::string_view RosVehicle::keep(std::string_view text) {
-    return texts_.emplace_back(text);
-}
-
-/// By mutex_.
-void RosVehicle::take_status(double time_s, PerchingMemory& guidance) {
-    if (!status_) {
-        guidance.state = PerchingState::hovering;
-        return;
-    }
-    if (status_->state <= static_cast<int>(PerchingState::finished)) {
-        guidance.state = static_cast<PerchingState>(status_->state);
-    }
-    if (guidance.state != shown_) {
-        shown_ = guidance.state;
-        state_since_s_ = time_s;
-    }
-    guidance.since_s = std::min(state_since_s_, time_s);
-    guidance.attempt = std::max<int>(1, status_->attempt);
-    const auto outcome = outcome_from(status_->outcome);
-    if (options_.ends_with_mission && outcome && !guidance.ending) {
-        guidance.ending = Ending{.outcome = *outcome, .reason = keep(status_->reason)};
-    }
-}
-
-/// By mutex_.
-void RosVehicle::take_events(double time_s, EventList& events) {
-    std::size_t taken = 0;
-    for (; taken < std::min(heard_events_.size(), kMostEvents); ++taken) {
-        const limpet_ros::PerchingEvent& heard = heard_events_[taken];
-        const auto name = event_name(heard.name);
-        if (!name) {
-            continue;
-        }
-        Event event = make_event(time_s, keep(heard.station), *name, keep(heard.reason));
-        const std::size_t values =
-            std::min({heard.values.size(), heard.value_names.size(), Event::kMaxValues});
-        for (std::size_t i = 0; i < values; ++i) {
-            event.add(keep(heard.value_names[i]), heard.values[i]);
-        }
-        events.add(event);
-    }
-    heard_events_.erase(heard_events_.begin(),
-                        heard_events_.begin() + static_cast<std::ptrdiff_t>(taken));
-}
-
 void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, double time_s,
                           PerchingMemory& guidance, EventList& events) {
-    ++clock_;
-    flight_s_ = time_s;
     limpet_ros::State state;
-    bool shows_state = due(clock_, kState_Hz);
+    bool shows_state = false;
     {
         const std::lock_guard lock(mutex_);
-        heard_clock_s_ = clock_s();
+        const bool anew = heard_.tick(time_s);
+        clock_ = heard_.clock();
+        clock_s_ = heard_.clock_s();
+        flight_s_ = time_s;
         const bool was_armed = guidance.setpoint.armed;
-        if (mode_.update(estimate, clock_s(), guidance.setpoint)) {
-            events.add(make_event(time_s, "autopilot", EventName::aborted,
-                                  "set-points have stopped: holds"));
-            shows_state = true;
+        const bool lost = heard_.take(estimate, guidance, events);
+        shows_state = due(clock_, kState_Hz) || lost || was_armed != guidance.setpoint.armed;
+        state.armed = heard_.mode().armed() ? 1 : 0;
+        state.mode = std::string(heard_.mode().mode());
+        if (anew) {
+            lip_ = {};
+            last_ = {};
         }
-        shows_state = shows_state || was_armed != guidance.setpoint.armed;
-        guidance.setpoint.pump_on = pump_on_;
-        guidance.setpoint.valve_open = valve_open_;
-        take_status(time_s, guidance);
-        take_events(time_s, events);
-        state.armed = mode_.armed() ? 1 : 0;
-        state.mode = std::string(mode_.mode());
-        if (answer_) {
-            lip_.hear(*answer_);
+        if (heard_.answer()) {
+            lip_.hear(*heard_.answer());
         }
     }
     if (due(clock_, kClock_Hz)) {
         rosgraph_msgs::Clock clock;
-        clock.clock = ros_time(clock_s());
+        clock.clock = ros_time(clock_s_);
         clock_out_.publish(clock);
     }
     send_readings(readings);
@@ -287,7 +220,7 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
 
 std::string RosVehicle::obstacle() const {
     const std::lock_guard lock(mutex_);
-    return status_ ? "" : "no perching_node is heard";
+    return heard_.guidance_heard() ? "" : "no perching_node is heard";
 }
 
 CupOutput RosVehicle::step(const CupModel& model, CupState& state, const Surface& surface,

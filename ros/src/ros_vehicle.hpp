@@ -10,7 +10,6 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -22,7 +21,7 @@
 #include "limpet/simulation/outside.hpp"
 #include "ros/src/apart_lip.hpp"
 #include "ros/src/convert.hpp"
-#include "ros/src/vehicle_mode.hpp"
+#include "ros/src/heard.hpp"
 
 namespace limpet::ros {
 
@@ -57,8 +56,6 @@ public:
 private:
     void advertise();
     void subscribe();
-    /// Time on /clock; it goes on when a flight begins anew.
-    [[nodiscard]] double clock_s() const { return kClockStart_s + seconds(clock_); }
     template <class Message>
     void send(::ros::Publisher& to, Message message, double time_s);
     template <class T, class Make>
@@ -67,15 +64,9 @@ private:
     void send_estimate(const Estimate& estimate);
     void hear_motion(const std::optional<Motion>& motion);
     void hear_cup(const limpet_ros::CupState& message);
-    void hear_event(const limpet_ros::PerchingEvent& message);
     bool command(limpet_ros::CommandLong::Request& request,
                  limpet_ros::CommandLong::Response& response);
     bool set_mode(limpet_ros::SetMode::Request& request, limpet_ros::SetMode::Response& response);
-    void take_status(double time_s, PerchingMemory& guidance);
-    void take_events(double time_s, EventList& events);
-    [[nodiscard]] std::string_view keep(std::string_view text);
-
-    static constexpr double kClockStart_s = 1.0;  // ROS takes a time of zero for none
 
     RosVehicleOptions options_;
     SensorParameters sensors_;
@@ -88,22 +79,13 @@ private:
 
     // of the simulation's thread
     Tick clock_ = -1;
+    double clock_s_ = 0.0;   ///< time on /clock
     double flight_s_ = 0.0;  ///< the flight's own time at this clock
     Readings last_;
     ApartLip lip_;
-    std::deque<std::string> texts_;  ///< addresses stay
-    double state_since_s_ = 0.0;
-    PerchingState shown_ = PerchingState::hovering;
 
-    // shared; by mutex_
     mutable std::mutex mutex_;
-    double heard_clock_s_ = kClockStart_s;  ///< clock_s() for the other thread
-    VehicleMode mode_;
-    bool pump_on_ = false;
-    bool valve_open_ = false;
-    std::optional<limpet_ros::PerchingStatus> status_;
-    std::vector<limpet_ros::PerchingEvent> heard_events_;
-    std::optional<LipAnswer> answer_;
+    Heard heard_;  ///< shared; by mutex_
 
     std::unique_ptr<::ros::AsyncSpinner> spinner_;  ///< last: stops before what it calls goes
 };

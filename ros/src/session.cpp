@@ -316,7 +316,10 @@ std::string_view PerchingSession::wanted_mode() const {
 }
 
 std::optional<bool> PerchingSession::wanted_armed() const {
-    if (phase_ != SessionPhase::flying || setpoint_.armed == inputs_.autopilot.value.armed) {
+    // One that is not heard may be that of a simulation that has just begun anew.
+    const bool heard = inputs_.autopilot.fresh(last_s_, setup_.limits.silence_limit_s);
+    if (phase_ != SessionPhase::flying || !heard ||
+        setpoint_.armed == inputs_.autopilot.value.armed) {
         return std::nullopt;
     }
     return setpoint_.armed;

@@ -24,6 +24,7 @@ void SuctionCup::start() {
     state_.random = RandomStream(scenario_.seed, 0, Stream::seal);
     sensor_ = start_pressure(scenario_.sensors, RandomStream(scenario_.seed, 0, Stream::pressure));
     reading_ = {};
+    pump_on_ = valve_open_ = false;
     last_s_ = -1.0;
     last_tick_ = -1;
 }

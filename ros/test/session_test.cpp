@@ -237,6 +237,23 @@ TEST_F(Session, TimeThatRunsBackBeginsAnew) {
     EXPECT_NE(session_.phase(), SessionPhase::flying);
 }
 
+TEST_F(Session, AnAutopilotThatBeganAnewIsNotDisarmed) {
+    perch_until_rest();
+    ASSERT_FALSE(word_.armed);
+    run(2.0);
+    // Its first word may come before /clock tells that time ran back.
+    session_.inputs().autopilot = {0.0, {.connected = true, .armed = true, .offboard = false}};
+    session_.tick(time_s_);
+    EXPECT_EQ(session_.wanted_armed(), std::nullopt);
+    word_ = {.connected = true, .armed = true, .offboard = false};
+    time_s_ = 0.0;
+    feed();
+    session_.tick(time_s_);
+    EXPECT_EQ(session_.wanted_armed(), std::nullopt);
+    EXPECT_NE(session_.phase(), SessionPhase::flying);
+    EXPECT_FALSE(session_.outcome().has_value());
+}
+
 TEST_F(Session, ATickThatComesTooLateHandsBack) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/src/heard.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "limpet/simulation/outside.hpp"
+#include "ros/src/convert.hpp"
+
+namespace limpet::ros {
+namespace {
+
+constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not fill the memory
+constexpr double kStampError_s = 1e-6;   ///< of a time as a message has it, in nanoseconds
+
+std::optional<EventName> event_name(const std::string& name) {
+    for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
+        if (to_string(static_cast<EventName>(i)) == name) {
+            return static_cast<EventName>(i);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+bool Heard::tick(double time_s) {
+    const bool anew = clock_ >= 0 && time_s < flight_s_;
+    if (anew) {
+        Heard fresh(manners_, ends_with_mission_);
+        fresh.texts_ = std::move(texts_);
+        *this = std::move(fresh);
+    }
+    flight_s_ = time_s;
+    ++clock_;
+    return anew;
+}
+
+/// The nodes' time is /clock: none of this flight is ahead of it.
+bool Heard::of_this_flight(double stamp_s) const {
+    return stamp_s <= clock_s() + kStampError_s;
+}
+
+// --- what comes in ------------------------------------------------------------------------------
+
+void Heard::hear(const limpet_ros::MechanismCommand& message) {
+    if (of_this_flight(message.header.stamp.toSec())) {
+        pump_on_ = message.pump_on != 0;
+        valve_open_ = message.valve_open != 0;
+    }
+}
+
+void Heard::hear(const limpet_ros::PerchingStatus& message) {
+    if (of_this_flight(message.header.stamp.toSec())) {
+        status_ = message;
+    }
+}
+
+void Heard::hear(const limpet_ros::PerchingEvent& message) {
+    if (of_this_flight(message.header.stamp.toSec()) && events_.size() < kMostHeard) {
+        events_.push_back(message);
+    }
+}
+
+void Heard::hear(const LipAnswer& answer, double stamp_s) {
+    if (of_this_flight(stamp_s)) {
+        answer_ = answer;
+    }
+}
+
+// --- what the simulation takes ------------------------------------------------------------------
+
+std::string_view Heard::keep(std::string_view text) {
+    return texts_.emplace_back(text);
+}
+
+void Heard::take_status(PerchingMemory& guidance) {
+    if (!status_) {
+        guidance.state = PerchingState::hovering;
+        return;
+    }
+    if (status_->state <= static_cast<int>(PerchingState::finished)) {
+        guidance.state = static_cast<PerchingState>(status_->state);
+    }
+    if (guidance.state != shown_) {
+        shown_ = guidance.state;
+        state_since_s_ = flight_s_;
+    }
+    guidance.since_s = state_since_s_;
+    guidance.attempt = std::max<int>(1, status_->attempt);
+    const auto outcome = outcome_from(status_->outcome);
+    if (ends_with_mission_ && outcome && !guidance.ending) {
+        guidance.ending = Ending{.outcome = *outcome, .reason = keep(status_->reason)};
+    }
+}
+
+void Heard::take_events(EventList& events) {
+    std::size_t taken = 0;
+    for (; taken < std::min(events_.size(), kMostEvents); ++taken) {
+        const limpet_ros::PerchingEvent& heard = events_[taken];
+        const auto name = event_name(heard.name);
+        if (!name) {
+            continue;
+        }
+        Event event = make_event(flight_s_, keep(heard.station), *name, keep(heard.reason));
+        const std::size_t values =
+            std::min({heard.values.size(), heard.value_names.size(), Event::kMaxValues});
+        for (std::size_t i = 0; i < values; ++i) {
+            event.add(keep(heard.value_names[i]), heard.values[i]);
+        }
+        events.add(event);
+    }
+    events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(taken));
+}
+
+bool Heard::take(const Estimate& estimate, PerchingMemory& guidance, EventList& events) {
+    const bool lost = mode_.update(estimate, clock_s(), guidance.setpoint);
+    if (lost) {
+        events.add(make_event(flight_s_, "autopilot", EventName::aborted,
+                              "set-points have stopped: holds"));
+    }
+    guidance.setpoint.pump_on = pump_on_;
+    guidance.setpoint.valve_open = valve_open_;
+    take_status(guidance);
+    take_events(events);
+    return lost;
+}
+
+}  // namespace limpet::ros

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limpet_ros/MechanismCommand.h>
+#include <limpet_ros/PerchingEvent.h>
+#include <limpet_ros/PerchingStatus.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/core/signals/event.hpp"
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/time.hpp"
+#include "limpet/guidance/perching.hpp"
+#include "ros/src/apart_lip.hpp"
+#include "ros/src/vehicle_mode.hpp"
+
+namespace limpet::ros {
+
+/// What a simulated vehicle has heard from the nodes in this flight, and its time on /clock. A
+/// flight that begins anew (the world was reset) has heard nothing: /clock starts anew too, by
+/// which the nodes notice, and what is stamped later than it was said in the flight before.
+/// Whoever calls from two threads locks.
+class Heard {
+public:
+    Heard(const OffboardManners& manners, bool ends_with_mission)
+        : manners_(manners), ends_with_mission_(ends_with_mission), mode_(manners) {}
+
+    /// The next tick of the flight.
+    /// @param time_s  of the flight; one earlier than the last: it begins anew
+    /// @return whether it does
+    bool tick(double time_s);
+    /// Ticks on /clock, from 0.
+    [[nodiscard]] Tick clock() const { return clock_; }
+    [[nodiscard]] double clock_s() const { return kClockStart_s + seconds(clock_); }
+
+    void hear(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
+    void hear(const limpet_ros::MechanismCommand& message);
+    void hear(const limpet_ros::PerchingStatus& message);
+    void hear(const limpet_ros::PerchingEvent& message);
+    /// @param stamp_s  of the message; 0: none
+    void hear(const LipAnswer& answer, double stamp_s);
+    void arm(bool armed) { mode_.arm(armed); }
+    [[nodiscard]] bool choose(std::string_view mode) { return mode_.choose(mode, clock_s()); }
+
+    /// Set-point, state and ending of a guidance elsewhere, as heard; events are added.
+    /// @return whether the mode has just fallen back to holding
+    bool take(const Estimate& estimate, PerchingMemory& guidance, EventList& events);
+    [[nodiscard]] const std::optional<LipAnswer>& answer() const { return answer_; }
+    [[nodiscard]] const VehicleMode& mode() const { return mode_; }
+    [[nodiscard]] bool guidance_heard() const { return status_.has_value(); }
+
+private:
+    [[nodiscard]] bool of_this_flight(double stamp_s) const;
+    void take_status(PerchingMemory& guidance);
+    void take_events(EventList& events);
+    [[nodiscard]] std::string_view keep(std::string_view text);
+
+    static constexpr double kClockStart_s = 1.0;  // ROS takes a time of zero for none
+
+    OffboardManners manners_;
+    bool ends_with_mission_ = false;
+    std::deque<std::string> texts_;  ///< addresses stay, also those of the flight before
+    double flight_s_ = 0.0;
+    Tick clock_ = -1;
+
+    VehicleMode mode_;
+    bool pump_on_ = false;
+    bool valve_open_ = false;
+    std::optional<limpet_ros::PerchingStatus> status_;
+    std::vector<limpet_ros::PerchingEvent> events_;
+    std::optional<LipAnswer> answer_;
+    double state_since_s_ = 0.0;
+    PerchingState shown_ = PerchingState::hovering;
+};
+
+}  // namespace limpet::ros

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ros/src/heard.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ros/src/convert.hpp"
+
+namespace limpet::ros {
+namespace {
+
+/// A vehicle at rest on the wall, as its nodes tell it; its mission is over.
+class AWorldReset : public testing::Test {
+protected:
+    AWorldReset() {
+        fly_to(30.0);
+        heard_.hear(status(heard_.clock_s()));
+        heard_.hear(pump_on(heard_.clock_s()));
+        heard_.hear(LipAnswer{.contact = 7, .phase = CupPhase::attached}, heard_.clock_s());
+        heard_.arm(false);
+        take();
+    }
+
+    /// Each tick of the flight from its beginning.
+    void fly_to(double end_s) {
+        for (Tick tick = 0; seconds(tick) <= end_s; ++tick) {
+            anew_ = heard_.tick(seconds(tick)) || anew_;
+        }
+    }
+    void take() {
+        guidance_ = {};
+        events_ = {};
+        (void)heard_.take({}, guidance_, events_);
+    }
+    static limpet_ros::PerchingStatus status(double clock_s) {
+        limpet_ros::PerchingStatus status;
+        status.header.stamp = ros_time(clock_s);
+        status.state = static_cast<std::uint8_t>(PerchingState::resting);
+        status.attempt = 2;
+        status.outcome = "perched";
+        status.reason = "rests";
+        return status;
+    }
+    static limpet_ros::MechanismCommand pump_on(double clock_s) {
+        limpet_ros::MechanismCommand command;
+        command.header.stamp = ros_time(clock_s);
+        command.pump_on = 1;
+        return command;
+    }
+
+    Heard heard_{OffboardManners{}, true};
+    PerchingMemory guidance_;
+    EventList events_;
+    bool anew_ = false;
+};
+
+TEST_F(AWorldReset, IsNoneWhileTimeGoesOn) {
+    EXPECT_FALSE(anew_);
+    EXPECT_FALSE(guidance_.setpoint.armed);
+    EXPECT_TRUE(guidance_.setpoint.pump_on);
+    EXPECT_EQ(guidance_.state, PerchingState::resting);
+    EXPECT_EQ(guidance_.attempt, 2);
+    ASSERT_TRUE(guidance_.ending.has_value());
+    EXPECT_TRUE(heard_.answer().has_value());
+}
+
+TEST_F(AWorldReset, FliesAsIfNothingHadBeenHeard) {
+    EXPECT_TRUE(heard_.tick(0.0));
+    take();
+    EXPECT_TRUE(guidance_.setpoint.armed) << "it would fall";
+    EXPECT_FALSE(guidance_.setpoint.pump_on);
+    EXPECT_EQ(guidance_.state, PerchingState::hovering);
+    EXPECT_FALSE(guidance_.ending.has_value()) << "the old outcome would end the new flight";
+    EXPECT_FALSE(heard_.answer().has_value());
+    EXPECT_FALSE(heard_.guidance_heard());
+    EXPECT_EQ(heard_.mode().mode(), kHold);
+}
+
+TEST_F(AWorldReset, SetsTheClockBackByWhichTheNodesNotice) {
+    const double before_s = heard_.clock_s();
+    heard_.tick(0.0);
+    EXPECT_LT(heard_.clock_s(), before_s);
+    EXPECT_EQ(heard_.clock_s(), 1.0);
+    EXPECT_FALSE(heard_.tick(seconds(1))) << "only once";
+    EXPECT_EQ(heard_.clock_s(), 1.0 + seconds(1));
+}
+
+TEST_F(AWorldReset, DoesNotBelieveWhatWasOnItsWay) {
+    const double before_s = heard_.clock_s();
+    heard_.tick(0.0);
+    heard_.hear(status(before_s));
+    heard_.hear(pump_on(before_s));
+    heard_.hear(LipAnswer{.contact = 8, .phase = CupPhase::attached}, before_s);
+    limpet_ros::PerchingEvent event;
+    event.header.stamp = ros_time(before_s);
+    event.name = "perched";
+    heard_.hear(event);
+    take();
+    EXPECT_FALSE(guidance_.ending.has_value());
+    EXPECT_FALSE(guidance_.setpoint.pump_on);
+    EXPECT_FALSE(heard_.answer().has_value());
+    EXPECT_EQ(events_.count, 0U);
+    // What is said in this flight counts, at its very tick too.
+    heard_.hear(pump_on(heard_.clock_s()));
+    heard_.hear(status(heard_.clock_s()));
+    take();
+    EXPECT_TRUE(guidance_.setpoint.pump_on);
+    EXPECT_TRUE(guidance_.ending.has_value());
+}
+
+TEST_F(AWorldReset, KeepsTheWordsOfTheFlightBefore) {
+    const std::string_view reason = guidance_.ending->reason;
+    heard_.tick(0.0);
+    heard_.hear(status(heard_.clock_s()));
+    take();
+    EXPECT_EQ(reason, "rests");
+}
+
+}  // namespace
+}  // namespace limpet::ros
