@@ -6,6 +6,7 @@
 #   enter COMMAND...     runs there, in this folder, with the repository at its own path; the network is
 #                        the machine's, /tmp and HOME are private, the root folder is read-only
 #   enter_at=(PATH...)   further folders that `enter` shows, writable
+#   enter_reads=(PATH...) further files and folders that it shows, read-only
 #
 # LIMPET_GAZEBO_ROOT   the root folder (~/.cache/limpet/gazebo-DIGEST of the package list)
 # LIMPET_MIRROR        where Debian comes from (the machine's own mirror)
@@ -14,6 +15,7 @@ gazebo_suite=bullseye
 gazebo_packages=$limpet_root/gazebo/packages.txt
 gazebo_needs_MB=3500
 enter_at=()
+enter_reads=()
 
 package_names() { sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$@"; }
 
@@ -135,6 +137,31 @@ prepare_gazebo() {
     enter true || stop "bubblewrap does not get into $gazebo_root; it needs user namespaces, or root"
 }
 
+# holds_more PATH: all of / or of a home below it, or what the root folder has a place of its own for
+holds_more() {
+    case ${HOME%/}/ in "${1%/}"/*) return 0 ;; esac
+    case $1 in / | /tmp) return 0 ;; esac
+    ! has_gazebo || return 1
+    case $1/ in
+        /bin/* | /etc/* | /lib/* | /lib32/* | /lib64/* | /libx32/* | /opt/* | /proc/* | /sbin/* | /sys/* | /usr/* | /var/*) return 0 ;;
+    esac
+    return 1
+}
+
+# show_file FILE: to `enter`, with what lies beside and below it, read-only; alone where that is too much
+show_file() {
+    local file folder
+    file=$(realpath -ms "$1")
+    folder=$(dirname "$file")
+    if ! holds_more "$folder"; then
+        enter_reads+=("$folder")
+    elif [ "$folder" = /tmp ] || [ "$folder" = "${HOME%/}" ]; then
+        enter_reads+=("$file")
+    else
+        stop "$file: Gazebo's root folder has its own $folder; copy it to another folder"
+    fi
+}
+
 # enter_environment: what of the caller's environment goes inside
 enter_environment() {
     local name
@@ -165,6 +192,9 @@ enter() {
         fi
     done
     binds+=(--dev /dev --proc /proc --ro-bind-try /sys /sys --tmpfs /tmp --tmpfs /run --dir /tmp/home)
+    for folder in "${enter_reads[@]}"; do
+        binds+=(--ro-bind-try "$folder" "$folder")
+    done
     for folder in "$limpet_root" ${CCACHE_DIR:+"$CCACHE_DIR"} "${enter_at[@]}"; do
         mkdir -p "$folder" && binds+=(--bind "$folder" "$folder")
     done

@@ -91,9 +91,24 @@ std::string lasting(const std::string& wanted) {
     return is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
 }
 
+/// Overrides with a vehicle's file as the plugin will find it; by the scenario's folder, as it is
+/// read here.
+std::vector<std::string> lasting(std::vector<std::string> overrides, const Scenario& scenario) {
+    for (std::string& text : overrides) {
+        const std::size_t equals = text.find('=');
+        const std::string key = text.substr(0, equals);
+        if ((key == "vehicle" || key == "vehicle.base") && is_path(text.substr(equals + 1))) {
+            text = key + "=" +
+                   lasting((scenario.path.parent_path() / text.substr(equals + 1)).string());
+        }
+    }
+    return overrides;
+}
+
 GazeboWorld world_for(const ExportOptions& options, const Subject& subject, const fs::path& root) {
     if (subject.scenario) {
-        GazeboWorld world = world_of(*subject.scenario, lasting(options.wanted), options.overrides);
+        GazeboWorld world = world_of(*subject.scenario, lasting(options.wanted),
+                                     lasting(options.overrides, *subject.scenario));
         world.vehicles.front().plugin->ros = options.ros;
         return world;
     }
