@@ -69,11 +69,15 @@ void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/, const YamlNode&
 void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
     load_or_end([&] {
         const std::string name = sdf->Get<std::string>("filename");
+        std::vector<std::string> keys = {"scenario",  "set",      "seed",     "autopilot",
+                                         "hil",       "offboard", "wait_s",   "speed",
+                                         "recording", "result",   "when_over"};
+        for (const std::string_view key : more_elements()) {
+            keys.emplace_back(key);
+        }
         configure(model, sdf_tree(sdf, {.place = "model " + model->GetName() + ": " + name,
                                         .lists = {"set"},
-                                        .from_environment = {"scenario", "set", "seed", "autopilot",
-                                                             "hil", "offboard", "wait_s", "speed",
-                                                             "recording", "result", "when_over"}}));
+                                        .from_environment = keys}));
     });
 }
 

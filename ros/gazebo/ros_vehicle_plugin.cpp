@@ -7,6 +7,7 @@
 #include "gazebo/vehicle_plugin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "ros/src/node_parameters.hpp"
 #include "ros/src/ros_vehicle.hpp"
 
 namespace limpet {
@@ -20,13 +21,17 @@ namespace limpet {
 ///   ends_with_mission  the flight is over when perching_node's mission is        false
 ///   offboard_loss_s    without set-points for so long it holds [s]               0.5
 ///   hold_speed_m_s     before that it brakes down to this [m/s]                  0.1
+///   time_limit_s       of the flight [s]                                         the scenario's
+///
+/// What it flies it tells the nodes by the parameter /limpet/flight.
 class RosVehiclePlugin final : public VehiclePlugin {
 public:
     ~RosVehiclePlugin() override { end_flight(); }
 
 protected:
     [[nodiscard]] std::vector<std::string_view> more_elements() const override {
-        return {"cup_by_node", "ends_with_mission", "offboard_loss_s", "hold_speed_m_s"};
+        return {"cup_by_node", "ends_with_mission", "offboard_loss_s", "hold_speed_m_s",
+                "time_limit_s"};
     }
 
     void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,
@@ -45,11 +50,19 @@ protected:
                 *row.value = read_number(*node, row);
             }
         }
+        auto limits = bind(simulation_table(), flight.scenario.simulation);
+        for (const BoundParameter& row : limits) {
+            const YamlNode* node = row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;
+            if (node != nullptr) {
+                *row.value = read_number(*node, row);
+            }
+        }
         if (const YamlNode* node = parameters.find("autopilot");
             node != nullptr && read_text(*node) != "builtin") {
             fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
         }
         join_ros();
+        ros::tell_flight(told(parameters));
         vehicle_ = std::make_unique<ros::RosVehicle>(flight.scenario, options);
         const Outside outside = vehicle_->outside();
         flight.conduct.outside.guidance = outside.guidance;
@@ -57,6 +70,20 @@ protected:
     }
 
 private:
+    [[nodiscard]] static ros::SetupArguments told(const YamlNode& parameters) {
+        ros::SetupArguments flight;
+        flight.scenario = read_text(*parameters.find("scenario"));
+        if (const YamlNode* set = parameters.find("set")) {
+            for (const YamlNode& item : set->children) {
+                flight.set.push_back(read_text(item));
+            }
+        }
+        if (const YamlNode* seed = parameters.find("seed")) {
+            flight.seed = read_count(*seed);
+        }
+        return flight;
+    }
+
     static void join_ros() {
         if (!::ros::isInitialized()) {
             int argc = 0;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <filesystem>
 
 #include "limpet/core/errors.hpp"
 
@@ -63,7 +65,91 @@ double NodeParameters::number(const std::string& name, double otherwise, double 
     return number;
 }
 
+XmlRpcValue flight_value(const SetupArguments& flight) {
+    XmlRpcValue value;
+    value["scenario"] = flight.scenario;
+    value["vehicle"] = flight.vehicle;
+    value["surface"] = flight.surface;
+    value["mission"] = flight.mission;
+    value["seed"] = flight.seed ? std::to_string(*flight.seed) : std::string();  // 64 bits
+    value["set"].setSize(0);
+    for (std::size_t i = 0; i < flight.set.size(); ++i) {
+        value["set"][static_cast<int>(i)] = flight.set[i];
+    }
+    return value;
+}
+
+std::optional<SetupArguments> flight_from(const XmlRpcValue& value) {
+    if (value.getType() != XmlRpcValue::TypeStruct) {
+        return std::nullopt;
+    }
+    XmlRpcValue flight = value;  // its reading members are not const
+    bool sound = true;
+    const auto text = [&](const char* key) -> std::string {
+        const bool is_text =
+            flight.hasMember(key) && flight[key].getType() == XmlRpcValue::TypeString;
+        sound = sound && is_text;
+        return is_text ? static_cast<std::string>(flight[key]) : std::string();
+    };
+    SetupArguments found;
+    found.scenario = text("scenario");
+    found.vehicle = text("vehicle");
+    found.surface = text("surface");
+    found.mission = text("mission");
+    if (const std::string seed = text("seed"); !seed.empty()) {
+        std::uint64_t number = 0;
+        const char* const end = seed.data() + seed.size();
+        const auto result = std::from_chars(seed.data(), end, number);
+        sound = sound && result.ec == std::errc{} && result.ptr == end;
+        found.seed = number;
+    }
+    sound = sound && flight.hasMember("set") && flight["set"].getType() == XmlRpcValue::TypeArray;
+    for (int i = 0; sound && i < flight["set"].size(); ++i) {
+        sound = flight["set"][i].getType() == XmlRpcValue::TypeString;
+        if (sound) {
+            found.set.push_back(static_cast<std::string>(flight["set"][i]));
+        }
+    }
+    return sound ? std::optional(found) : std::nullopt;
+}
+
+void tell_flight(SetupArguments flight) {
+    if (std::filesystem::is_regular_file(flight.scenario)) {
+        flight.scenario = std::filesystem::absolute(flight.scenario).string();
+    }
+    ::ros::param::set(kFlightParameter, flight_value(flight));
+}
+
 SetupArguments NodeParameters::setup() {
+    SetupArguments own = own_setup();
+    if (!flag("as_vehicle", false)) {
+        return own;
+    }
+    const bool differs = !own.scenario.empty() || !own.vehicle.empty() || !own.surface.empty();
+    if (differs || own.seed) {
+        fail("as_vehicle", "true, allowed without ~scenario, ~vehicle, ~surface and ~seed only");
+    }
+    XmlRpcValue value;
+    std::optional<SetupArguments> flight;
+    while (!flight) {
+        if (!::ros::ok()) {
+            throw InputError(
+                fmt::format("{}: no vehicle has told what it flies", kFlightParameter));
+        }
+        if (::ros::param::get(kFlightParameter, value)) {
+            flight = flight_from(value);
+        }
+        if (!flight) {
+            ROS_INFO_ONCE("waits for the vehicle to tell what it flies (%s)", kFlightParameter);
+            ::ros::WallDuration(0.1).sleep();
+        }
+    }
+    flight->mission = own.mission.empty() ? flight->mission : own.mission;
+    flight->set.insert(flight->set.end(), own.set.begin(), own.set.end());
+    return *flight;
+}
+
+SetupArguments NodeParameters::own_setup() {
     SetupArguments arguments;
     arguments.scenario = text("scenario");
     arguments.vehicle = text("vehicle");

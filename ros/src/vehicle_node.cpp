@@ -17,7 +17,8 @@ namespace {
 
 void vehicle_node() {
     NodeParameters parameters;
-    const NodeSetup setup = load_setup(parameters.setup());
+    const SetupArguments arguments = parameters.setup();
+    const NodeSetup setup = load_setup(arguments);
     RosVehicleOptions options;
     for (const auto& row : offboard_manners_table()) {
         double& value = row.field(options.manners);
@@ -30,6 +31,7 @@ void vehicle_node() {
     parameters.refuse_others();
 
     const auto model = build_model(setup.scenario);
+    tell_flight(arguments);
     RosVehicle vehicle(setup.scenario, options);
     std::atomic<bool> stop{false};
     FlightWatch watch;

@@ -29,7 +29,7 @@ def speed(velocity):
 class GuidanceLost(unittest.TestCase):
     def test_holds(self):
         watch = Watch()
-        guidance = start("limpet_ros", "perching_node", "_scenario:=perch_concrete",
+        guidance = start("limpet_ros", "perching_node", "_as_vehicle:=true",
                          "_mission:=perch", "_asks_for_mode:=true")
         self.addCleanup(guidance.end)
         watch.until("ready", lambda w: w.status is not None and w.status.phase == "ready", 60)
