@@ -137,6 +137,12 @@ void VehiclePlugin::end() {
 }
 
 void VehiclePlugin::Reset() {
+    if (px4_ != nullptr) {
+        say("a flight with a PX4 does not begin anew with the world; start gzserver again");
+        host_.reset();
+        told_ = true;  // from now on the world stands still
+        return;
+    }
     load_or_end([this] { host_->restart(); });
     told_ = false;
 }
