@@ -13,7 +13,7 @@ namespace limpet {
 /// Takes one more number into a digest of 64 bits; any changed bit changes the digest.
 inline void digest(std::uint64_t& hash, double value) {
     constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ULL;  // 2^64 / golden ratio
-    std::uint64_t bits = 0;  // std::bit_cast came with GCC 11
+    std::uint64_t bits = 0;                                // std::bit_cast came with GCC 11
     static_assert(sizeof bits == sizeof value);
     std::memcpy(&bits, &value, sizeof bits);
     hash = (std::rotl(hash, 23) ^ bits) * kOdd;

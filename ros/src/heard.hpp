@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "limpet/core/signals/event.hpp"
 #include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/event.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/guidance/perching.hpp"
 #include "ros/src/apart_lip.hpp"
