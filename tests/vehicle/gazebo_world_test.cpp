@@ -140,7 +140,8 @@ TEST(GazeboWorld, OnlyFeetWallAndGroundCanTouch) {
 TEST(GazeboWorld, ThePluginIsToldTheScenarioAndItsOverrides) {
     GazeboWorld world = flight();
     world.vehicles[0].plugin = WorldFlight{"perch_metal", {"suction.valve_fitted=1", "seed=3"}};
-    const auto plugin = Written(world).model("uav").child("plugin");
+    const Written written(world);
+    const auto plugin = written.model("uav").child("plugin");
     EXPECT_STREQ(plugin.attribute("filename").value(), "libLimpetVehiclePlugin.so");
     EXPECT_STREQ(plugin.child("scenario").text().get(), "perch_metal");
     std::vector<std::string> sets;
