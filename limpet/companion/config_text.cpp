@@ -72,7 +72,7 @@ std::vector<std::string> describe(const CompanionConfig& config) {
                         ? std::string("signing     none: who reaches the wires may command")
                         : "signing     key of " + config.signing_key_file.string());
     lines.push_back(fmt::format(
-        "speeds      docks at {:g} m/s from {:g} m, {:g} attempts, retreats at {:g} m/s",
+        "speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
         config.guidance.dock_speed_m_s, config.guidance.pre_distance_m, config.guidance.attempts,
         config.guidance.retreat_speed_m_s));
     lines.push_back(fmt::format(

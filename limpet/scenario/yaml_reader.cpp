@@ -92,8 +92,12 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
     }
 }
 
+std::optional<double> number_in(const YamlNode& node) {
+    return is_plain(node) ? number_of(node.text) : std::nullopt;
+}
+
 double read_number(const YamlNode& node, const BoundParameter& row) {
-    const auto value = is_plain(node) ? number_of(node.text) : std::nullopt;
+    const auto value = number_in(node);
     if (row.value.is_switch() && value != 0.0 && value != 1.0) {
         return read_flag(node) ? 1.0 : 0.0;
     }

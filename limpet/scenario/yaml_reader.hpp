@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ namespace limpet {
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
                 std::string_view ask = {});
 
+/// @return nothing for what is no plain number; finite or not is not asked
+[[nodiscard]] std::optional<double> number_in(const YamlNode& node);
 /// A number in the range of its row, whole for a count; of a switch true, false, 0 or 1.
 [[nodiscard]] double read_number(const YamlNode& node, const BoundParameter& row);
 [[nodiscard]] std::string read_text(const YamlNode& node);
