@@ -27,13 +27,7 @@ Attachment attachment_of(const YamlNode& node) {
 /// sdformat writes a child that says true as 1.
 bool read_switch(const YamlNode& node) {
     bool value = false;
-    return read_number(node, {.name = node.key,
-                              .unit = "switch",
-                              .minimum = 0.0,
-                              .maximum = 1.0,
-                              .value = &value,
-                              .description = {},
-                              .source = {}}) != 0.0;
+    return read_number(node, {node.key, "switch", 0.0, 1.0, &value, {}, {}}) != 0.0;
 }
 
 CupTarget target_of(const YamlNode& node, const Surface& surface) {

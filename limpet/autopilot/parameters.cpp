@@ -102,7 +102,7 @@ Table rate_rows() {
 Table estimator_rows() {
     return {
         {"EKF2_PREDICT_US", "us", 1000, 20000, &P::EKF2_PREDICT_US,
-         "largest step of the covariance", "PX4"},
+         "largest step of the covariance, whole", "PX4"},
         {"EKF2_GYR_NOISE", "rad/s", 1e-5, 0.1, &P::EKF2_GYR_NOISE,
          "gyro noise per prediction; 3.39e-3 matches facts.md section 2",
          "PX4, larger than the sensor's to cover vibration and impacts"},
@@ -121,7 +121,7 @@ Table estimator_rows() {
         {"EKF2_ANGERR_INIT", "rad", 0, 0.5, &P::EKF2_ANGERR_INIT,
          "standard deviation of the attitude at start", "PX4"},
         {"EKF2_NOAID_TOUT", "us", 100000, 10000000, &P::EKF2_NOAID_TOUT,
-         "age of the aiding from which the estimate is not valid",
+         "age of the aiding from which the estimate is not valid, whole",
          "here: a flight near a wall cannot coast; PX4 5e6"},
         {"EKF2_EV_CTRL", "count", 0, 15, &P::EKF2_EV_CTRL,
          "motion capture, bits: 1 horizontal position, 2 height, 8 attitude",

@@ -57,9 +57,9 @@ const ParameterTable<SimulationParameters>& simulation_table() {
         {"touch_step_s", "s", 1e-5, kTick_s, &S::touch_step_s,
          "plant step around a touch; divides step_s", "baseline.md: cup peak within 6 %"},
         {"record_rate_Hz", "Hz", 1.0, 1000.0, &S::record_rate_Hz,
-         "true states in the recording; sensors are recorded as they come",
+         "true states in the recording, whole; sensors are recorded as they come",
          "assumed: shows every mode of the vehicle"},
-        {"guidance_rate_Hz", "Hz", 1.0, 1000.0, &S::guidance_rate_Hz, "guidance",
+        {"guidance_rate_Hz", "Hz", 1.0, 1000.0, &S::guidance_rate_Hz, "guidance, whole",
          "assumed: offboard setpoints of a ROS node"},
     };
     return table;
