@@ -76,7 +76,8 @@ TEST(RoundTrip, DescriptionsMayHoldAnything) {
 }
 
 TEST(RoundTrip, SwitchesAndCountsAreWrittenAsSuch) {
-    const std::string yaml = TestData().load("first", {"suction.valve_fitted=1"}).yaml;
+    const std::string yaml =
+        TestData().load("first", {"suction.valve_fitted=1", "vehicle.battery.cells=4"}).yaml;
     EXPECT_NE(yaml.find("\n  valve_fitted: true\n"), std::string::npos) << yaml;
     EXPECT_NE(yaml.find("\n    cells: 4\n"), std::string::npos);
     EXPECT_NE(yaml.find("\n  imu_rate_Hz: 250\n"), std::string::npos);
