@@ -2,6 +2,7 @@
 #include "limpet/suction/identification.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -9,7 +10,6 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/random.hpp"
 #include "limpet/suction/stages.hpp"
 
 namespace limpet {
@@ -261,35 +261,29 @@ Stages stages_of(const PressureTrace& trace, const IdentificationOptions& option
     return stages;
 }
 
-/// Student's t by Cornish's and Fisher's expansion of the normal quantile, within 2 % from four
-/// degrees of freedom on. Source: Abramowitz and Stegun, 26.7.5.
-double student_quantile(double z, double freedom) {
-    const double v = std::max(4.0, freedom);
-    return z + (z * z * z + z) / (4.0 * v) +
-           (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * v * v);
-}
-
-std::optional<Fitted> fitted(const CurveFit& fit, CurveParameter parameter, double z) {
+/// @param confidence  of the two-sided interval, by Student's t
+std::optional<Fitted> fitted(const CurveFit& fit, CurveParameter parameter, double confidence) {
     const auto found = std::find(fit.free.begin(), fit.free.end(), parameter);
     if (found == fit.free.end()) {
         return std::nullopt;
     }
     const auto k = static_cast<Eigen::Index>(found - fit.free.begin());
-    return Fitted{
-        .value = value_of(fit.curve, parameter),
-        .half_width = student_quantile(z, fit.freedom[k]) * std::sqrt(fit.covariance(k, k))};
+    const boost::math::students_t student(std::max(1.0, fit.freedom[k]));
+    return Fitted{.value = value_of(fit.curve, parameter),
+                  .half_width = boost::math::quantile(student, 0.5 + 0.5 * confidence) *
+                                std::sqrt(fit.covariance(k, k))};
 }
 
 PressureFit result_of(const CurveFit& fit, const IdentificationOptions& options) {
-    const double z = normal_quantile(0.5 + 0.5 * options.confidence);
+    const double confidence = options.confidence;
     const PressureCurve& curve = fit.curve;
-    PressureFit result{.atmosphere_Pa = fitted(fit, P::atmosphere, z),
-                       .vacuum_Pa = fitted(fit, P::vacuum, z),
-                       .sealing_time_s = fitted(fit, P::tau_1, z),
-                       .unsealing_time_s = fitted(fit, P::tau_2, z),
-                       .sealing_begins_s = fitted(fit, P::on, z),
-                       .unsealing_begins_s = fitted(fit, P::off, z),
-                       .ripple_Hz = fitted(fit, P::ripple_Hz, z),
+    PressureFit result{.atmosphere_Pa = fitted(fit, P::atmosphere, confidence),
+                       .vacuum_Pa = fitted(fit, P::vacuum, confidence),
+                       .sealing_time_s = fitted(fit, P::tau_1, confidence),
+                       .unsealing_time_s = fitted(fit, P::tau_2, confidence),
+                       .sealing_begins_s = fitted(fit, P::on, confidence),
+                       .unsealing_begins_s = fitted(fit, P::off, confidence),
+                       .ripple_Hz = fitted(fit, P::ripple_Hz, confidence),
                        .ripple_Pa = std::hypot(curve.ripple_cos_Pa, curve.ripple_sin_Pa),
                        .residual_Pa = fit.residual_Pa,
                        .memory_s = fit.memory_s,
