@@ -39,7 +39,7 @@ void introduce(const Campaign& campaign, const RunRow& row, Terminal& terminal) 
 
 void replay(const ReplayOptions& options) {
     const fs::path database = Results::file_of(options.database);
-    Results results(database, Database::Access::read);
+    Results results(database, Access::read);
     const RunRow row = results.row(options.run);  // before a folder is made for it
     const fs::path folder = make_folder(options.out.empty() ? database.parent_path() /
                                                                   fmt::format("run_{}", options.run)

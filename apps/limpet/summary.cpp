@@ -22,7 +22,7 @@ struct SummaryOptions {
 
 void summarise_campaign(const SummaryOptions& options) {
     const fs::path database = Results::file_of(options.database);
-    Results results(database, Database::Access::read);
+    Results results(database, Access::read);
     const CampaignSummary summary = summarise(results);
     fmt::print("{}\n", options.json ? summary_json(summary) : summary_text(summary));
     if (options.json && options.out.empty()) {

@@ -75,84 +75,93 @@ std::string scenario_hash(const Campaign& campaign) {
     return hash_text(hash);
 }
 
-void write_campaign(Database& database, const Campaign& campaign) {
-    Transaction transaction(database);
-    database.execute(fmt::format("PRAGMA application_id = {}", kApplication));
-    database.execute(fmt::format("PRAGMA user_version = {}", kSchema));
-    database.execute(
+void write_campaign(SQLite::Database& database, const Campaign& campaign) {
+    SQLite::Transaction transaction(database);
+    database.exec(fmt::format("PRAGMA application_id = {}", kApplication));
+    database.exec(fmt::format("PRAGMA user_version = {}", kSchema));
+    database.exec(
         "CREATE TABLE campaign (name TEXT, limpet TEXT, yaml TEXT, campaign_hash TEXT, "
         "scenario_hash TEXT)");
-    database.execute("CREATE TABLE scenarios (variant INTEGER PRIMARY KEY, yaml TEXT)");
-    database.execute(create_sql(campaign));
-    Statement insert = database.prepare("INSERT INTO campaign VALUES (?, ?, ?, ?, ?)");
-    const std::string hashes[] = {campaign_hash(campaign), scenario_hash(campaign)};
-    int parameter = 0;
-    for (const std::string_view text :
-         {std::string_view(campaign.name), kVersion, std::string_view(campaign.yaml),
-          std::string_view(hashes[0]), std::string_view(hashes[1])}) {
+    database.exec("CREATE TABLE scenarios (variant INTEGER PRIMARY KEY, yaml TEXT)");
+    database.exec(create_sql(campaign));
+    SQLite::Statement insert(database, "INSERT INTO campaign VALUES (?, ?, ?, ?, ?)");
+    int parameter = 1;
+    for (const std::string& text : {campaign.name, std::string(kVersion), campaign.yaml,
+                                    campaign_hash(campaign), scenario_hash(campaign)}) {
         insert.bind(parameter++, text);
     }
-    (void)insert.step();
-    Statement scenario = database.prepare("INSERT INTO scenarios VALUES (?, ?)");
+    insert.exec();
+    SQLite::Statement scenario(database, "INSERT INTO scenarios VALUES (?, ?)");
     for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
-        scenario.bind(0, static_cast<std::int64_t>(i));
-        scenario.bind(1, std::string_view(campaign.scenarios[i]));
-        (void)scenario.step();
+        scenario.bind(1, static_cast<std::int64_t>(i));
+        scenario.bind(2, campaign.scenarios[i]);
+        scenario.exec();
+        scenario.reset();
     }
-    transaction.finish();
+    transaction.commit();
+}
+
+/// First number, first text of the first row.
+std::int64_t integer(SQLite::Database& database, const std::string& sql) {
+    return asking(database, [&] { return database.execAndGet(sql).getInt64(); });
+}
+std::string text(SQLite::Database& database, const std::string& sql) {
+    return database.execAndGet(sql).getString();
 }
 
 /// What the header says before anything else is believed.
-void require_ours(Database& database) {
-    if (database.integer("PRAGMA application_id") != kApplication) {
-        throw InputError(database.name() + ": is not a database of results");
+void require_ours(SQLite::Database& database) {
+    if (integer(database, "PRAGMA application_id") != kApplication) {
+        throw InputError(database.getFilename() + ": is not a database of results");
     }
-    const std::int64_t schema = database.integer("PRAGMA user_version");
+    const std::int64_t schema = integer(database, "PRAGMA user_version");
     if (schema != kSchema) {
         throw InputError(fmt::format("{}: has schema {}, this Limpet ({}) reads schema {}",
-                                     database.name(), schema, kVersion, kSchema));
+                                     database.getFilename(), schema, kVersion, kSchema));
     }
-    if (database.text("PRAGMA quick_check(1)") != "ok") {
-        throw InputError(database.name() + ": is damaged or cut short");
+    if (text(database, "PRAGMA quick_check(1)") != "ok") {
+        throw InputError(database.getFilename() + ": is damaged or cut short");
     }
 }
 
-void require_tables(Database& database) {
+void require_tables(SQLite::Database& database) {
     for (const char* table : {"campaign", "scenarios", "runs"}) {
-        if (database.integer(fmt::format(
-                "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '{}'",
-                table)) != 1) {
+        if (integer(database,
+                    fmt::format(
+                        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '{}'",
+                        table)) != 1) {
             throw InputError(
-                fmt::format("{}: is damaged: there is no table {}", database.name(), table));
+                fmt::format("{}: is damaged: there is no table {}", database.getFilename(), table));
         }
     }
-    if (database.integer("SELECT count(*) FROM campaign") != 1) {
-        throw InputError(database.name() + ": is damaged: table campaign does not have one row");
+    if (integer(database, "SELECT count(*) FROM campaign") != 1) {
+        throw InputError(database.getFilename() +
+                         ": is damaged: table campaign does not have one row");
     }
 }
 
 /// Values that no run of ours was given: somebody else wrote them.
-void require_values(Database& database, const Campaign& campaign) {
+void require_values(SQLite::Database& database, const Campaign& campaign) {
     for (const VariedKey& key : campaign.keys) {
         const std::string column = sql_name(key.key);
         const std::string good =
             is_named(key) ? fmt::format("typeof({}) = 'text'", column)
                           : fmt::format("typeof({0}) = 'real' AND abs({0}) < 1e300", column);
-        if (database.integer(fmt::format("SELECT count(*) FROM runs WHERE NOT ({})", good)) > 0) {
+        if (integer(database, fmt::format("SELECT count(*) FROM runs WHERE NOT ({})", good)) > 0) {
             throw InputError(fmt::format("{}: is damaged: column {} holds what no run was given",
-                                         database.name(), column));
+                                         database.getFilename(), column));
         }
     }
 }
 
-Campaign read_campaign(Database& database) {
+Campaign read_campaign(SQLite::Database& database) {
     std::vector<std::string> scenarios;
-    Statement scenario = database.prepare("SELECT yaml FROM scenarios ORDER BY variant");
-    while (scenario.step()) {
-        scenarios.push_back(scenario.text(0));
+    SQLite::Statement scenario(database, "SELECT yaml FROM scenarios ORDER BY variant");
+    while (scenario.executeStep()) {
+        scenarios.push_back(scenario.getColumn(0).getString());
     }
-    return restore_campaign(database.text("SELECT yaml FROM campaign"),
-                            database.text("SELECT name FROM campaign"), std::move(scenarios));
+    return restore_campaign(text(database, "SELECT yaml FROM campaign"),
+                            text(database, "SELECT name FROM campaign"), std::move(scenarios));
 }
 
 }  // namespace
@@ -171,8 +180,8 @@ void Results::create(const fs::path& path, const Campaign& campaign) {
     std::error_code error;
     fs::remove(part, error);
     {
-        Database database(part, Database::Access::create);
-        write_campaign(database, campaign);
+        SQLite::Database database = open_database(part, Access::create);
+        asking(database, [&] { write_campaign(database, campaign); });
     }
     fs::rename(part, path, error);
     if (error) {
@@ -180,26 +189,29 @@ void Results::create(const fs::path& path, const Campaign& campaign) {
     }
 }
 
-Results::Results(const fs::path& path, Database::Access access) : database_(path, access) {
-    require_ours(database_);
-    require_tables(database_);
-    campaign_ = read_campaign(database_);
-    version_ = database_.text("SELECT limpet FROM campaign");
-    campaign_hash_ = database_.text("SELECT campaign_hash FROM campaign");
-    scenario_hash_ = database_.text("SELECT scenario_hash FROM campaign");
-    if (database_.text("SELECT sql FROM sqlite_master WHERE name = 'runs'") !=
-        create_sql(campaign_)) {
-        throw InputError(
-            fmt::format("{}: has other columns than this Limpet ({}) writes; it was "
-                        "begun by {}",
-                        database_.name(), kVersion, version_));
-    }
-    if (campaign_hash_ != campaign_hash(campaign_) || scenario_hash_ != scenario_hash(campaign_)) {
-        throw InputError(
-            database_.name() +
-            ": is damaged: campaign or scenarios are not those that it was begun with");
-    }
-    require_values(database_, campaign_);
+Results::Results(const fs::path& path, Access access) : database_(open_database(path, access)) {
+    asking(database_, [this] {
+        require_ours(database_);
+        require_tables(database_);
+        campaign_ = read_campaign(database_);
+        version_ = text(database_, "SELECT limpet FROM campaign");
+        campaign_hash_ = text(database_, "SELECT campaign_hash FROM campaign");
+        scenario_hash_ = text(database_, "SELECT scenario_hash FROM campaign");
+        if (text(database_, "SELECT sql FROM sqlite_master WHERE name = 'runs'") !=
+            create_sql(campaign_)) {
+            throw InputError(
+                fmt::format("{}: has other columns than this Limpet ({}) writes; it was "
+                            "begun by {}",
+                            database_.getFilename(), kVersion, version_));
+        }
+        if (campaign_hash_ != campaign_hash(campaign_) ||
+            scenario_hash_ != scenario_hash(campaign_)) {
+            throw InputError(
+                database_.getFilename() +
+                ": is damaged: campaign or scenarios are not those that it was begun with");
+        }
+        require_values(database_, campaign_);
+    });
 }
 
 void Results::require_same(const Campaign& campaign) const {
@@ -215,106 +227,119 @@ void Results::require_same(const Campaign& campaign) const {
         throw InputError(
             fmt::format("{}: {} has changed since these results were begun; finish "
                         "them with what they were begun with, or give another --out",
-                        database_.name(), what));
+                        database_.getFilename(), what));
     }
 }
 
 /// Not before there is something to write: whoever is refused leaves the file as it was.
 void Results::start_log() {
-    database_.execute("PRAGMA journal_mode = WAL");
-    database_.execute("PRAGMA synchronous = NORMAL");
-    insert_.emplace(database_.prepare(insert_sql(campaign_)));
+    database_.exec("PRAGMA journal_mode = WAL");
+    database_.exec("PRAGMA synchronous = NORMAL");
+    insert_.emplace(database_, insert_sql(campaign_));
 }
 
 void Results::add(const std::vector<RunRow>& rows) {
-    if (!insert_) {
-        start_log();
-    }
-    Transaction transaction(database_);
-    for (const RunRow& row : rows) {
-        int at = 0;
-        insert_->bind(at++, std::int64_t{row.run});
-        insert_->bind(at++, static_cast<std::int64_t>(row.seed));
-        for (const SampledValue& value : row.sample) {
-            std::visit([&](const auto& v) { insert_->bind(at++, v); }, value);
+    asking(database_, [&] {
+        if (!insert_) {
+            start_log();
         }
-        insert_->bind(at++, std::string_view(row.outcome));
-        insert_->bind(at++, std::string_view(row.reason));
-        insert_->bind(at++, std::int64_t{row.attempts});
-        for (const MetricInfo& metric : metric_table()) {
-            insert_->bind(at++, row.metrics.*metric.field);
+        SQLite::Transaction transaction(database_);
+        for (const RunRow& row : rows) {
+            int at = 1;
+            insert_->bind(at++, std::int64_t{row.run});
+            insert_->bind(at++, static_cast<std::int64_t>(row.seed));
+            for (const SampledValue& value : row.sample) {
+                std::visit([&](const auto& v) { insert_->bind(at++, v); }, value);
+            }
+            insert_->bind(at++, row.outcome);
+            insert_->bind(at++, row.reason);
+            insert_->bind(at++, std::int64_t{row.attempts});
+            for (const MetricInfo& metric : metric_table()) {
+                insert_->bind(at++, row.metrics.*metric.field);
+            }
+            insert_->bind(at++, row.simulated_s);
+            insert_->bind(at++, static_cast<std::int64_t>(row.physics_steps));
+            insert_->bind(at++, hash_text(row.state_hash));
+            insert_->exec();
+            insert_->reset();
         }
-        insert_->bind(at++, row.simulated_s);
-        insert_->bind(at++, static_cast<std::int64_t>(row.physics_steps));
-        insert_->bind(at++, std::string_view(hash_text(row.state_hash)));
-        (void)insert_->step();
-    }
-    transaction.finish();
+        transaction.commit();
+    });
 }
 
 void Results::finish() {
-    insert_.reset();
-    database_.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-    database_.execute("PRAGMA journal_mode = DELETE");
+    asking(database_, [this] {
+        insert_.reset();
+        database_.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+        database_.exec("PRAGMA journal_mode = DELETE");
+    });
 }
 
 std::uint32_t Results::finished() {
-    return static_cast<std::uint32_t>(database_.integer("SELECT count(*) FROM runs"));
+    return static_cast<std::uint32_t>(integer(database_, "SELECT count(*) FROM runs"));
 }
 
 std::map<std::string, std::uint32_t> Results::outcomes() {
-    std::map<std::string, std::uint32_t> counts;
-    Statement select = database_.prepare("SELECT outcome, count(*) FROM runs GROUP BY outcome");
-    while (select.step()) {
-        counts[select.text(0)] = static_cast<std::uint32_t>(select.integer(1));
-    }
-    return counts;
+    return asking(database_, [this] {
+        std::map<std::string, std::uint32_t> counts;
+        SQLite::Statement select(database_, "SELECT outcome, count(*) FROM runs GROUP BY outcome");
+        while (select.executeStep()) {
+            counts[select.getColumn(0).getString()] =
+                static_cast<std::uint32_t>(select.getColumn(1).getInt64());
+        }
+        return counts;
+    });
 }
 
 std::uint32_t Results::first_missing() {
-    return static_cast<std::uint32_t>(database_.integer(
-        "SELECT CASE WHEN NOT EXISTS (SELECT 1 FROM runs WHERE run = 0) THEN 0 ELSE "
-        "(SELECT min(run) + 1 FROM runs AS r WHERE NOT EXISTS "
-        "(SELECT 1 FROM runs WHERE run = r.run + 1)) END"));
+    return static_cast<std::uint32_t>(
+        integer(database_,
+                "SELECT CASE WHEN NOT EXISTS (SELECT 1 FROM runs WHERE run = 0) THEN 0 ELSE "
+                "(SELECT min(run) + 1 FROM runs AS r WHERE NOT EXISTS "
+                "(SELECT 1 FROM runs WHERE run = r.run + 1)) END"));
 }
 
 std::vector<std::uint32_t> Results::finished_from(std::uint32_t first) {
-    std::vector<std::uint32_t> runs;
-    Statement select = database_.prepare("SELECT run FROM runs WHERE run >= ? ORDER BY run");
-    select.bind(0, std::int64_t{first});
-    while (select.step()) {
-        runs.push_back(static_cast<std::uint32_t>(select.integer(0)));
-    }
-    return runs;
+    return asking(database_, [&] {
+        std::vector<std::uint32_t> runs;
+        SQLite::Statement select(database_, "SELECT run FROM runs WHERE run >= ? ORDER BY run");
+        select.bind(1, std::int64_t{first});
+        while (select.executeStep()) {
+            runs.push_back(static_cast<std::uint32_t>(select.getColumn(0).getInt64()));
+        }
+        return runs;
+    });
 }
 
 RunRow Results::row(std::uint32_t run) {
-    Statement select = database_.prepare("SELECT * FROM runs WHERE run = ?");
-    select.bind(0, std::int64_t{run});
-    if (!select.step()) {
-        throw InputError(
-            fmt::format("{}: there is no run {}; {} of {} are finished, counted from 0",
-                        database_.name(), run, finished(), campaign_.runs));
-    }
-    RunRow row;
-    int at = 0;
-    row.run = static_cast<std::uint32_t>(select.integer(at++));
-    row.seed = static_cast<std::uint64_t>(select.integer(at++));
-    for (const VariedKey& key : campaign_.keys) {
-        row.sample.push_back(is_named(key) ? SampledValue(select.text(at))
-                                           : SampledValue(select.number(at)));
-        ++at;
-    }
-    row.outcome = select.text(at++);
-    row.reason = select.text(at++);
-    row.attempts = static_cast<int>(select.integer(at++));
-    for (const MetricInfo& metric : metric_table()) {
-        row.metrics.*metric.field = select.number(at++);
-    }
-    row.simulated_s = select.number(at++);
-    row.physics_steps = select.integer(at++);
-    row.state_hash = std::stoull(select.text(at), nullptr, 16);
-    return row;
+    return asking(database_, [&] {
+        SQLite::Statement select(database_, "SELECT * FROM runs WHERE run = ?");
+        select.bind(1, std::int64_t{run});
+        if (!select.executeStep()) {
+            throw InputError(
+                fmt::format("{}: there is no run {}; {} of {} are finished, counted from 0",
+                            database_.getFilename(), run, finished(), campaign_.runs));
+        }
+        RunRow row;
+        int at = 0;
+        row.run = static_cast<std::uint32_t>(select.getColumn(at++).getInt64());
+        row.seed = static_cast<std::uint64_t>(select.getColumn(at++).getInt64());
+        for (const VariedKey& key : campaign_.keys) {
+            row.sample.push_back(is_named(key) ? SampledValue(select.getColumn(at).getString())
+                                               : SampledValue(number(select.getColumn(at))));
+            ++at;
+        }
+        row.outcome = select.getColumn(at++).getString();
+        row.reason = select.getColumn(at++).getString();
+        row.attempts = static_cast<int>(select.getColumn(at++).getInt64());
+        for (const MetricInfo& metric : metric_table()) {
+            row.metrics.*metric.field = number(select.getColumn(at++));
+        }
+        row.simulated_s = number(select.getColumn(at++));
+        row.physics_steps = select.getColumn(at++).getInt64();
+        row.state_hash = std::stoull(select.getColumn(at).getString(), nullptr, 16);
+        return row;
+    });
 }
 
 Results begin_results(const Campaign& campaign, const fs::path& folder, bool resume) {
@@ -329,7 +354,7 @@ Results begin_results(const Campaign& campaign, const fs::path& folder, bool res
     if (!there) {
         Results::create(path, campaign);
     }
-    Results results(path, Database::Access::write);
+    Results results(path, Access::write);
     results.require_same(campaign);
     return results;
 }

@@ -50,7 +50,7 @@ public:
     static void create(const std::filesystem::path& path, const Campaign& campaign);
     /// @throws InputError when there is none, when it is not one of ours, of another schema or
     ///         another version's columns, or damaged
-    Results(const std::filesystem::path& path, Database::Access access);
+    Results(const std::filesystem::path& path, Access access);
 
     /// The campaign as it was begun.
     [[nodiscard]] const Campaign& campaign() const { return campaign_; }
@@ -72,17 +72,17 @@ public:
     /// @throws InputError when it is not there
     [[nodiscard]] RunRow row(std::uint32_t run);
 
-    [[nodiscard]] Database& database() { return database_; }
+    [[nodiscard]] SQLite::Database& database() { return database_; }
 
 private:
     void start_log();
 
-    Database database_;
+    SQLite::Database database_;
     Campaign campaign_;
     std::string version_;
     std::string campaign_hash_;
     std::string scenario_hash_;
-    std::optional<Statement> insert_;
+    std::optional<SQLite::Statement> insert_;
 };
 
 /// The results in a folder: new ones, or, when asked to resume, those that are there.

@@ -27,44 +27,46 @@ std::string success_sql(const Campaign& campaign) {
     return fmt::format("(outcome IN ({}))", list);
 }
 
-std::vector<EndingCount> count_endings(Database& database, const std::string& sql,
+std::vector<EndingCount> count_endings(SQLite::Database& database, const std::string& sql,
                                        std::uint32_t finished) {
     std::vector<EndingCount> endings;
-    Statement select = database.prepare(sql);
-    while (select.step()) {
-        const auto count = static_cast<std::uint32_t>(select.integer(2));
-        endings.push_back({select.text(0), select.text(1), {count, finished}});
+    SQLite::Statement select(database, sql);
+    while (select.executeStep()) {
+        const auto count = static_cast<std::uint32_t>(select.getColumn(2).getInt64());
+        endings.push_back(
+            {select.getColumn(0).getString(), select.getColumn(1).getString(), {count, finished}});
     }
     return endings;
 }
 
 /// Successes and runs at each value, ascending.
-std::vector<Trials> trials_of(Database& database, const std::string& key,
+std::vector<Trials> trials_of(SQLite::Database& database, const std::string& key,
                               const std::string& success) {
     std::vector<Trials> trials;
-    Statement select = database.prepare(
-        fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
-                    sql_name(key), success));
-    while (select.step()) {
-        trials.push_back({select.number(0),
-                          {static_cast<std::uint32_t>(select.integer(1)),
-                           static_cast<std::uint32_t>(select.integer(2))}});
+    SQLite::Statement select(
+        database, fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
+                              sql_name(key), success));
+    while (select.executeStep()) {
+        trials.push_back({select.getColumn(0).getDouble(),
+                          {static_cast<std::uint32_t>(select.getColumn(1).getInt64()),
+                           static_cast<std::uint32_t>(select.getColumn(2).getInt64())}});
     }
     return trials;
 }
 
-std::vector<Group> groups_by_name(Database& database, const std::string& key,
+std::vector<Group> groups_by_name(SQLite::Database& database, const std::string& key,
                                   const std::string& success) {
     std::vector<Group> groups;
-    Statement select = database.prepare(
-        fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
-                    sql_name(key), success));
-    while (select.step()) {
-        groups.push_back({.label = select.text(0),
-                          .low = 0.0,
-                          .high = 0.0,
-                          .proportion = {static_cast<std::uint32_t>(select.integer(1)),
-                                         static_cast<std::uint32_t>(select.integer(2))}});
+    SQLite::Statement select(
+        database, fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
+                              sql_name(key), success));
+    while (select.executeStep()) {
+        groups.push_back(
+            {.label = select.getColumn(0).getString(),
+             .low = 0.0,
+             .high = 0.0,
+             .proportion = {static_cast<std::uint32_t>(select.getColumn(1).getInt64()),
+                            static_cast<std::uint32_t>(select.getColumn(2).getInt64())}});
     }
     return groups;
 }
@@ -96,7 +98,8 @@ std::vector<Group> groups_by_bin(const std::vector<Trials>& trials) {
     return groups;
 }
 
-KeySummary summarise_key(Database& database, const VariedKey& key, const std::string& success) {
+KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
+                         const std::string& success) {
     KeySummary summary{.key = key.key, .named = is_named(key), .groups = {}, .fit = {}};
     if (summary.named) {
         summary.groups = groups_by_name(database, key.key, success);
@@ -112,14 +115,15 @@ KeySummary summarise_key(Database& database, const VariedKey& key, const std::st
     return summary;
 }
 
-std::vector<MetricSummary> summarise_metrics(Database& database) {
+std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
     std::vector<MetricSummary> summaries;
     for (const MetricInfo& metric : metric_table()) {
         std::vector<double> values;
-        Statement select = database.prepare(
+        SQLite::Statement select(
+            database,
             fmt::format("SELECT {0} FROM runs WHERE {0} IS NOT NULL ORDER BY {0}", metric.name));
-        while (select.step()) {
-            values.push_back(select.number(0));
+        while (select.executeStep()) {
+            values.push_back(select.getColumn(0).getDouble());
         }
         if (!values.empty()) {
             summaries.push_back({std::string(metric.name),
@@ -133,39 +137,44 @@ std::vector<MetricSummary> summarise_metrics(Database& database) {
 }  // namespace
 
 CampaignSummary summarise(Results& results) {
-    const Campaign& campaign = results.campaign();
-    Database& database = results.database();
-    const std::string success = success_sql(campaign);
-    CampaignSummary summary;
-    summary.name = campaign.name;
-    summary.description = campaign.description;
-    summary.scenario = campaign.scenario_name;
-    summary.version = results.version();
-    summary.seed = campaign.seed;
-    summary.runs = campaign.runs;
-    summary.finished = results.finished();
-    for (const Outcome outcome : campaign.success) {
-        summary.success_means.emplace_back(to_string(outcome));
-    }
-    summary.success = {static_cast<std::uint32_t>(database.integer(
-                           fmt::format("SELECT count(*) FROM runs WHERE {}", success))),
-                       summary.finished};
-    summary.outcomes = count_endings(
-        database, "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
-        summary.finished);
-    summary.failures =
-        count_endings(database,
-                      fmt::format("SELECT outcome, reason, count(*) AS n FROM runs WHERE NOT {} "
-                                  "GROUP BY outcome, reason ORDER BY n DESC, 1, 2",
-                                  success),
-                      summary.finished);
-    if (summary.finished > 0) {
-        for (const VariedKey& key : campaign.keys) {
-            summary.keys.push_back(summarise_key(database, key, success));
+    return asking(results.database(), [&results] {
+        const Campaign& campaign = results.campaign();
+        SQLite::Database& database = results.database();
+        const std::string success = success_sql(campaign);
+        CampaignSummary summary;
+        summary.name = campaign.name;
+        summary.description = campaign.description;
+        summary.scenario = campaign.scenario_name;
+        summary.version = results.version();
+        summary.seed = campaign.seed;
+        summary.runs = campaign.runs;
+        summary.finished = results.finished();
+        for (const Outcome outcome : campaign.success) {
+            summary.success_means.emplace_back(to_string(outcome));
         }
-    }
-    summary.metrics = summarise_metrics(database);
-    return summary;
+        summary.success = {
+            static_cast<std::uint32_t>(
+                database.execAndGet(fmt::format("SELECT count(*) FROM runs WHERE {}", success))
+                    .getInt64()),
+            summary.finished};
+        summary.outcomes = count_endings(
+            database,
+            "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
+            summary.finished);
+        summary.failures = count_endings(
+            database,
+            fmt::format("SELECT outcome, reason, count(*) AS n FROM runs WHERE NOT {} "
+                        "GROUP BY outcome, reason ORDER BY n DESC, 1, 2",
+                        success),
+            summary.finished);
+        if (summary.finished > 0) {
+            for (const VariedKey& key : campaign.keys) {
+                summary.keys.push_back(summarise_key(database, key, success));
+            }
+        }
+        summary.metrics = summarise_metrics(database);
+        return summary;
+    });
 }
 
 }  // namespace limpet

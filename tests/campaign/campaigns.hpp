@@ -32,15 +32,15 @@ inline Campaign campaign_of(const Bench& bench, const std::string& text) {
 
 /// All rows, every cell as text.
 inline std::vector<std::vector<std::string>> table_of(const std::filesystem::path& file) {
-    Results results(file, Database::Access::read);
+    Results results(file, Access::read);
     const auto columns =
-        results.database().integer("SELECT count(*) FROM pragma_table_info('runs')");
+        results.database().execAndGet("SELECT count(*) FROM pragma_table_info('runs')").getInt();
     std::vector<std::vector<std::string>> rows;
-    Statement select = results.database().prepare("SELECT * FROM runs ORDER BY run");
-    while (select.step()) {
+    SQLite::Statement select(results.database(), "SELECT * FROM runs ORDER BY run");
+    while (select.executeStep()) {
         auto& row = rows.emplace_back();
-        for (int i = 0; i < static_cast<int>(columns); ++i) {
-            row.push_back(select.text(i));
+        for (int i = 0; i < columns; ++i) {
+            row.push_back(select.getColumn(i).getString());
         }
     }
     return rows;

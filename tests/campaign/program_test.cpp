@@ -21,7 +21,7 @@ constexpr int kRuns = 250;
 
 std::uint32_t finished_in(const fs::path& file) {
     try {
-        return fs::exists(file) ? Results(file, Database::Access::read).finished() : 0;
+        return fs::exists(file) ? Results(file, Access::read).finished() : 0;
     } catch (const InputError&) {
         return 0;  // between two states of its log
     }
@@ -90,9 +90,7 @@ protected:
         EXPECT_EQ(bench_.run({"campaign", "x.yaml", "--quiet", "--out", "."}).exit_code, 0);
     }
     [[nodiscard]] fs::path file() const { return bench_.folder() / "results.sqlite"; }
-    void tamper(const std::string& sql) const {
-        Database(file(), Database::Access::write).execute(sql);
-    }
+    void tamper(const std::string& sql) const { open_database(file(), Access::write).exec(sql); }
     /// One line, exit code 2, and not a byte of the folder has changed.
     void expect_refused(const std::vector<std::string>& arguments, const std::string& text) const {
         const auto files = bench_.files();
@@ -115,7 +113,7 @@ protected:
 };
 
 TEST_F(Flown, ReplaysARowToItsHash) {
-    const std::string hash = hash_text(Results(file(), Database::Access::read).row(3).state_hash);
+    const std::string hash = hash_text(Results(file(), Access::read).row(3).state_hash);
     fs::remove(bench_.folder() / "x.yaml");  // the database stands for itself
     const Finished replay = bench_.run({"replay", ".", "3", "--out", "again"});
     EXPECT_EQ(replay.exit_code, 0) << replay.err;
@@ -185,7 +183,7 @@ TEST_F(Flown, WhatIsNoDatabaseOfOursIsRefused) {
     (void)bench_.write("results.sqlite", std::string(5000, 'x'));
     expect_no_reader("not a database of results");
     fs::remove(file());
-    { Database(file(), Database::Access::create).execute("CREATE TABLE runs (run INTEGER)"); }
+    { open_database(file(), Access::create).exec("CREATE TABLE runs (run INTEGER)"); }
     expect_no_reader("not a database of results");
     expect_refused({"summary", "nowhere.sqlite"}, "no such file");
 }
