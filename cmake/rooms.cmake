@@ -9,21 +9,20 @@ set(LIMPET_COMMON_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <cstdint
     <fstream> <functional> <limits> <map> <memory> <optional> <span> <sstream> <string> <string_view>
     <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
 
-# limpet_precompile(TARGET [tests]): the headers come precompiled, for tests with GoogleTest's. The
-# two holders have the compile options of those who use them; else the compiler refuses.
+# limpet_precompile(TARGET [tests]): the headers come precompiled, for tests with GoogleTest's. Rooms,
+# programs and tests have a holder each, with the compile options of those who use it; else the
+# compiler refuses.
 function(limpet_precompile target)
   if(NOT LIMPET_PRECOMPILE)
     return()
   endif()
-  set(holder limpet_headers${ARGN})
+  get_target_property(type ${target} TYPE)
+  string(TOLOWER limpet_headers_${type}${ARGN} holder)
   if(NOT TARGET ${holder})
-    if(NOT EXISTS ${CMAKE_BINARY_DIR}/${holder}.cpp)
-      file(WRITE ${CMAKE_BINARY_DIR}/${holder}.cpp "int main() {}\n")
-    endif()
-    if(ARGN)
-      add_executable(${holder} EXCLUDE_FROM_ALL ${CMAKE_BINARY_DIR}/${holder}.cpp)
+    if(type STREQUAL EXECUTABLE)
+      add_executable(${holder} EXCLUDE_FROM_ALL ${LIMPET_ROOT}/cmake/headers.cpp)
     else()
-      add_library(${holder} OBJECT ${CMAKE_BINARY_DIR}/${holder}.cpp)
+      add_library(${holder} OBJECT ${LIMPET_ROOT}/cmake/headers.cpp)
     endif()
     target_link_libraries(${holder} PRIVATE Eigen3::Eigen fmt::fmt)
     set(headers ${LIMPET_COMMON_HEADERS})

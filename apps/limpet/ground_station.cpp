@@ -62,21 +62,20 @@ mavlink::TelemetrySetup setup(const SimulationModel& model) {
 
 }  // namespace
 
-void add_options(CLI::App& verb, GroundStationOptions& options) {
-    verb.add_option_function<std::string>(
-            "--ground-station",
-            [&options](const std::string& address) {
-                options.wanted = true;
-                options.address = address.empty() ? kDefaultAddress : address;
-            },
-            "let a ground station watch and set the autopilot's parameters;\n"
-            "where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
-        ->type_name("ADDRESS")
-        ->expected(0, 1);
-    verb.add_option("--signing-key", options.signing_key,
-                    "sign the ground station's link and refuse what it does not sign;\n"
-                    "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)")
-        ->type_name("FILE");
+OptionList options_of(GroundStationOptions& options) {
+    return {{"--ground-station",
+             [&options](const std::string& address) {
+                 options.wanted = true;
+                 options.address = address.empty() ? kDefaultAddress : address;
+             },
+             "let a ground station watch and set the autopilot's parameters;\n"
+             "where it listens (default udp:127.0.0.1:14550, QGroundControl's)",
+             "ADDRESS",
+             {.values = {{0, 1}}}},
+            {"--signing-key", &options.signing_key,
+             "sign the ground station's link and refuse what it does not sign;\n"
+             "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)",
+             "FILE"}};
 }
 
 void check(const GroundStationOptions& options, bool builtin) {

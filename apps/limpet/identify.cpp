@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/report/chart.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/suction/identification.hpp"
 #include "limpet/suction/pressure_log.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -253,35 +253,39 @@ void identify(const IdentifyOptions& options) {
 
 }  // namespace
 
-void add_identify(CLI::App& app) {
+Verb identify_verb() {
     auto options = std::make_shared<IdentifyOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure");
-    verb->add_option("log", options->log, "CSV with columns t_s and pressure_Pa among any others")
-        ->required()
-        ->type_name("CSV");
-    verb->add_option("--pump-on", options->pump_on_s, "when sealing begins (default: found)")
-        ->type_name("S");
-    verb->add_option("--pump-off", options->pump_off_s, "when unsealing begins (default: found)")
-        ->type_name("S");
-    verb->add_option("--from", options->from_s, "leave out what is before")->type_name("S");
-    verb->add_option("--to", options->to_s, "leave out what is after, as where the cup lets go")
-        ->type_name("S");
-    verb->add_option("--atmosphere", options->atmosphere_hPa,
-                     "where the log does not show it (default: 1013.25)")
-        ->type_name("HPA")
-        ->check(CLI::Range(10.0, 1200.0));
-    verb->add_option("--out", options->out, "folder of the figure (default: out/identify)")
-        ->type_name("DIR");
-    verb->add_flag("--json", options->json, "one JSON object, in SI; the figure only with --out");
-    verb->footer(
-        "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
-        "recording:\n"
-        "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
-        "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals are "
-        "for\n"
-        "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");
-    verb->callback([options] { identify(*options); });
+    return {
+        .name = "identify",
+        .about = "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure",
+        .options =
+            {{"log",
+              &options->log,
+              "CSV with columns t_s and pressure_Pa among any others",
+              "CSV",
+              {.required = true}},
+             {"--pump-on", &options->pump_on_s, "when sealing begins (default: found)", "S"},
+             {"--pump-off", &options->pump_off_s, "when unsealing begins (default: found)", "S"},
+             {"--from", &options->from_s, "leave out what is before", "S"},
+             {"--to", &options->to_s, "leave out what is after, as where the cup lets go", "S"},
+             {"--atmosphere",
+              &options->atmosphere_hPa,
+              "where the log does not show it (default: 1013.25)",
+              "HPA",
+              {.range = {{10.0, 1200.0}}}},
+             {"--out", &options->out, "folder of the figure (default: out/identify)", "DIR"},
+             {"--json", &options->json, "one JSON object, in SI; the figure only with --out"}},
+        .footer =
+            "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
+            "recording:\n"
+            "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
+            "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "
+            "are for\n"
+            "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n",
+        .run = [options](const Given&) {
+            identify(*options);
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/companion/parameters.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -74,22 +74,25 @@ void print_markdown(const std::vector<ParameterInfo>& rows) {
 
 }  // namespace
 
-void add_params(CLI::App& app) {
+Verb params_verb() {
     auto options = std::make_shared<ParamsOptions>();
-    CLI::App* verb =
-        app.add_subcommand("params", "Print every number that can be set: default, range, source");
-    verb->add_option("room", options->room,
-                     "one room or section only: guidance, autopilot, sensors, suction,\n"
-                     "vehicle, companion, ...")
-        ->type_name("ROOM");
-    verb->add_option("--format", options->format, "text or markdown")
-        ->type_name("FORMAT")
-        ->check(CLI::IsMember({"text", "markdown"}));
-    verb->footer("Columns: name, default, unit, allowed range, what it does, [source].\n");
-    verb->callback([options] {
-        const auto rows = rows_of(options->room);
-        options->format == "text" ? print_text(rows) : print_markdown(rows);
-    });
+    return {.name = "params",
+            .about = "Print every number that can be set: default, range, source",
+            .options = {{"room", &options->room,
+                         "one room or section only: guidance, autopilot, sensors, suction,\n"
+                         "vehicle, companion, ...",
+                         "ROOM"},
+                        {"--format",
+                         &options->format,
+                         "text or markdown",
+                         "FORMAT",
+                         {.one_of = {"text", "markdown"}}}},
+            .footer = "Columns: name, default, unit, allowed range, what it does, [source].\n",
+            .run = [options](const Given&) {
+                const auto rows = rows_of(options->room);
+                options->format == "text" ? print_text(rows) : print_markdown(rows);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

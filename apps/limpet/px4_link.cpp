@@ -73,22 +73,25 @@ void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
 
 }  // namespace
 
-void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies) {
-    verb.add_option("--hil", options.hil,
-                    "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
-                    "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)")
-        ->type_name("ADDRESS");
+OptionList options_of(Px4LinkOptions& options, bool flies) {
+    OptionList list = {{"--hil", &options.hil,
+                        "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
+                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)",
+                        "ADDRESS"}};
     if (flies) {
-        verb.add_option("--offboard", options.offboard,
+        list.push_back({"--offboard", &options.offboard,
                         "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
-                        "serial all goes over the one wire)")
-            ->type_name("ADDRESS");
+                        "serial all goes over the one wire)",
+                        "ADDRESS"});
     }
-    verb.add_option("--wait", options.wait_s, "longest wait for PX4 [s] (default 60)")
-        ->type_name("SECONDS")
-        ->check(between(0.1, 86400.0));
-    verb.add_flag("--record-wire", options.record_wire,
-                  "write every byte of the simulator link as well, into wire.mcap");
+    list.push_back({"--wait",
+                    &options.wait_s,
+                    "longest wait for PX4 [s] (default 60)",
+                    "SECONDS",
+                    {.range = {{0.1, 86400.0}}, .told = false}});
+    list.push_back({"--record-wire", &options.record_wire,
+                    "write every byte of the simulator link as well, into wire.mcap"});
+    return list;
 }
 
 double speed_of(const std::string& text, double by_default) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/autopilot/px4.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
@@ -29,7 +29,7 @@ struct Px4LinkOptions {
 /// @throws InputError naming the option that cannot be, alone or beside the others
 void check(const Px4LinkOptions& options, const Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
-void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
+[[nodiscard]] OptionList options_of(Px4LinkOptions& options, bool flies);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given
