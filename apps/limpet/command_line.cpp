@@ -130,7 +130,9 @@ ExitCode run(const Program& program, int argc, char** argv) {
         for (const Option& option : verb.options) {
             add(*parser, option);
         }
-        parser->footer(verb.footer);
+        if (!verb.footer.empty()) {
+            parser->footer(verb.footer);
+        }
         parser->callback([&verb, &code, parser] {
             code = verb.run([parser](const char* option) { return parser->count(option) > 0; });
         });

@@ -68,7 +68,7 @@ struct Verb {
     std::string name;
     std::string about;
     OptionList options;
-    std::string footer;                         ///< of its help
+    std::string footer = {};                    ///< of its help; empty: the program's
     std::function<ExitCode(const Given&)> run;  ///< owns what the options point to
 };
 

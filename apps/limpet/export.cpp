@@ -216,7 +216,6 @@ Verb export_verb() {
                      "file (default: standard output); a world's textures go in\nmaterials/ beside "
                      "it: its folder belongs on GAZEBO_RESOURCE_PATH",
                      "FILE"}},
-        .footer = "",
         .run = [options](const Given& given) {
             check_together(given, *options);
             const std::string text = model_text(*options);

@@ -46,7 +46,6 @@ Verb list_verb() {
                          "KIND",
                          {.required = true,
                           .one_of = {"scenarios", "campaigns", "surfaces", "vehicles"}}}},
-            .footer = "",
             .run = [kind](const Given&) {
                 print(*kind);
                 return ExitCode::ok;
