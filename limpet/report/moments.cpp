@@ -65,7 +65,8 @@ public:
 
     void add(double time_s, std::string name) {
         if (time_s <= end_s_) {
-            moments_.push_back({time_s, std::move(name)});
+            moments_.emplace_back().time_s = time_s;  // GCC 12 sees ghosts in a moved pair
+            moments_.back().name = std::move(name);
         }
     }
     /// The first of that name from an instant on, no later than another.
