@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/chart.hpp"
+#include "limpet/draw/chart.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/suction/identification.hpp"
 #include "limpet/suction/pressure_log.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "limpet/core/frames.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet {

@@ -10,7 +10,7 @@
 #include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/study.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/suction/identification.hpp"
 #include "limpet/suction/pneumatics.hpp"

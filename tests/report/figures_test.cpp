@@ -8,10 +8,10 @@
 #include <limits>
 #include <sstream>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/report/figure_sketch.hpp"
-#include "png.hpp"
+#include "../support/png.hpp"
 
 namespace limpet {
 namespace {

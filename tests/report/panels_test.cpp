@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 
 namespace limpet {
 namespace {
