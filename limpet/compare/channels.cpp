@@ -11,9 +11,9 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"
-#include "limpet/record/story.hpp"
 
 namespace limpet {
 namespace {
@@ -42,9 +42,10 @@ constexpr auto kState = ChannelKind::state;
 
 /// ROS's "map" is east-north-up, its "base_link" forward-left-up: y and z of ours change.
 constexpr ChannelSource kChannelSources[] = {
-    {"cup_pressure_hPa", "cup", "pressure in the cup", "hPa", "/cup", "pressure_Pa", 0.01},
+    {"cup_pressure_hPa", "cup", "pressure in the cup", "hPa", "/cup", "pressure_Pa",
+     hectopascals(1.0)},
     {"cup_pressure_measured_hPa", "cup", "pressure in the cup, measured", "hPa",
-     "/sensors/cup_pressure", "fluid_pressure", 0.01},
+     "/sensors/cup_pressure", "fluid_pressure", hectopascals(1.0)},
     {"cup_pull_N", "cup", "pull on the cup", "N", "/cup", "pull_N"},
     {"cup_shear_N", "cup", "shear on the cup", "N", "/cup", "shear_N"},
     {"cup_peel_N_m", "cup", "peel on the cup", "N m", "/cup", "peel_N_m"},

@@ -8,8 +8,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "limpet/core/errors.hpp"
 #include "limpet/compare/rest.hpp"
+#include "limpet/core/errors.hpp"
 
 namespace limpet {
 namespace {

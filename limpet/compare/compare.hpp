@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "limpet/record/recording.hpp"
 #include "limpet/compare/align.hpp"
 #include "limpet/compare/channels.hpp"
 #include "limpet/compare/contact.hpp"
+#include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 
 /// How a flight differs from a reference: events, figures of merit, every channel.

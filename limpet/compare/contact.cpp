@@ -11,7 +11,6 @@
 namespace limpet {
 namespace {
 
-constexpr double kHectopascal_Pa = 100.0;
 /// A touch that seals and is lost at once has no curve to compare.
 constexpr double kLeast_s = 0.1;
 constexpr double kSearch_samples = 2.0;
@@ -94,7 +93,7 @@ FlightChannel acting_pressure(const Recording& recording,
     }
     for (std::size_t i = 0; i < force.size(); ++i) {
         const double vacuum_Pa = force[i] * force_vacuum / force_force;
-        acting.values[i] = (kAtmosphere_Pa - vacuum_Pa) / kHectopascal_Pa;
+        acting.values[i] = hectopascals(kAtmosphere_Pa - vacuum_Pa);
     }
     return acting;
 }

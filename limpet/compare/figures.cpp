@@ -14,8 +14,6 @@
 namespace limpet {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kBins = 600;  ///< more cannot be told apart in a panel of 640 px
 constexpr double kPanel_px = 200.0;
 /// Events closer than this share of the flight to the one before are not named a second time.
 constexpr double kNameApart = 0.045;
@@ -30,40 +28,33 @@ constexpr std::array kOtherColours = {colours::kOrange, colours::kGreen, colours
 constexpr std::array kGroups = {"cup",      "force",  "attitude", "rates",    "position", "speed",
                                 "distance", "rotors", "battery",  "setpoint", "others"};
 
-ChartSeries drawn(const Curve& curve, const Window& window) {
-    const Curve thin = thinned(curve, window, kBins);
-    return {.name = curve.label, .x = thin.time_s, .y = thin.values};
-}
-
 /// A flight on the reference's time, with a gap between the pieces.
-Curve on_reference_time(const FlightChannel& channel, const std::vector<Piece>& pieces,
-                        const std::string& label) {
-    Curve curve;
-    curve.label = label;
+ChartSeries on_reference_time(const FlightChannel& channel, const std::vector<Piece>& pieces) {
+    ChartSeries curve;
     const auto& t = channel.time_s;
     for (const Piece& piece : pieces) {
         const auto first =
             std::lower_bound(t.begin(), t.end(), piece.window.from_s + piece.shift_s);
         for (auto i = static_cast<std::size_t>(first - t.begin());
              i < t.size() && t[i] - piece.shift_s < piece.window.to_s; ++i) {
-            curve.time_s.push_back(t[i] - piece.shift_s);
-            curve.values.push_back(channel.values[i]);
+            curve.x.push_back(t[i] - piece.shift_s);
+            curve.y.push_back(channel.values[i]);
         }
     }
     return curve;
 }
 
-Curve difference_curve(const FlightChannel& reference, const FlightChannel& other,
-                       const std::vector<Piece>& pieces) {
-    Curve curve;
+ChartSeries difference_curve(const FlightChannel& reference, const FlightChannel& other,
+                             const std::vector<Piece>& pieces) {
+    ChartSeries curve;
     const auto& t = reference.time_s;
     for (const Piece& piece : pieces) {
         const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
         for (auto i = static_cast<std::size_t>(first - t.begin());
              i < t.size() && t[i] < piece.window.to_s; ++i) {
-            curve.time_s.push_back(t[i]);
-            curve.values.push_back(difference_of(reference.kind, reference.values[i],
-                                                 value_at(other, t[i] + piece.shift_s)));
+            curve.x.push_back(t[i]);
+            curve.y.push_back(difference_of(reference.kind, reference.values[i],
+                                            value_at(other, t[i] + piece.shift_s)));
         }
     }
     return curve;
@@ -109,27 +100,26 @@ std::array<ChartPanel, 2> channel_panels(const FlightChannel& channel, const Fli
                        .height_px = kPanel_px};
     ChartPanel difference = overlay;
     difference.title = fmt::format("{}, difference", channel.title);
-    ChartSeries own = drawn({reference.label, Trace::truth, channel.time_s, channel.values}, whole);
-    own.colour = colours::kDarkBlue;
-    own.mark =
-        channel.kind == ChannelKind::state ? ChartSeries::Mark::steps : ChartSeries::Mark::line;
-    overlay.series.push_back(own);
+    const bool state = channel.kind == ChannelKind::state;
+    overlay.series.push_back({.name = reference.label,
+                              .mark = state ? ChartSeries::Mark::steps : ChartSeries::Mark::line,
+                              .x = channel.time_s,
+                              .y = channel.values,
+                              .colour = colours::kDarkBlue});
     for (std::size_t k = 0; k < others.size(); ++k) {
         const FlightChannel* other = find_channel(others[k].channels, channel.name);
         if (other == nullptr) {
             continue;
         }
-        ChartSeries series =
-            drawn(on_reference_time(*other, comparisons[k].pieces, others[k].label), whole);
-        series.colour = kOtherColours[k % kOtherColours.size()];
-        series.mark = channel.kind == ChannelKind::state ? ChartSeries::Mark::steps
-                                                         : ChartSeries::Mark::dashes;
+        ChartSeries series = on_reference_time(*other, comparisons[k].pieces);
+        series.mark = state ? ChartSeries::Mark::steps : ChartSeries::Mark::dashes;
+        ChartSeries off = difference_curve(channel, *other, comparisons[k].pieces);
+        for (ChartSeries* one : {&series, &off}) {
+            one->name = others[k].label;
+            one->colour = kOtherColours[k % kOtherColours.size()];
+        }
         overlay.series.push_back(series);
-        Curve off = difference_curve(channel, *other, comparisons[k].pieces);
-        off.label = others[k].label;
-        ChartSeries off_series = drawn(off, whole);
-        off_series.colour = series.colour;
-        difference.series.push_back(off_series);
+        difference.series.push_back(off);
     }
     return {overlay, difference};
 }

@@ -7,8 +7,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/record/ros_frames.hpp"
 #include "limpet/draw/mjcf.hpp"
+#include "limpet/record/ros_frames.hpp"
 #include "limpet/record/story.hpp"
 
 namespace limpet {

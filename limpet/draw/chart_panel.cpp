@@ -328,11 +328,12 @@ private:
         }
         std::vector<int> blocks;
         for (std::size_t i = 0; i < panel_.series.size(); ++i) {
-            const bool line = panel_.series[i].mark == Mark::line && panel_.series[i].low.empty() &&
-                              std::is_sorted(panel_.series[i].x.begin(), panel_.series[i].x.end());
+            const ChartSeries& all = panel_.series[i];
+            const bool line = (all.mark == Mark::line || all.mark == Mark::dashes) &&
+                              all.low.empty() && std::is_sorted(all.x.begin(), all.x.end());
             // More points cannot be told apart on the page.
             const auto bins = static_cast<std::size_t>(line ? box_.width_px() : 1e9);
-            const ChartSeries s = thinned(panel_.series[i], x_, bins);
+            const ChartSeries s = thinned(all, x_, bins);
             blocks.push_back(s.low.empty() ? data_.add({&s.x, &s.y})
                                            : data_.add({&s.x, &s.y, &s.low, &s.high}));
             if (s.band && !s.low.empty()) {

@@ -3,24 +3,21 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
 
 #include "../support/flights.hpp"
+#include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/axes.hpp"
+#include "limpet/draw/chart_parts.hpp"
 #include "limpet/draw/colours.hpp"
-#include "limpet/draw/contour.hpp"
-#include "../support/png.hpp"
 
 namespace limpet {
 namespace {
 
-using testing::DoubleNear;
-using testing::Each;
-using testing::ElementsAre;
-using testing::Pointwise;
 using Mark = ChartSeries::Mark;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -255,62 +252,38 @@ TEST(HeatPanel, refuses_an_uneven_grid) {
     EXPECT_THROW((void)drawn(Chart{.panels = {map}}), InternalError);
 }
 
-TEST(Contour, of_a_distance_is_a_circle) {
-    std::vector<double> axis, z;
-    for (int i = 0; i <= 60; ++i) {
-        axis.push_back(-1.5 + 0.05 * i);
-    }
-    for (const double y : axis) {
-        for (const double x : axis) {
-            z.push_back(std::hypot(x, y));
+/// Left end of the dark pixels in a row of the picture [px].
+int first_dark(const Image& image, int y, int from_x) {
+    for (int x = from_x; x < image.width_px; ++x) {
+        const std::size_t at = 3 * static_cast<std::size_t>(y * image.width_px + x);
+        if (image.rgb[at] < 60 && image.rgb[at + 1] < 70 && image.rgb[at + 2] < 80) {
+            return x;
         }
     }
-    const auto lines = contour({axis, axis, z}, 1.0);
-    ASSERT_EQ(lines.size(), 1u);
-    const ContourLine& line = lines[0];
-    double length = 0.0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        EXPECT_NEAR(std::hypot(line[i].x, line[i].y), 1.0, 1e-3);
-        if (i > 0) {
-            length += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
-        }
-    }
-    EXPECT_NEAR(length, 6.2832, 0.01);
-    EXPECT_EQ(line.front().x, line.back().x) << "closed";
+    return -1;
 }
 
-TEST(Contour, runs_from_edge_to_edge_and_around_holes) {
-    const std::vector<double> x = {0, 1, 2, 3}, y = {0, 1, 2};
-    std::vector<double> z;
-    for (const double b : y) {
-        for (const double a : x) {
-            z.push_back(a + 0.0 * b);
-        }
+TEST(HeatPanel, has_its_contours_where_the_value_is) {
+    HeatPanel map = slope();
+    map.z_range = Range{-50.0, 50.0};  // pale: the only dark things are contours
+    const Image image = drawn(Chart{.panels = {map}}).image;
+    // The thick contour at 0 stands upright in the middle of the axes, x from -5 to 5.
+    const double left = 70.0, right = 640.0 - 14.0 - 96.0;
+    for (const double share : {0.45, 0.55}) {
+        const int x = first_dark(image, static_cast<int>(share * image.height_px), 100);
+        EXPECT_NEAR(x, 0.5 * (left + right), 4.0);
     }
-    const auto whole = contour({x, y, z}, 1.25);
-    ASSERT_EQ(whole.size(), 1u);
-    EXPECT_EQ(whole[0].size(), 3u);
-    for (const ContourPoint& point : whole[0]) {
-        EXPECT_DOUBLE_EQ(point.x, 1.25);
-    }
-    EXPECT_TRUE(contour({x, y, z}, 7.0).empty());
-    z[1] = kNan;  // (1, 0)
-    const auto rest = contour({x, y, z}, 1.25);
-    ASSERT_EQ(rest.size(), 1u);
-    EXPECT_EQ(rest[0].size(), 2u);
 }
 
-TEST(Contour, parts_a_saddle_by_its_middle) {
-    const std::vector<double> axis = {0, 1};
-    const std::vector<double> high = {1.0, 0.0, 0.0, 1.0};
-    // Middle 0.5 is above 0.4: the high corners are joined, the low ones cut off.
-    const auto lines = contour({axis, axis, high}, 0.4);
-    ASSERT_EQ(lines.size(), 2u);
-    for (const ContourLine& line : lines) {
-        ASSERT_EQ(line.size(), 2u);
-        const double x = 0.5 * (line[0].x + line[1].x), y = 0.5 * (line[0].y + line[1].y);
-        EXPECT_GT(std::abs(x - y), 0.5) << "about a low corner, (1, 0) or (0, 1)";
+TEST(HeatPanel, draws_no_contour_through_what_has_no_value) {
+    HeatPanel map = slope();
+    map.z_range = Range{-50.0, 50.0};
+    for (std::size_t j = 9; j <= 11; ++j) {
+        map.z[j * map.x.size() + 10] = kNan;  // around the middle
     }
+    const Image image = drawn(Chart{.panels = {map}}).image;
+    EXPECT_EQ(first_dark(image, 58 + 190, 100), -1);
+    EXPECT_GT(first_dark(image, 58 + 60, 100), 0);
 }
 
 TEST(Interpolated, is_bilinear_and_nothing_outside) {
@@ -322,24 +295,25 @@ TEST(Interpolated, is_bilinear_and_nothing_outside) {
 }
 
 TEST(Axes, have_round_ticks) {
-    EXPECT_THAT(ticks({0.0, 1.0}, 5), Pointwise(DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}));
-    EXPECT_THAT(ticks({-3.0, 7.0}, 5), ElementsAre(-2.0, 0.0, 2.0, 4.0, 6.0));
-    EXPECT_THAT(log_ticks({0.5, 2000.0}, 6), Pointwise(DoubleNear(1e-9), {1.0, 10.0, 100.0, 1e3}));
-    EXPECT_THAT(log_ticks({1.0, 10.0}, 6), Pointwise(DoubleNear(1e-9), {1.0, 2.0, 5.0, 10.0}));
+    EXPECT_DOUBLE_EQ(tick_step({0.0, 1.0}, 5), 0.2);
+    EXPECT_DOUBLE_EQ(tick_step({-3.0, 7.0}, 5), 2.0);
     for (const double wide : {1e-12, 3.7, 1e9}) {
-        const auto found = ticks({-0.3 * wide, 0.7 * wide}, 5);
-        EXPECT_GE(found.size(), 3u);
-        EXPECT_LE(found.size(), 8u);
-        EXPECT_THAT(found,
-                    Each(testing::AllOf(testing::Ge(-0.31 * wide), testing::Le(0.71 * wide))));
+        const double count = wide / tick_step({-0.3 * wide, 0.7 * wide}, 5);
+        EXPECT_GE(count, 3.0);
+        EXPECT_LE(count, 8.0);
     }
 }
 
-TEST(Axes, name_ticks_shortly) {
-    EXPECT_EQ(tick_label(0.4), "0.4");
-    EXPECT_EQ(tick_label(100000.0), "100000");
-    EXPECT_EQ(tick_label(1e6), "10⁶");
-    EXPECT_EQ(tick_label(-2e-7), "-2·10⁻⁷");
+TEST(Axes, number_a_decade_and_many) {
+    const auto chart = [](double high) {
+        return drawn({.series = {{.x = {0, 1}, .y = {2, high}}}, .log_y = true});
+    };
+    const Drawn decade = chart(15.0), many = chart(3e5);
+    for (const char* text : {">2<", ">5<", ">10<"}) {
+        EXPECT_TRUE(decade.says(text) || decade.says(std::string(text).replace(0, 1, "> ")))
+            << text;
+    }
+    EXPECT_TRUE(many.says("10000"));
 }
 
 TEST(Axes, hold_every_number_and_the_levels) {
@@ -349,6 +323,65 @@ TEST(Axes, hold_every_number_and_the_levels) {
     EXPECT_GT(y.high, 9.0);
     const Range bars = y_axis({.series = {{.mark = Mark::bars, .x = {0, 1}, .y = {2, 3}}}});
     EXPECT_EQ(bars.low, 0.0);
+}
+
+TEST(Axes, have_air_above_and_below) {
+    const Range y = y_axis({.series = {{.x = {0, 1}, .y = {-10.0, 90.0}}}});
+    EXPECT_NEAR(y.low, -16.0, 1e-12);
+    EXPECT_NEAR(y.high, 96.0, 1e-12);
+}
+
+TEST(Axes, do_not_fill_a_panel_with_noise) {
+    const Range y = y_axis({.series = {{.x = {0, 1}, .y = {5.0, 5.2}}}, .least_span = 10.0});
+    EXPECT_NEAR(0.5 * (y.low + y.high), 5.1, 1e-12);
+    EXPECT_GE(y.high - y.low, 10.0);
+}
+
+TEST(Axes, begin_at_zero_when_asked) {
+    ChartPanel panel{.series = {{.x = {0, 1}, .y = {30.0, 31.0}}}, .from_zero = true};
+    EXPECT_DOUBLE_EQ(y_axis(panel).low, 0.0);
+    EXPECT_GT(y_axis(panel).high, 31.0);
+    panel.levels.push_back({50.0, "limit"});
+    EXPECT_GT(y_axis(panel).high, 50.0);
+}
+
+TEST(Thinned, keeps_every_peak_and_the_ends) {
+    ChartSeries noisy;
+    for (int i = 0; i < 20000; ++i) {
+        noisy.x.push_back(1e-3 * i);
+        noisy.y.push_back(std::sin(0.37 * i) + (i == 7777 ? 50.0 : 0.0) - (i == 7779 ? 60.0 : 0.0));
+    }
+    const ChartSeries thin = thinned(noisy, {0.0, 20.0}, 100);
+    EXPECT_LE(thin.y.size(), 404u);
+    EXPECT_GE(thin.y.size(), 350u);
+    EXPECT_EQ(*std::max_element(thin.y.begin(), thin.y.end()), noisy.y[7777]);
+    EXPECT_EQ(*std::min_element(thin.y.begin(), thin.y.end()), noisy.y[7779]);
+    EXPECT_EQ(thin.y.front(), noisy.y.front());
+    EXPECT_EQ(thin.y.back(), noisy.y.back());
+    EXPECT_TRUE(std::is_sorted(thin.x.begin(), thin.x.end()));
+}
+
+TEST(Thinned, leaves_short_curves_and_gaps_alone) {
+    const ChartSeries few{.x = {0.0, 1.0, 2.0}, .y = {1.0, kNan, 3.0}};
+    EXPECT_EQ(thinned(few, {0.0, 2.0}, 1).y.size(), 3u);
+    ChartSeries gap;
+    for (int i = 0; i < 1000; ++i) {
+        gap.x.push_back(i);
+        gap.y.push_back(i >= 400 && i < 410 ? kNan : i);
+    }
+    const ChartSeries thin = thinned(gap, {0.0, 1000.0}, 10);
+    EXPECT_EQ(std::count_if(thin.y.begin(), thin.y.end(), [](double v) { return std::isnan(v); }),
+              10);
+}
+
+TEST(Chart, shades_and_names_its_stretches) {
+    const Drawn chart = drawn({.y_label = "pitch",
+                               .series = {{.x = {0, 10}, .y = {0, 1}}},
+                               .moments = {{5.0, "impact"}},
+                               .stretches = {{{0, 5}, "approaching"}, {{5, 10}, "resting"}}});
+    EXPECT_TRUE(chart.says("approaching") && chart.says("resting") && chart.says("impact"));
+    EXPECT_GT(chart.pixels(colours::kShade, 0.55, 1.0), 20000u);
+    EXPECT_LT(chart.pixels(colours::kShade, 0.0, 0.5), 200u);
 }
 
 }  // namespace

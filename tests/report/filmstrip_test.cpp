@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "../support/flights.hpp"
-#include "limpet/core/errors.hpp"
 #include "../support/png.hpp"
+#include "limpet/core/errors.hpp"
 
 namespace limpet {
 namespace {
