@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/compare.hpp"
+#include "limpet/compare/compare.hpp"
 
 #include <fmt/core.h>
 
@@ -11,8 +11,8 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/compare_figures.hpp"
-#include "limpet/report/compare_text.hpp"
+#include "limpet/compare/figures.hpp"
+#include "limpet/compare/text.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
