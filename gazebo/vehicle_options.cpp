@@ -20,13 +20,7 @@ double number(const YamlNode& section, const char* key, double minimum, double m
               double by_default) {
     double value = by_default;
     if (const YamlNode* node = section.find(key)) {
-        value = read_number(*node, {.name = key,
-                                    .unit = {},
-                                    .minimum = minimum,
-                                    .maximum = maximum,
-                                    .value = nullptr,
-                                    .description = {},
-                                    .source = {}});
+        value = read_number(*node, {key, {}, minimum, maximum, &value, {}, {}});
     }
     return value;
 }

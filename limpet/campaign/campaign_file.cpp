@@ -19,13 +19,8 @@ constexpr std::uint64_t kLargestSeed = 9'223'372'036'854'775'807U;  ///< what SQ
 constexpr double kLeastShare = 1e-3;
 
 double number(const YamlNode& node, double minimum = -kHuge, double maximum = kHuge) {
-    return read_number(node, {.name = {},
-                              .unit = "-",
-                              .minimum = minimum,
-                              .maximum = maximum,
-                              .value = nullptr,
-                              .description = {},
-                              .source = {}});
+    double value = 0.0;
+    return read_number(node, {{}, "-", minimum, maximum, &value, {}, {}});
 }
 
 std::uint64_t count(const YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {

@@ -54,7 +54,7 @@ std::string mechanism_text(const CompanionConfig& config) {
         config.mechanism == MechanismWire::line
             ? "lines over " + to_text(config.mechanism_address)
             : std::string("DO_SET_ACTUATOR over the sensors' wire"),
-        config.guidance.valve_fitted > 0.5 ? "with a" : "no",
+        config.guidance.valve_fitted ? "with a" : "no",
         config.load_source == ReadingSource::serial ? "in its lines" : words(config.load_source));
 }
 
@@ -72,7 +72,7 @@ std::vector<std::string> describe(const CompanionConfig& config) {
                         ? std::string("signing     none: who reaches the wires may command")
                         : "signing     key of " + config.signing_key_file.string());
     lines.push_back(fmt::format(
-        "speeds      docks at {:g} m/s from {:g} m, {:g} attempts, retreats at {:g} m/s",
+        "speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
         config.guidance.dock_speed_m_s, config.guidance.pre_distance_m, config.guidance.attempts,
         config.guidance.retreat_speed_m_s));
     lines.push_back(fmt::format(

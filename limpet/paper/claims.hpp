@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,12 @@ struct PaperStatement {
     std::string basis = {};
 };
 
-/// Every number and qualitative statement of the paper's text, in its order.
-/// Source: paper.txt; bounds: the paper's tolerances, else facts.md section 7, else named in a
-/// note.
-[[nodiscard]] const std::vector<PaperStatement>& statements();
+/// Every number and qualitative statement of the paper's text, in its order: a file like
+/// paper/statements.yaml, whose head says what its keys are.
+/// @param measured  names of all evidence that there will be
+/// @throws InputError for what is not so: an unknown key, an id twice, a name without evidence
+[[nodiscard]] std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
+                                                          const std::vector<std::string>& measured);
 
 /// reproduced: the evidence lies within the accepted range; differs: it does not, or did not come
 /// to pass; not modelled: there is no evidence to look for.

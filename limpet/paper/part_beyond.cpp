@@ -90,8 +90,6 @@ PageTable break_off_table(const std::vector<BreakOff>& loads) {
     return table;
 }
 
-}  // namespace
-
 void study_beyond(Study& study) {
     PageSection section{.id = "part-beyond"};
     study.say("release times");
@@ -109,6 +107,15 @@ void study_beyond(Study& study) {
     section.blocks.emplace_back(energy_table(uses));
     section.blocks.emplace_back(break_off_table(break_off_loads()));
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart beyond_part() {
+    return {"beyond",
+            "Beyond the paper",
+            study_beyond,
+            {"release.valve_gain_metal", "energy.perched_share"}};
 }
 
 }  // namespace limpet

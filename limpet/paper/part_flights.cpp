@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/flights.hpp"
@@ -88,9 +89,9 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
     const Recording& concrete = find(flights, "perch_concrete").recording;
     const RecordedEvent* approach = first_event(concrete, "approach_started");
     const auto chapter = perching(concrete);
-    if (approach != nullptr && chapter) {
-        evidence.set("fig11.approach_at_s", approach->time_s - chapter->window.from_s);
-    }
+    evidence.set("fig11.approach_at_s", approach != nullptr && chapter
+                                            ? approach->time_s - chapter->window.from_s
+                                            : std::numeric_limits<double>::quiet_NaN());
 }
 
 PageTable flight_table(const std::vector<PaperFlight>& flights) {
@@ -115,8 +116,6 @@ PageTable flight_table(const std::vector<PaperFlight>& flights) {
     }
     return table;
 }
-
-}  // namespace
 
 void study_flights(Study& study) {
     measure_vehicle(study.evidence);
@@ -153,6 +152,28 @@ void study_flights(Study& study) {
                                                          .alt = figure.alt}));
     }
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart flights_part() {
+    StudyPart part{"flights",
+                   "Perching and take-off: Figs. 9 to 15",
+                   study_flights,
+                   {"vehicle.mass_kg", "vehicle.wheelbase_m", "vehicle.propeller_diameter_in",
+                    "vehicle.battery_cells", "vehicle.battery_capacity_Ah", "vehicle.pump_x_m",
+                    "vehicle.lidar_rate_Hz", "vehicle.lidar_x_m", "vehicle.cup_joint_freedoms",
+                    "free_body.relative_error", "estimator.motion_capture_only"}};
+    Evidence told;  // of flights that never were: every name, no value
+    std::vector<PaperFlight> flights(orders().size());
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+        flights[i].name = orders()[i].name;
+        measure(flights[i], told);
+    }
+    measure_together(flights, told);
+    const std::vector<std::string> names = told.names();
+    part.measures.insert(part.measures.end(), names.begin(), names.end());
+    return part;
 }
 
 }  // namespace limpet

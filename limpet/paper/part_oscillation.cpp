@@ -373,8 +373,6 @@ void collect(const std::vector<MissionCase>& cases, const std::vector<Change>& c
     }
 }
 
-}  // namespace
-
 void study_oscillation(Study& study) {
     const std::vector<StabilityMap> all_maps = maps(study);
     const std::vector<MapPoint> flown = samples(study);
@@ -405,6 +403,17 @@ void study_oscillation(Study& study) {
     section.blocks.emplace_back(change_table(all_changes));
     section.blocks.emplace_back(doubt_text(all_changes));
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart oscillation_part() {
+    return {"oscillation",
+            "The open question: why real flights swing",
+            study_oscillation,
+            {"swing.concrete_ratio", "swing.metal_over_concrete", "swing.metal_median_deg",
+             "swing.gazebo_metal_p95_deg", "swing.gazebo_air_metal_median_deg",
+             "swing.rate_p_growth_1_s"}};
 }
 
 }  // namespace limpet

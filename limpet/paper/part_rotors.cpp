@@ -90,8 +90,6 @@ PageTable table_one(const std::array<Bench, 2>& benches) {
     return table;
 }
 
-}  // namespace
-
 void study_rotors(Study& study) {
     std::array<Bench, 2> benches;
     for (std::size_t i = 0; i < benches.size(); ++i) {
@@ -110,6 +108,19 @@ void study_rotors(Study& study) {
     section.blocks.emplace_back(thrust_figure(benches, study));
     section.blocks.emplace_back(table_one(benches));
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart rotors_part() {
+    StudyPart part{"rotors", "Rotors: Table I", study_rotors, {}};
+    for (const TableOne& column : kTableOne) {
+        for (const char* constant :
+             {"motor_constant_kg_m", "moment_constant_m", "drag_constant_kg"}) {
+            part.measures.push_back(fmt::format("rotor.{}.{}", column.vehicle, constant));
+        }
+    }
+    return part;
 }
 
 }  // namespace limpet

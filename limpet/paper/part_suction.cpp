@@ -226,8 +226,6 @@ PageTable beyond_the_exponential() {
     return table;
 }
 
-}  // namespace
-
 void study_suction(Study& study) {
     study.say("press rig");
     std::vector<Press> presses(kTableTwo.size());
@@ -248,6 +246,22 @@ void study_suction(Study& study) {
     section.blocks.emplace_back(table_two(presses));
     section.blocks.emplace_back(beyond_the_exponential());
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart suction_part() {
+    StudyPart part{"suction",
+                   "Suction cup: Table II and Fig. 2",
+                   study_suction,
+                   {"press.worst_residual_hPa", "press.slowest_margin_hPa_s",
+                    "press.weakest_margin_hPa", "press.tau_1_cinder_less_concrete_s"}};
+    for (const TableTwo& column : kTableTwo) {
+        for (const char* value : {"vacuum_hPa", "tau_1_s", "tau_2_s"}) {
+            part.measures.push_back(fmt::format("{}.{}", column.scenario, value));
+        }
+    }
+    return part;
 }
 
 }  // namespace limpet

@@ -146,8 +146,6 @@ PageTable failure_table(const CampaignSummary& summary) {
     return table;
 }
 
-}  // namespace
-
 void study_trials(Study& study) {
     study.say("pendulum trials");
     const CampaignSummary trials = fly_trials("fig3", study);
@@ -163,6 +161,16 @@ void study_trials(Study& study) {
     section.blocks.emplace_back(trials_figure(trials, study));
     section.blocks.emplace_back(failure_table(trials));
     study.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+StudyPart trials_part() {
+    return {"trials",
+            "Attachment against impact speed: Fig. 3",
+            study_trials,
+            {"fig3.runs", "fig3.success_below_0_4", "fig3.best_margin",
+             "fig3.failed_for_force_share", "fig3.mixed_speeds_less"}};
 }
 
 }  // namespace limpet

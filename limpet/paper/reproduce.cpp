@@ -11,6 +11,7 @@
 #include "limpet/core/version.hpp"
 #include "limpet/paper/claims.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet {
@@ -54,15 +55,14 @@ std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
 }
 
 /// All of them; of a part alone those that it has evidence for.
-std::vector<Claim> judged(const Study& study, bool all) {
+std::vector<Claim> judged(const std::vector<PaperStatement>& statements, const Study& study,
+                          bool all) {
     const std::set<std::string> figures = figure_ids(study.sections);
     std::vector<Claim> claims;
-    for (const PaperStatement& statement : statements()) {
+    for (const PaperStatement& statement : statements) {
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
-        require(statement.evidence.empty() || study.evidence.has(statement.evidence),
-                "evidence is looked for under its name");
         Claim claim = judge(statement, study.evidence);
         if (figures.count(claim.figure) == 0) {
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
@@ -117,8 +117,22 @@ std::vector<std::pair<std::string, std::string>> part_titles() {
     return titles;
 }
 
+std::filesystem::path statements_file() {
+    return data_root() / "paper" / "statements.yaml";
+}
+
+std::vector<std::string> measured_names() {
+    std::vector<std::string> names;
+    for (const StudyPart& part : parts()) {
+        names.insert(names.end(), part.measures.begin(), part.measures.end());
+    }
+    return names;
+}
+
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
     const std::vector<StudyPart> chosen = wanted(options.only);
+    const std::vector<PaperStatement> statements =
+        load_statements(statements_file(), measured_names());
     require_ours(options.folder);
     const FolderLock lock(options.folder);
     Study study;
@@ -133,6 +147,9 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
             watch.on_part(i + 1, chosen.size(), chosen[i].title);
         }
         chosen[i].run(study);
+        for (const std::string& name : chosen[i].measures) {
+            require(study.evidence.has(name), "a part measures what it says");
+        }
         study.sections.back().title = chosen[i].title;
     }
     Reproduction result;
@@ -141,7 +158,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
     page.subtitle =
         "Simulation and Experimental Validation of an Autonomous Perching and Takeoff Method for a "
         "Multirotor UAV on Vertical Surfaces using a Suction Cup: every table, figure and claim";
-    page.claims = judged(study, options.only.empty());
+    page.claims = judged(statements, study, options.only.empty());
     page.summary = summary_of(result);
     page.sections.push_back(
         {.id = "claims", .title = "What the paper says, line by line", .blocks = {ClaimTable{}}});

@@ -38,10 +38,15 @@ struct Reproduction {
 /// Names of the parts that `only` takes, with their titles.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> part_titles();
 
+/// The paper's statements among the data, and what evidence all parts together will have.
+[[nodiscard]] std::filesystem::path statements_file();
+[[nodiscard]] std::vector<std::string> measured_names();
+
 /// Flies the paper's experiments, measures them, judges its statements and writes
 /// FOLDER/index.html, results.json, figures/, flights/ and campaigns/. With `only`, the statements
 /// that this part bears on.
-/// @throws InputError for a part that is none, an unwritable folder, a missing gnuplot
+/// @throws InputError for a part that is none, a statement that is not right, an unwritable folder,
+/// a missing gnuplot
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch = {});
 
 }  // namespace limpet

@@ -43,12 +43,8 @@ PageFigure Study::flight_figure(const std::string& flight, const std::string& pi
 
 const std::vector<StudyPart>& parts() {
     static const std::vector<StudyPart> all = {
-        {"rotors", "Rotors: Table I", study_rotors},
-        {"suction", "Suction cup: Table II and Fig. 2", study_suction},
-        {"trials", "Attachment against impact speed: Fig. 3", study_trials},
-        {"flights", "Perching and take-off: Figs. 9 to 15", study_flights},
-        {"oscillation", "The open question: why real flights swing", study_oscillation},
-        {"beyond", "Beyond the paper", study_beyond},
+        rotors_part(),  suction_part(),     trials_part(),
+        flights_part(), oscillation_part(), beyond_part(),
     };
     return all;
 }

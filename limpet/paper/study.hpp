@@ -42,15 +42,19 @@ struct StudyPart {
     std::string name;   ///< "rotors"
     std::string title;  ///< of its section
     void (*run)(Study& study);
+    /// Names of the evidence that it will have measured: statements are held to them before
+    /// anything flies.
+    std::vector<std::string> measures;
 };
 
-// The parts, in the paper's order; each adds its section and its evidence.
-void study_rotors(Study& study);       ///< Table I
-void study_suction(Study& study);      ///< Table II, Fig. 2
-void study_trials(Study& study);       ///< Fig. 3
-void study_flights(Study& study);      ///< Figs. 9 to 15
-void study_oscillation(Study& study);  ///< the open question
-void study_beyond(Study& study);       ///< valve, energy, break-off loads
+// Each adds its section and its evidence.
+[[nodiscard]] StudyPart rotors_part();       ///< Table I
+[[nodiscard]] StudyPart suction_part();      ///< Table II, Fig. 2
+[[nodiscard]] StudyPart trials_part();       ///< Fig. 3
+[[nodiscard]] StudyPart flights_part();      ///< Figs. 9 to 15
+[[nodiscard]] StudyPart oscillation_part();  ///< the open question
+[[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
+/// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();
 
 }  // namespace limpet

@@ -26,11 +26,11 @@ bool switched_off(const PneumaticParameters& parameters, const CupState& state) 
 
 /// A pump on a tight surface rests between a stop and a restart pressure; elsewhere it runs.
 bool pump_rests(const CupParameters& parameters, const Surface& surface, const CupState& state) {
-    if (parameters.pneumatic > 0.5) {
+    if (parameters.pneumatic) {
         return state.status.phase == CupPhase::attached &&
                switched_off(parameters.pneumatics, state);
     }
-    if (surface.pump_cycles < 0.5 || state.status.phase != CupPhase::attached) {
+    if (!surface.pump_cycles || state.status.phase != CupPhase::attached) {
         return false;
     }
     const double above_Pa = state.mean_pressure_Pa - surface.vacuum_pressure_Pa;
@@ -42,7 +42,7 @@ bool pump_rests(const CupParameters& parameters, const Surface& surface, const C
 double next_pressure_Pa(const CupParameters& parameters, const CupState& state,
                         const Surface& surface, double dt_s) {
     const CupStatus& status = state.status;
-    if (parameters.pneumatic > 0.5 && is_sealed(status.phase)) {
+    if (parameters.pneumatic && is_sealed(status.phase)) {
         const CupAir air = sealed_cup(parameters.pneumatics, surface, parameters.lip.radius_m,
                                       -status.pull_N, status.valve_open);
         return pressure_after(pump_of(parameters.pneumatics, status.pump_running), air,
@@ -140,13 +140,12 @@ void advance_pressure(const CupParameters& parameters, CupState& state, const Su
 const ParameterTable<CupParameters>& cup_table() {
     using C = CupParameters;
     static const ParameterTable<C> table = {
-        {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0,
-         [](C& c) -> double& { return c.attachment_pressure_Pa; },
+        {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0, &C::attachment_pressure_Pa,
          "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
-        {"valve_fitted", "switch", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
-         "1: a solenoid valve breaks the vacuum", "paper, section V.B (proposed)"},
-        {"pneumatic", "switch", 0.0, 1.0, [](C& c) -> double& { return c.pneumatic; },
-         "1: pressure by pump, volume and leak (rows \"pneumatic:\") instead of eqs. (5), (6)",
+        {"valve_fitted", "switch", 0.0, 1.0, &C::valve_fitted, "a solenoid valve breaks the vacuum",
+         "paper, section V.B (proposed)"},
+        {"pneumatic", "switch", 0.0, 1.0, &C::pneumatic,
+         "pressure by pump, volume and leak (rows \"pneumatic:\") instead of eqs. (5), (6)",
          "docs/decisions/0008-pneumatic-model.md"},
         {"valve_time_constant_s", "s", 1e-4, 1e3,
          [](C& c) -> double& { return c.vent.valve_time_constant_s; },
@@ -154,10 +153,9 @@ const ParameterTable<CupParameters>& cup_table() {
         {"open_time_constant_s", "s", 1e-4, 1e3,
          [](C& c) -> double& { return c.vent.open_time_constant_s; },
          "pressure rises with it in a cup off the wall", "assumed"},
-        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, [](C& c) -> double& { return c.pump_stop_band_Pa; },
+        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, &C::pump_stop_band_Pa,
          "a cycling pump stops this close to the steady vacuum", "assumed"},
-        {"pump_restart_band_Pa", "Pa", 0.0, 1e5,
-         [](C& c) -> double& { return c.pump_restart_band_Pa; },
+        {"pump_restart_band_Pa", "Pa", 0.0, 1e5, &C::pump_restart_band_Pa,
          "and starts again this far from it", "assumed"},
     };
     return table;

@@ -39,8 +39,8 @@ struct CupParameters {
     double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
     double pump_stop_band_Pa = 100.0;         ///< above P_vac: a cycling pump stops below it
     double pump_restart_band_Pa = 2000.0;     ///< above P_vac: and starts again above it
-    double valve_fitted = 0.0;                ///< 1: a solenoid valve breaks the vacuum
-    double pneumatic = 0.0;                   ///< 1: pneumatics.hpp instead of pressure.hpp
+    bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
+    bool pneumatic = false;                   ///< pneumatics.hpp instead of pressure.hpp
     PneumaticParameters pneumatics;
 };
 

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/claims.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
 #include <set>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/paper/paper_tables.hpp"
+#include "limpet/paper/reproduce.hpp"
 
 namespace limpet {
 namespace {
@@ -61,6 +68,11 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
     EXPECT_NEAR(std::get<double>(judge(range, with(0.9)).difference), -0.1, 1e-6);
 }
 
+std::vector<PaperStatement> statements() {
+    return load_statements(std::filesystem::path(LIMPET_SOURCE_DIR) / "paper" / "statements.yaml",
+                           measured_names());
+}
+
 TEST(Statements, AreCompleteAndAppearOnce) {
     std::set<std::string> ids;
     for (const PaperStatement& statement : statements()) {
@@ -85,12 +97,92 @@ TEST(Statements, AcceptThePapersOwnNumbers) {
     }
 }
 
-TEST(Statements, HoldTableTwo) {
+/// The parts put the tables' numbers into pictures and tables of the page.
+TEST(Statements, HoldBothTables) {
+    std::map<std::string, PaperStatement> by_evidence;
     int rows = 0;
     for (const PaperStatement& statement : statements()) {
-        rows += statement.section == "II-D, Table II" ? 1 : 0;
+        by_evidence[statement.evidence] = statement;
+        rows += statement.section == "II-D, Table II" || statement.section == "II-C, Table I";
     }
-    EXPECT_EQ(rows, 12);
+    EXPECT_EQ(rows, 18);
+    const auto expect = [&](const std::string& evidence, double paper, double tolerance) {
+        const PaperStatement& statement = by_evidence[evidence];
+        ASSERT_TRUE(std::holds_alternative<double>(statement.paper)) << evidence;
+        EXPECT_EQ(std::get<double>(statement.paper), paper) << evidence;
+        EXPECT_NEAR(statement.accepted.low, paper - tolerance, 1e-9 * paper) << evidence;
+        EXPECT_NEAR(statement.accepted.high, paper + tolerance, 1e-9 * paper) << evidence;
+    };
+    for (const TableOne& column : kTableOne) {
+        const std::string key = std::string("rotor.") + column.vehicle;
+        for (const auto& [name, paper] :
+             {std::pair(".motor_constant_kg_m", column.motor_constant_kg_m),
+              std::pair(".moment_constant_m", column.moment_constant_m),
+              std::pair(".drag_constant_kg", column.drag_constant_kg)}) {
+            expect(key + name, paper, 0.02 * paper);
+        }
+    }
+    for (const TableTwo& column : kTableTwo) {
+        const std::string key = column.scenario;
+        expect(key + ".vacuum_hPa", column.vacuum_hPa, 10.0);
+        expect(key + ".tau_1_s", column.tau_1_s, column.tau_1_tolerance_s);
+        expect(key + ".tau_2_s", column.tau_2_s, column.tau_2_tolerance_s);
+    }
+}
+
+class StatementsFile : public testing::Test {
+protected:
+    /// @return the error of a file with this text, without its path; empty for none
+    std::string error_of(const std::string& text) const {
+        std::ofstream(file_) << text;
+        try {
+            (void)load_statements(file_, {"x.first_s", "x.second_s"});
+        } catch (const InputError& error) {
+            const std::string what = error.what();
+            return what.substr(what.find(".yaml:") + 6);
+        }
+        return "";
+    }
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    const std::string good_ = "a:\n  section: I\n  says: so\n  paper: 1\n";
+    const std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+};
+
+TEST_F(StatementsFile, IsReadAsItStands) {
+    std::ofstream(file_) << good_ + "  evidence: x.first_s\n  basis: as set\n  at_least: 2\n" +
+                                "b:\n  section: II\n  says: words\n  paper: [1, 2]\n  note: no\n";
+    const auto read = load_statements(file_, {"x.first_s"});
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].id, "a");
+    EXPECT_EQ(std::get<double>(read[0].paper), 1.0);
+    EXPECT_EQ(read[0].basis, "as set");
+    EXPECT_EQ(read[0].accepted.low, 2.0);
+    EXPECT_TRUE(std::isinf(read[0].accepted.high));
+    EXPECT_EQ(std::get<Range>(read[1].paper).high, 2.0);
+    EXPECT_TRUE(read[1].evidence.empty());
+}
+
+TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
+    const std::string rest = "  basis: measured\n  accepted: [0, 1]\n";
+    EXPECT_EQ(error_of(good_ + "  evidence: x.frist_s\n" + rest),
+              "5: a.evidence: \"x.frist_s\" is measured by no part, did you mean x.first_s?");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n" + rest), "");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [0, 1]\n"),
+              "1: a: has no basis");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n"),
+              "1: a: has no accepted");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [2, 1]\n  basis: measured\n"),
+              "6: a.accepted: must begin with its lower end");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  at_least: 1\n" + rest),
+              "6: a.at_least: stands beside accepted, one of the two");
+    EXPECT_EQ(error_of(good_ + "  accepted: [0, 1]\n  note: none\n"),
+              "5: a.accepted: stands without evidence");
+    EXPECT_EQ(error_of(good_), "1: a: has no note");
+    EXPECT_EQ(error_of(good_ + "  notes: none\n"), "5: a.notes: unknown key, did you mean note?");
+    EXPECT_THAT(error_of(good_ + "  note: none\n" + good_), testing::StartsWith("6: a: "));
 }
 
 }  // namespace

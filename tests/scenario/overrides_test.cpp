@@ -25,7 +25,7 @@ TEST_F(Overrides, ReachEveryRoom) {
     EXPECT_EQ(s.guidance.hold_s, 0.6);
     EXPECT_EQ(s.autopilot.MPC_XY_P, 0.8);
     EXPECT_EQ(s.sensors.lidar_noise_m, 0.0);
-    EXPECT_EQ(s.cup.valve_fitted, 1.0);
+    EXPECT_EQ(s.cup.valve_fitted, true);
     EXPECT_EQ(s.cup.lip.tilt_stiffness_N_m_rad, 30.0);
     EXPECT_EQ(s.simulation.hover_s, 7.0);
     EXPECT_EQ(s.wall.heading_deg, 90.0);

@@ -33,7 +33,7 @@ protected:
         surface.seal_threshold_median_N = 10.0;
         surface.seal_threshold_sigma = 0.0;
         CupModel model;
-        model.parameters.pneumatic = 1.0;
+        model.parameters.pneumatic = true;
         CupState state;
         state.random = RandomStream(1, 0, Stream::seal);
         Kinematics cup;
