@@ -40,7 +40,7 @@ Px4Wires::Px4Wires(const VehicleOptions& options,
     Px4Options px4;
     px4.hil.timing = serial ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
     px4.hil.motion_capture = true;
-    px4.control_rate_Hz = static_cast<int>(std::lround(options.scenario.sensors.imu_rate_Hz));
+    px4.control_rate_Hz = options.scenario.sensors.imu_rate_Hz;
     px4.on_text = [say](const std::string& text) { say("          PX4: " + text); };
     autopilot_ =
         std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));

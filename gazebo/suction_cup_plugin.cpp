@@ -75,7 +75,7 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     topics_ = std::make_unique<SuctionCupTopics>(
         model->GetWorld(), model->GetName(),
         CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
-        settings_.cup.valve_fitted > 0.5, settings_.plugin.publish_rate_Hz);
+        settings_.cup.valve_fitted, settings_.plugin.publish_rate_Hz);
     cup_.parameters = settings_.cup;
     start();
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(

@@ -27,13 +27,14 @@ Attachment attachment_of(const YamlNode& node) {
 
 /// sdformat writes a child that says true as 1.
 bool read_switch(const YamlNode& node) {
+    bool value = false;
     return read_number(node, {.name = node.key,
                               .unit = "switch",
                               .minimum = 0.0,
                               .maximum = 1.0,
-                              .value = nullptr,
+                              .value = &value,
                               .description = {},
-                              .source = {}}) > 0.5;
+                              .source = {}}) != 0.0;
 }
 
 CupTarget target_of(const YamlNode& node, const Surface& surface) {
@@ -69,14 +70,13 @@ CupTarget target_of(const YamlNode& node, const Surface& surface) {
 const ParameterTable<CupPluginParameters>& cup_plugin_table() {
     using P = CupPluginParameters;
     static const ParameterTable<P> table = {
-        {"publish_rate_Hz", "Hz", 0.1, 1000.0, [](P& p) -> double& { return p.publish_rate_Hz; },
+        {"publish_rate_Hz", "Hz", 0.1, 1000.0, &P::publish_rate_Hz,
          "pressure and state on their topics, in simulated time",
          "assumed: as fast as guidance reads them"},
-        {"flatness_m", "m", 1e-4, 0.1, [](P& p) -> double& { return p.flatness_m; },
+        {"flatness_m", "m", 1e-4, 0.1, &P::flatness_m,
          "a wall that leaves a plane by more below the lip is none",
          "assumed: the depth at which the lip bottoms out, baseline.md"},
-        {"load_time_constant_s", "s", 1e-4, 1.0,
-         [](P& p) -> double& { return p.load_time_constant_s; },
+        {"load_time_constant_s", "s", 1e-4, 1.0, &P::load_time_constant_s,
          "of the low-pass over a joint's load, against the solver's spikes",
          "assumed: five steps of 1 ms"},
     };
@@ -118,7 +118,7 @@ SuctionCupSettings suction_cup_settings(const YamlNode& tree) {
     }
     if (const YamlNode* valve = tree.find("valve")) {
         settings.valve_open = read_switch(*valve);
-        if (settings.valve_open && settings.cup.valve_fitted < 0.5) {
+        if (settings.valve_open && !settings.cup.valve_fitted) {
             fail(*valve, "open, but no valve is fitted, allowed with suction.valve_fitted 1");
         }
     }

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
@@ -54,7 +53,7 @@ std::uint32_t software_version() {
 
 mavlink::TelemetrySetup setup(const SimulationModel& model) {
     const Scenario& scenario = model.scenario;
-    return {.battery_cells = static_cast<int>(std::lround(scenario.airframe.battery.cells)),
+    return {.battery_cells = scenario.airframe.battery.cells,
             .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
             .lidar_maximum_m = scenario.sensors.lidar_range_max_m,
             .software_version = software_version()};
@@ -104,7 +103,7 @@ GroundStation::GroundStation(const GroundStationOptions& options, const Simulati
                                options.signing_key.empty() ? "" : ", signed"));
 }
 
-std::vector<mavlink::ServedParameter> GroundStation::served() const {
+std::vector<mavlink::ServedParameter> GroundStation::served() {
     std::vector<mavlink::ServedParameter> parameters;
     for (const auto& row : autopilot_table()) {
         if (row.name.size() <= kLongestName) {
@@ -112,7 +111,7 @@ std::vector<mavlink::ServedParameter> GroundStation::served() const {
                                   .value = row.get(wanted_),
                                   .minimum = row.minimum,
                                   .maximum = row.maximum,
-                                  .whole = row.unit == "count"});
+                                  .whole = row.of(wanted_).is_whole()});
         }
     }
     return parameters;
@@ -121,7 +120,7 @@ std::vector<mavlink::ServedParameter> GroundStation::served() const {
 void GroundStation::set(std::string_view name, double value) {
     for (const auto& row : autopilot_table()) {
         if (row.name == name) {
-            row.field(wanted_) = value;
+            row.of(wanted_).set(value);
             changed_ = true;
         }
     }

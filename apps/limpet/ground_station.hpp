@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::string report() const;
 
 private:
-    [[nodiscard]] std::vector<mavlink::ServedParameter> served() const;
+    [[nodiscard]] std::vector<mavlink::ServedParameter> served();
     void set(std::string_view name, double value);
     void tell_of_refusals();
 

@@ -32,8 +32,14 @@ std::vector<ParameterInfo> rows_of(const std::string& room) {
     return companions.empty() ? parameters_of(room) : companions;
 }
 
+std::string default_of(const ParameterInfo& row) {
+    return !row.is_switch             ? fmt::format("{:g}", row.default_value)
+           : row.default_value != 0.0 ? "true"
+                                      : "false";
+}
+
 std::string range(const ParameterInfo& row) {
-    return fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
+    return row.is_switch ? "true, false" : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
 }
 
 void print_text(const std::vector<ParameterInfo>& rows) {
@@ -47,9 +53,8 @@ void print_text(const std::vector<ParameterInfo>& rows) {
             fmt::print("{}{}:\n", section.empty() ? "" : "\n", row.section);
             section = row.section;
         }
-        fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width,
-                   fmt::format("{:g}", row.default_value), row.unit, range(row), row.description,
-                   row.source);
+        fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width, default_of(row),
+                   row.unit, range(row), row.description, row.source);
     }
 }
 
@@ -67,7 +72,7 @@ void print_markdown(const std::vector<ParameterInfo>& rows) {
                 "|---|---|---|---|---|---|\n",
                 section);
         }
-        fmt::print("| `{}` | {:g} | {} | {} | {} | {} |\n", row.name, row.default_value, row.unit,
+        fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", row.name, default_of(row), row.unit,
                    range(row), row.description, row.source);
     }
 }

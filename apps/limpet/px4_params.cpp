@@ -67,7 +67,7 @@ Px4Airframe airframe_of(const Px4Options& options) {
     airframe.perches = vehicle.has_cup;
     airframe.autopilot = scenario.autopilot;
     airframe.target = options.target;
-    const bool poses = scenario.autopilot.EKF2_EV_CTRL != 0.0;
+    const bool poses = scenario.autopilot.EKF2_EV_CTRL != 0;
     airframe.pose =
         options.gps || (!options.mocap && !poses) ? Px4Pose::gps : Px4Pose::motion_capture;
     return airframe;

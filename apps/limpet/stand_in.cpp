@@ -62,7 +62,7 @@ void serve(const Options& options) {
     stand_in.onboard = address_of("--onboard", options.onboard, {Medium::udp});
     stand_in.onboard_peer = address_of("--peer", options.peer, {Medium::udp});
     // as `limpet px4-params` has them: else a perched vehicle may not arm
-    stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0.0;
+    stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0;
     for (const std::string& text : options.parameters) {
         set({.commander = stand_in.parameters, .autopilot = model.parameters}, text);
     }

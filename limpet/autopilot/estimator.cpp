@@ -12,7 +12,7 @@ constexpr int kHeight = 2;
 constexpr int kGpsVelocity = 4;
 constexpr int kVisionAttitude = 8;
 /// From this EKF2_MAG_TYPE on there is no magnetometer.
-constexpr double kNoMagnetometer = 5.0;
+constexpr int kNoMagnetometer = 5;
 /// PX4 gives IMU noise as deviations per prediction of 10 ms; times this they are densities.
 constexpr double kRootPrediction_rts = 0.1;
 constexpr double kMicrosecond_s = 1e-6;
@@ -22,15 +22,15 @@ constexpr double kGpsVertical = 1.5;
 /// Deviation of the velocity at the start with motion capture. Source: PX4, EKF2_EVV_NOISE.
 constexpr double kInitialVelocity_m_s = 0.1;
 
-bool has(double control, int bit) {
-    return (static_cast<int>(control) & bit) != 0;
+bool has(int control, int bit) {
+    return (control & bit) != 0;
 }
 
 Vector3 gps_noise(double horizontal) {
     return {horizontal, horizontal, kGpsVertical * horizontal};
 }
 
-std::array<bool, 3> position_axes(double control) {
+std::array<bool, 3> position_axes(int control) {
     return {has(control, kHorizontal), has(control, kHorizontal), has(control, kHeight)};
 }
 
@@ -210,13 +210,13 @@ EstimatorState start_estimator(const AutopilotParameters& parameters, const Esti
 void update_estimator(const AutopilotParameters& parameters, EstimatorState& state,
                       const Readings& readings) {
     take_imu(parameters, state, readings.imu);
-    if (parameters.EKF2_EV_CTRL > 0.0) {
+    if (parameters.EKF2_EV_CTRL > 0) {
         take_motion_capture(parameters, state, readings.motion_capture);
     }
-    if (parameters.EKF2_GPS_CTRL > 0.0) {
+    if (parameters.EKF2_GPS_CTRL > 0) {
         take_gps(parameters, state, readings.gps);
     }
-    if (parameters.EKF2_BARO_CTRL > 0.0) {
+    if (parameters.EKF2_BARO_CTRL > 0) {
         take_barometer(parameters, state, readings.barometer);
     }
     if (parameters.EKF2_MAG_TYPE < kNoMagnetometer) {

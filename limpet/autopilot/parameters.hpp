@@ -61,7 +61,7 @@ struct AutopilotParameters {
 
     // Estimator. Noises of the IMU are standard deviations per prediction of EKF2_PREDICT_US, as in
     // PX4: times sqrt(10 ms) = 0.1 sqrt(s) they are spectral densities.
-    double EKF2_PREDICT_US = 10000.0;
+    int EKF2_PREDICT_US = 10000;
     double EKF2_GYR_NOISE = 0.015;
     double EKF2_ACC_NOISE = 0.35;
     double EKF2_GYR_B_NOISE = 0.001;
@@ -69,22 +69,22 @@ struct AutopilotParameters {
     double EKF2_GBIAS_INIT = 0.1;
     double EKF2_ABIAS_INIT = 0.2;
     double EKF2_ANGERR_INIT = 0.1;
-    double EKF2_NOAID_TOUT = 500000.0;
-    double EKF2_EV_CTRL = 15.0;
+    int EKF2_NOAID_TOUT = 500000;
+    int EKF2_EV_CTRL = 15;
     double EKF2_EV_DELAY = 0.0;
     double EKF2_EVP_NOISE = 0.001;
     double EKF2_EVA_NOISE = 0.003;
     double EKF2_EVP_GATE = 5.0;
     double EKF2_HDG_GATE = 5.0;
-    double EKF2_GPS_CTRL = 0.0;
+    int EKF2_GPS_CTRL = 0;
     double EKF2_GPS_P_NOISE = 0.5;
     double EKF2_GPS_V_NOISE = 0.3;
     double EKF2_GPS_P_GATE = 5.0;
     double EKF2_GPS_V_GATE = 5.0;
-    double EKF2_BARO_CTRL = 0.0;
+    int EKF2_BARO_CTRL = 0;
     double EKF2_BARO_NOISE = 3.5;
     double EKF2_BARO_GATE = 5.0;
-    double EKF2_MAG_TYPE = 5.0;
+    int EKF2_MAG_TYPE = 5;
     double EKF2_MAG_NOISE = 0.05;
     double EKF2_MAG_GATE = 3.0;
 

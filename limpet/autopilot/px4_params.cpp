@@ -59,7 +59,12 @@ void set(const Parameter<AutopilotParameters>& row, const Line& line, const std:
         throw InputError(fmt::format("{}: {} = {} is outside of {} to {} {}", where, line.name,
                                      *value, row.minimum, row.maximum, row.unit));
     }
-    row.field(parameters) = *value;
+    const ParameterValue place = row.of(parameters);
+    if (place.is_whole() && std::trunc(*value) != *value) {
+        throw InputError(
+            fmt::format("{}: {} = {} is not a whole number", where, line.name, line.value));
+    }
+    place.set(*value);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace limpet {
 namespace {
 
 /// From this EKF2_MAG_TYPE on there is no magnetometer, as the estimator has it.
-constexpr double kNoMagnetometer = 5.0;
+constexpr int kNoMagnetometer = 5;
 constexpr double kOldestPose_s = 0.5;
 /// A pose may be stamped with the HIL_SENSOR that is about to come.
 constexpr double kYoungestPose_s = 0.02;
@@ -42,7 +42,7 @@ std::optional<Estimate> first_estimate(const AutopilotParameters& p, const Stand
     initial.time_s = readings.imu.time_s;
     initial.w_WB_B_rad_s = readings.imu.value.rate_B_rad_s;
     initial.specific_force_B_m_s2 = readings.imu.value.specific_force_B_m_s2;
-    if (p.EKF2_EV_CTRL > 0.0) {
+    if (p.EKF2_EV_CTRL > 0) {
         if (!readings.motion_capture.ever()) {
             return std::nullopt;
         }

@@ -12,8 +12,8 @@ namespace limpet {
 
 /// What of PX4's commander the stand-in flight controller honours; PX4's names, units, defaults.
 struct StandInParameters {
-    double FD_FAIL_P = 60.0;
-    double FD_FAIL_R = 60.0;
+    int FD_FAIL_P = 60;
+    int FD_FAIL_R = 60;
     double COM_OF_LOSS_T = 1.0;
     double COM_DISARM_PRFLT = 10.0;
     double COM_DISARM_LAND = 2.0;

@@ -146,7 +146,7 @@ void Reader::read_vehicle(CompanionConfig& config) {
         fail(*vehicle, "has no cup to perch with, allowed with mission hover only");
     }
     if (const YamlNode* valve = wanted("mechanism", "valve")) {
-        scenario.cup.valve_fitted = read_flag(*valve) ? 1.0 : 0.0;
+        scenario.cup.valve_fitted = read_flag(*valve);
     }
     derive(scenario);
     if (const YamlNode* valve = find("guidance", "valve_fitted")) {
@@ -155,9 +155,9 @@ void Reader::read_vehicle(CompanionConfig& config) {
     const std::vector<BoundParameter> rows = bind(perching_table(), scenario.guidance);
     read_rows(root_.find("guidance"), rows);
     for (const BoundParameter& row : rows) {
-        if (!(*row.value >= row.minimum && *row.value <= row.maximum)) {
+        if (!row.allows(row.value.get())) {
             fail(*vehicle, fmt::format("guidance.{} follows from it as {:.4g}, allowed {}",
-                                       row.name, *row.value, allowed_text(row)));
+                                       row.name, row.value.get(), allowed_text(row)));
         }
     }
     config.guidance = scenario.guidance;
@@ -173,7 +173,7 @@ void Reader::read_autopilot(CompanionConfig& config) {
     AutopilotNumbers numbers;
     read_rows(section("autopilot"), bind(autopilot_wire_table(), numbers),
               {"address", "asks_for_mode", "hears_texts", "sets_origin"});
-    config.system = static_cast<int>(numbers.system);
+    config.system = numbers.system;
     config.autopilot = parse_address(kAutopilotAddress);
     if (const YamlNode* node = find("autopilot", "address")) {
         config.autopilot = address(*node, {Medium::udp, Medium::tcp, Medium::serial},
@@ -222,7 +222,7 @@ void Reader::read_motion_capture(CompanionConfig& config) {
     if (command != nullptr) {
         config.pose_command = address(*command, {Medium::udp}, "udp:MOTIVE_HOST:1510");
     }
-    config.rigid_body = static_cast<int>(numbers.rigid_body);
+    config.rigid_body = numbers.rigid_body;
     config.axes.x_axis_yaw_deg = numbers.x_axis_yaw_deg;
     config.axes.nose_yaw_deg = numbers.nose_yaw_deg;
     config.axes.p_WM_m = {numbers.origin_x_m, numbers.origin_y_m, numbers.origin_z_m};

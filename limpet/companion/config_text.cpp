@@ -54,7 +54,7 @@ std::string mechanism_text(const CompanionConfig& config) {
         config.mechanism == MechanismWire::line
             ? "lines over " + to_text(config.mechanism_address)
             : std::string("DO_SET_ACTUATOR over the sensors' wire"),
-        config.guidance.valve_fitted > 0.5 ? "with a" : "no",
+        config.guidance.valve_fitted ? "with a" : "no",
         config.load_source == ReadingSource::serial ? "in its lines" : words(config.load_source));
 }
 

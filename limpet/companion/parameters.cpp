@@ -6,46 +6,45 @@ namespace limpet {
 const ParameterTable<CompanionLimits>& companion_limits_table() {
     using P = CompanionLimits;
     static const ParameterTable<P> table = {
-        {"guidance_rate_Hz", "Hz", 10.0, 200.0, [](P& p) -> double& { return p.guidance_rate_Hz; },
-         "guidance and set-points", "px4.md: 20 to 50 Hz; as in the simulation"},
-        {"poll_rate_Hz", "Hz", 50.0, 1000.0, [](P& p) -> double& { return p.poll_rate_Hz; },
-         "how often the wires are looked at", "assumed: stamps readings to 2 ms"},
-        {"pose_rate_Hz", "Hz", 10.0, 200.0, [](P& p) -> double& { return p.pose_rate_Hz; },
+        {"guidance_rate_Hz", "Hz", 10.0, 200.0, &P::guidance_rate_Hz, "guidance and set-points",
+         "px4.md: 20 to 50 Hz; as in the simulation"},
+        {"poll_rate_Hz", "Hz", 50.0, 1000.0, &P::poll_rate_Hz, "how often the wires are looked at",
+         "assumed: stamps readings to 2 ms"},
+        {"pose_rate_Hz", "Hz", 10.0, 200.0, &P::pose_rate_Hz,
          "at most so often a pose goes on to the autopilot", "px4.md: 50 Hz was enough"},
-        {"pose_limit_s", "s", 0.05, 5.0, [](P& p) -> double& { return p.pose_limit_s; },
+        {"pose_limit_s", "s", 0.05, 5.0, &P::pose_limit_s,
          "a motion-capture pose older than this is stale", "assumed: 0.28 m at docking speed"},
-        {"estimate_limit_s", "s", 0.05, 5.0, [](P& p) -> double& { return p.estimate_limit_s; },
-         "the autopilot's pose likewise", "assumed: as guidance.sensor_limit_s"},
-        {"silence_limit_s", "s", 1.5, 30.0, [](P& p) -> double& { return p.silence_limit_s; },
+        {"estimate_limit_s", "s", 0.05, 5.0, &P::estimate_limit_s, "the autopilot's pose likewise",
+         "assumed: as guidance.sensor_limit_s"},
+        {"silence_limit_s", "s", 1.5, 30.0, &P::silence_limit_s,
          "autopilot without a heartbeat: silent", "assumed: three of PX4's, at 1 Hz"},
-        {"late_limit_s", "s", 0.05, 0.9, [](P& p) -> double& { return p.late_limit_s; },
+        {"late_limit_s", "s", 0.05, 0.9, &P::late_limit_s,
          "a tick of guidance later than this hands control back",
          "px4.md: offboard is lost after 1 s"},
-        {"arming_s", "s", 0.5, 10.0, [](P& p) -> double& { return p.arming_s; },
+        {"arming_s", "s", 0.5, 10.0, &P::arming_s,
          "after it a heartbeat must show that it is armed", "assumed: two of PX4's, at 1 Hz"},
-        {"agreement_m", "m", 0.01, 10.0, [](P& p) -> double& { return p.agreement_m; },
+        {"agreement_m", "m", 0.01, 10.0, &P::agreement_m,
          "motion capture and the autopilot's pose may differ by this before it begins",
          "assumed: wrong axes differ by more"},
-        {"agreement_deg", "deg", 1.0, 180.0, [](P& p) -> double& { return p.agreement_deg; },
-         "and by this in attitude", "assumed: wrong axes differ by more"},
-        {"wait_limit_s", "s", 1.0, 3600.0, [](P& p) -> double& { return p.wait_limit_s; },
-         "longest wait for the inputs", "assumed"},
-        {"operator_limit_s", "s", 1.0, 7200.0, [](P& p) -> double& { return p.operator_limit_s; },
+        {"agreement_deg", "deg", 1.0, 180.0, &P::agreement_deg, "and by this in attitude",
+         "assumed: wrong axes differ by more"},
+        {"wait_limit_s", "s", 1.0, 3600.0, &P::wait_limit_s, "longest wait for the inputs",
+         "assumed"},
+        {"operator_limit_s", "s", 1.0, 7200.0, &P::operator_limit_s,
          "longest wait for OFFBOARD, armed, in the air", "assumed: a battery's flight"},
-        {"rise_m", "m", 0.0, 5.0, [](P& p) -> double& { return p.rise_m; },
-         "with asks_for_mode: so high off its stand it begins", "assumed: the simulator's stand"},
-        {"begin_tolerance_m", "m", 0.01, 2.0, [](P& p) -> double& { return p.begin_tolerance_m; },
+        {"rise_m", "m", 0.0, 5.0, &P::rise_m, "with asks_for_mode: so high off its stand it begins",
+         "assumed: the simulator's stand"},
+        {"begin_tolerance_m", "m", 0.01, 2.0, &P::begin_tolerance_m,
          "with asks_for_mode: as near to that", "assumed: as the simulator's bring-up"},
-        {"begin_speed_m_s", "m/s", 0.01, 1.0, [](P& p) -> double& { return p.begin_speed_m_s; },
+        {"begin_speed_m_s", "m/s", 0.01, 1.0, &P::begin_speed_m_s,
          "with asks_for_mode: slower than this", "assumed: as the simulator's bring-up"},
-        {"begin_steady_s", "s", 0.0, 30.0, [](P& p) -> double& { return p.begin_steady_s; },
-         "with asks_for_mode: for so long", "assumed: as the simulator's bring-up"},
-        {"hand_back_s", "s", 0.5, 30.0, [](P& p) -> double& { return p.hand_back_s; },
+        {"begin_steady_s", "s", 0.0, 30.0, &P::begin_steady_s, "with asks_for_mode: for so long",
+         "assumed: as the simulator's bring-up"},
+        {"hand_back_s", "s", 0.5, 30.0, &P::hand_back_s,
          "how long the end is told and hold asked for", "assumed: two heartbeats of PX4"},
-        {"mechanism_rate_Hz", "Hz", 1.0, 100.0, [](P& p) -> double& { return p.mechanism_rate_Hz; },
+        {"mechanism_rate_Hz", "Hz", 1.0, 100.0, &P::mechanism_rate_Hz,
          "pump and valve are said so often", "mechanism_line.hpp"},
-        {"hover_s", "s", 1.0, 3600.0, [](P& p) -> double& { return p.hover_s; }, "of mission hover",
-         "as simulation.hover_s"},
+        {"hover_s", "s", 1.0, 3600.0, &P::hover_s, "of mission hover", "as simulation.hover_s"},
     };
     return table;
 }
@@ -53,26 +52,23 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
 const ParameterTable<MotionCaptureNumbers>& motion_capture_table() {
     using P = MotionCaptureNumbers;
     static const ParameterTable<P> table = {
-        {"rigid_body", "count", 1.0, 65535.0, [](P& p) -> double& { return p.rigid_body; },
+        {"rigid_body", "count", 1.0, 65535.0, &P::rigid_body,
          "streaming id of the vehicle in Motive", "Motive: rigid bodies count from 1"},
-        {"x_axis_yaw_deg", "deg", -180.0, 180.0, [](P& p) -> double& { return p.x_axis_yaw_deg; },
+        {"x_axis_yaw_deg", "deg", -180.0, 180.0, &P::x_axis_yaw_deg,
          "where Motive's x axis points: 0 north, 90 east; north may be chosen",
          "assumed: north is where it points"},
-        {"origin_x_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.origin_x_m; },
-         "Motive's origin north of ours", "assumed: the same"},
-        {"origin_y_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.origin_y_m; },
-         "east of ours", "assumed: the same"},
-        {"origin_z_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.origin_z_m; },
-         "below ours", "assumed: the same"},
-        {"nose_yaw_deg", "deg", -180.0, 180.0, [](P& p) -> double& { return p.nose_yaw_deg; },
+        {"origin_x_m", "m", -1000.0, 1000.0, &P::origin_x_m, "Motive's origin north of ours",
+         "assumed: the same"},
+        {"origin_y_m", "m", -1000.0, 1000.0, &P::origin_y_m, "east of ours", "assumed: the same"},
+        {"origin_z_m", "m", -1000.0, 1000.0, &P::origin_z_m, "below ours", "assumed: the same"},
+        {"nose_yaw_deg", "deg", -180.0, 180.0, &P::nose_yaw_deg,
          "nose, clockwise from the rigid body's x axis",
          "assumed: made with the nose along Motive's x"},
-        {"pivot_x_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.pivot_x_m; },
+        {"pivot_x_m", "m", -2.0, 2.0, &P::pivot_x_m,
          "rigid body's pivot ahead of the centre of mass", "assumed: moved there in Motive"},
-        {"pivot_y_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.pivot_y_m; }, "right of it",
+        {"pivot_y_m", "m", -2.0, 2.0, &P::pivot_y_m, "right of it",
          "assumed: moved there in Motive"},
-        {"pivot_z_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.pivot_z_m; }, "below it",
-         "assumed: moved there in Motive"},
+        {"pivot_z_m", "m", -2.0, 2.0, &P::pivot_z_m, "below it", "assumed: moved there in Motive"},
     };
     return table;
 }
@@ -80,16 +76,21 @@ const ParameterTable<MotionCaptureNumbers>& motion_capture_table() {
 const ParameterTable<AutopilotNumbers>& autopilot_wire_table() {
     using P = AutopilotNumbers;
     static const ParameterTable<P> table = {
-        {"system", "count", 1.0, 255.0, [](P& p) -> double& { return p.system; },
-         "the autopilot's MAVLink system", "PX4: MAV_SYS_ID"},
+        {"system", "count", 1.0, 255.0, &P::system, "the autopilot's MAVLink system",
+         "PX4: MAV_SYS_ID"},
     };
     return table;
 }
 
 std::vector<ParameterInfo> companion_parameters() {
-    std::vector<ParameterInfo> all = describe("companion.limits", companion_limits_table());
-    for (auto& more : {describe("companion.motion_capture", motion_capture_table()),
-                       describe("companion.autopilot", autopilot_wire_table())}) {
+    CompanionLimits limits;
+    MotionCaptureNumbers motion_capture;
+    AutopilotNumbers autopilot;
+    std::vector<ParameterInfo> all =
+        describe("companion.limits", bind(companion_limits_table(), limits));
+    for (auto& more :
+         {describe("companion.motion_capture", bind(motion_capture_table(), motion_capture)),
+          describe("companion.autopilot", bind(autopilot_wire_table(), autopilot))}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     return all;

@@ -33,7 +33,7 @@ struct CompanionLimits {
 
 /// How motion capture lies in W and the rigid body on the vehicle: numbers of `motion_capture`.
 struct MotionCaptureNumbers {
-    double rigid_body = 1.0;
+    int rigid_body = 1;
     double x_axis_yaw_deg = 0.0;
     double origin_x_m = 0.0;
     double origin_y_m = 0.0;
@@ -47,7 +47,7 @@ struct MotionCaptureNumbers {
 
 /// The vehicle's number on the wire: `autopilot`.
 struct AutopilotNumbers {
-    double system = 1.0;
+    int system = 1;
 };
 [[nodiscard]] const ParameterTable<AutopilotNumbers>& autopilot_wire_table();
 

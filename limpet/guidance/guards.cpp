@@ -147,7 +147,7 @@ bool held_by_vacuum(const Scene& s) {
            (!s.pressure_known() || s.pressure_Pa() < s.parameters.detach_pressure_Pa);
 }
 bool attempts_used_up(const Scene& s) {
-    return s.settled() && s.memory.attempt >= static_cast<int>(s.parameters.attempts);
+    return s.settled() && s.memory.attempt >= s.parameters.attempts;
 }
 bool rest_over(const Scene& s) {
     return s.elapsed_s() >= s.parameters.rest_s;
@@ -177,7 +177,7 @@ bool back_unperched(const Scene& s) {
     return s.settled() && !s.memory.has_perched;
 }
 bool valve_fitted(const Scene& s) {
-    return s.parameters.valve_fitted > 0.5;
+    return s.parameters.valve_fitted;
 }
 bool pressure_stuck(const Scene& s) {
     return s.elapsed_s() > s.parameters.stuck_s &&

@@ -80,7 +80,7 @@ Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& 
     } else if (memory.state == PerchingState::retreating) {
         retreat(parameters, memory, estimate, elapsed_s, setpoint);
     } else if (memory.state == PerchingState::backing_off) {
-        setpoint.valve_open = parameters.valve_fitted > 0.5;
+        setpoint.valve_open = parameters.valve_fitted;
         retreat(parameters, memory, estimate, elapsed_s, setpoint);
     } else {
         setpoint.motion = stand(parameters, memory);
@@ -93,7 +93,7 @@ Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& 
 /// pitch.
 double level_thrust(const PerchingParameters& parameters, const PerchingMemory& memory,
                     const Estimate& estimate) {
-    if (parameters.altitude_hold < 0.5 || !estimate.valid) {
+    if (!parameters.altitude_hold || !estimate.valid) {
         return thrust_command(parameters, 1.0);
     }
     const double height_error_m =
@@ -141,7 +141,7 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
     } else {  // levelled, releasing, resealing
         const bool releases = memory.state == PerchingState::releasing;
         setpoint.pump_on = !releases;
-        setpoint.valve_open = releases && parameters.valve_fitted > 0.5;
+        setpoint.valve_open = releases && parameters.valve_fitted;
         setpoint.motion = attitude(memory, 0.0, level_thrust(parameters, memory, estimate));
     }
     return setpoint;

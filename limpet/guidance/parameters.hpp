@@ -16,7 +16,7 @@ struct PerchingParameters {
     double joint_z_m = 0.0;            ///< and below it
     double hover_thrust = 0.657;       ///< motor command that carries the weight
     double zero_thrust = -1.0 / 7.0;   ///< motor command at which the rotors would stand still
-    double valve_fitted = 0.0;         ///< 1: the cup has a solenoid valve
+    bool valve_fitted = false;         ///< the cup has a solenoid valve
     // pre-position
     double pre_distance_m = 1.5;
     double pre_tolerance_m = 0.05;
@@ -54,7 +54,7 @@ struct PerchingParameters {
     double detach_pressure_Pa = 98000.0;
     double release_limit_s = 16.0;  ///< then the release is given up
     double oscillation_limit_deg = 10.0;
-    double altitude_hold = 0.0;        ///< 1: thrust keeps the height while level on the cup
+    bool altitude_hold = false;        ///< thrust keeps the height while level on the cup
     double altitude_gain_1_s = 1.0;    ///< climb rate asked per error of height
     double climb_rate_gain_1_s = 4.0;  ///< acceleration asked per error of that rate
     double reseal_limit_s = 3.0;
@@ -63,7 +63,7 @@ struct PerchingParameters {
     double retreat_acceleration_m_s2 = 1.0;
     double retreat_limit_s = 12.0;
     // faults
-    double attempts = 3.0;
+    int attempts = 3;
     double sensor_limit_s = 0.25;   ///< a reading older than this is lost
     double wait_limit_s = 20.0;     ///< for pre-position and alignment
     double slip_limit_m = 0.12;     ///< the joint this far from where it gripped: came off

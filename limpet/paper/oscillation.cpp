@@ -37,7 +37,7 @@ void silence(Scenario& scenario) {
         if (holds(row.name, "_noise") || holds(row.name, "_bias") || holds(row.name, "_walk") ||
             holds(row.name, "_dropout")) {
             if (row.minimum <= 0.0 && !holds(row.name, "_tau")) {
-                row.field(scenario.sensors) = 0.0;
+                row.of(scenario.sensors).set(0.0);
             }
         }
     }

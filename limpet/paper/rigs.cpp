@@ -146,10 +146,9 @@ void measure_vehicle(Evidence& evidence) {
                  })));
     evidence.set("vehicle.pitch_on_legs_deg", degrees(pitch_on_legs_rad(airframe)));
     evidence.set("free_body.relative_error", free_body_error());
-    evidence.set("estimator.motion_capture_only",
-                 scenario.autopilot.EKF2_EV_CTRL > 0.0 && scenario.autopilot.EKF2_GPS_CTRL == 0.0
-                     ? 1.0
-                     : 0.0);
+    evidence.set(
+        "estimator.motion_capture_only",
+        scenario.autopilot.EKF2_EV_CTRL > 0 && scenario.autopilot.EKF2_GPS_CTRL == 0 ? 1.0 : 0.0);
 }
 
 std::vector<BreakOff> break_off_loads() {

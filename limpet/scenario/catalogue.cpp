@@ -57,16 +57,8 @@ std::vector<ParameterInfo> all_parameters() {
     Scenario defaults;
     std::vector<ParameterInfo> all;
     for (const Section& section : scenario_sections(defaults)) {
-        for (const BoundParameter& row : section.rows) {
-            all.push_back({.section = section.name,
-                           .name = std::string(row.name),
-                           .unit = std::string(row.unit),
-                           .minimum = row.minimum,
-                           .maximum = row.maximum,
-                           .default_value = *row.value,
-                           .description = std::string(row.description),
-                           .source = std::string(row.source)});
-        }
+        const std::vector<ParameterInfo> rows = describe(section.name, section.rows);
+        all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;
 }

@@ -30,7 +30,7 @@ void read_diagonal(const YamlNode* node, const std::vector<BoundParameter>& rows
         fail(*node, fmt::format("needs {} numbers, has {}", rows.size(), node->children.size()));
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        *rows[i].value = read_number(node->children[i], rows[i]);
+        rows[i].value.set(read_number(node->children[i], rows[i]));
     }
 }
 

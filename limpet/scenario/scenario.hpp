@@ -44,8 +44,8 @@ struct SimulationParameters {
     double touch_transient_s = 0.3;  ///< sub-steps for so long after a touch or a release
     double step_s = 1e-3;            ///< plant step in free flight and while hanging
     double touch_step_s = 2.5e-4;    ///< plant step around a touch
-    double record_rate_Hz = 100.0;   ///< of true states; sensors are recorded as they come
-    double guidance_rate_Hz = 50.0;
+    int record_rate_Hz = 100;        ///< of true states; sensors are recorded as they come
+    int guidance_rate_Hz = 50;
 };
 [[nodiscard]] const ParameterTable<SimulationParameters>& simulation_table();
 

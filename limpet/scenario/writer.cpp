@@ -36,7 +36,7 @@ public:
     }
     void rows(int indent, const std::vector<BoundParameter>& rows) {
         for (const BoundParameter& row : rows) {
-            value(indent, row.name, number_text(*row.value));
+            value(indent, row.name, value_text(row.value));
         }
     }
     [[nodiscard]] std::string take() { return std::move(text_); }
@@ -117,8 +117,8 @@ void write_section(Writer& writer, const Section& section, const Section& derive
     writer.line(0, section.name + ":");
     for (std::size_t i = 0; i < section.rows.size(); ++i) {
         const BoundParameter& row = section.rows[i];
-        if (!is_derived(section.name, row.name) || *row.value != *derived.rows[i].value) {
-            writer.value(1, row.name, number_text(*row.value));
+        if (!is_derived(section.name, row.name) || row.value.get() != derived.rows[i].value.get()) {
+            writer.value(1, row.name, value_text(row.value));
         }
     }
 }

@@ -93,22 +93,19 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
 }
 
 double read_number(const YamlNode& node, const BoundParameter& row) {
-    const bool is_switch = row.minimum == 0.0 && row.maximum == 1.0;
-    if (is_switch) {
-        if (const auto flag = flag_of(node)) {
-            return *flag ? 1.0 : 0.0;
-        }
+    const auto value = is_plain(node) ? number_of(node.text) : std::nullopt;
+    if (row.value.is_switch() && value != 0.0 && value != 1.0) {
+        return read_flag(node) ? 1.0 : 0.0;
     }
     if (is_plain(node) && is_not_finite(node.text)) {
         fail(node, fmt::format("{} is not a finite number, allowed {}", shown(node.text),
                                allowed_text(row)));
     }
-    const auto value = is_plain(node) ? number_of(node.text) : std::nullopt;
     if (!value) {
         fail(node, fmt::format("must be a number, is {}, allowed {}", what_it_is(node),
                                allowed_text(row)));
     }
-    if ((row.unit == "count" || row.unit == "switch") && *value != std::floor(*value)) {
+    if (row.value.is_count() && *value != std::floor(*value)) {
         fail(node, fmt::format("{} is not a whole number, allowed {}", shown(node.text),
                                allowed_text(row)));
     }
@@ -157,7 +154,7 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
     check_keys(*section, allowed, fmt::format("`limpet params {}` lists what there is", room));
     for (const BoundParameter& row : rows) {
         if (const YamlNode* node = section->find(row.name)) {
-            *row.value = read_number(*node, row);
+            row.value.set(read_number(*node, row));
         }
     }
 }
@@ -166,8 +163,14 @@ std::string number_text(double value) {
     return fmt::format("{}", value);
 }
 
+std::string value_text(const ParameterValue& value) {
+    return value.is_switch()  ? (value.get() != 0.0 ? "true" : "false")
+           : value.is_count() ? fmt::format("{:.0f}", value.get())
+                              : number_text(value.get());
+}
+
 std::string allowed_text(const BoundParameter& row) {
-    const bool bare = row.unit == "-" || row.unit == "count" || row.unit == "switch";
+    const bool bare = row.unit == "-" || row.unit == "count";
     return fmt::format("{}..{}{}{}", number_text(row.minimum), number_text(row.maximum),
                        bare ? "" : " ", bare ? "" : row.unit);
 }

@@ -11,30 +11,6 @@
 
 namespace limpet {
 
-/// A row of a parameter table together with the value it describes.
-struct BoundParameter {
-    std::string_view name;
-    std::string_view unit;
-    double minimum = 0.0;
-    double maximum = 0.0;
-    double* value = nullptr;
-    std::string_view description;
-    std::string_view source;
-};
-
-/// @param values  must outlive what is returned
-template <class Struct>
-[[nodiscard]] std::vector<BoundParameter> bind(const ParameterTable<Struct>& table,
-                                               Struct& values) {
-    std::vector<BoundParameter> rows;
-    rows.reserve(table.size());
-    for (const Parameter<Struct>& row : table) {
-        rows.push_back({row.name, row.unit, row.minimum, row.maximum, &row.field(values),
-                        row.description, row.source});
-    }
-    return rows;
-}
-
 // All of these throw InputError, one line that names place, key, value and what is allowed.
 
 /// @return false when the section is absent or empty, so that there is nothing to read
@@ -46,7 +22,7 @@ template <class Struct>
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
                 std::string_view ask = {});
 
-/// A number in the range of its row. Rows that allow 0..1 also take true and false.
+/// A number in the range of its row, whole for a count; of a switch true, false, 0 or 1.
 [[nodiscard]] double read_number(const YamlNode& node, const BoundParameter& row);
 [[nodiscard]] std::string read_text(const YamlNode& node);
 [[nodiscard]] bool read_flag(const YamlNode& node);
@@ -62,6 +38,8 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
 /// @return the same digits for the same bits, as few as tell it from its neighbours
 [[nodiscard]] std::string number_text(double value);
 /// @return "0.01..3 m/s"
+/// @return the same, of a switch "true" or "false"
+[[nodiscard]] std::string value_text(const ParameterValue& value);
 [[nodiscard]] std::string allowed_text(const BoundParameter& row);
 
 }  // namespace limpet

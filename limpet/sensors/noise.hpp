@@ -27,8 +27,8 @@ struct GaussMarkov {
 }
 
 /// due() for a rate that comes from a parameter; one below 1 Hz is never due.
-[[nodiscard]] inline bool sampled(Tick tick, double rate_Hz) {
-    return rate_Hz >= 1.0 && due(tick, static_cast<int>(rate_Hz));
+[[nodiscard]] inline bool sampled(Tick tick, int rate_Hz) {
+    return rate_Hz >= 1 && due(tick, rate_Hz);
 }
 
 }  // namespace limpet

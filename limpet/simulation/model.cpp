@@ -53,9 +53,9 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
                            attitude(scenario.start));
     model->clamp = clamp(scenario.press_rig, scenario.airframe);
-    model->control_rate_Hz = whole(scenario.sensors.imu_rate_Hz);
-    model->guidance_rate_Hz = whole(scenario.simulation.guidance_rate_Hz);
-    model->record_rate_Hz = whole(scenario.simulation.record_rate_Hz);
+    model->control_rate_Hz = scenario.sensors.imu_rate_Hz;
+    model->guidance_rate_Hz = scenario.simulation.guidance_rate_Hz;
+    model->record_rate_Hz = scenario.simulation.record_rate_Hz;
     model->steps_a_tick = whole(kTick_s / scenario.simulation.step_s);
     model->touch_steps_a_tick = whole(kTick_s / scenario.simulation.touch_step_s);
     return model;

@@ -109,11 +109,10 @@ void advance_pressure(const CupParameters& parameters, CupState& state, const Su
 const ParameterTable<CupParameters>& cup_table() {
     using C = CupParameters;
     static const ParameterTable<C> table = {
-        {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0,
-         [](C& c) -> double& { return c.attachment_pressure_Pa; },
+        {"attachment_pressure_Pa", "Pa", 1000.0, 101325.0, &C::attachment_pressure_Pa,
          "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
-        {"valve_fitted", "switch", 0.0, 1.0, [](C& c) -> double& { return c.valve_fitted; },
-         "1: a solenoid valve breaks the vacuum", "paper, section V.B (proposed)"},
+        {"valve_fitted", "switch", 0.0, 1.0, &C::valve_fitted, "a solenoid valve breaks the vacuum",
+         "paper, section V.B (proposed)"},
     };
     return table;
 }

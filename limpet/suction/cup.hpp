@@ -36,7 +36,7 @@ struct CupParameters {
     LipParameters lip;
     PressureParameters pressure;
     double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
-    double valve_fitted = 0.0;                ///< 1: a solenoid valve breaks the vacuum
+    bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
     int pressure_model = 0;                   ///< place in pressure_models()
 };
 

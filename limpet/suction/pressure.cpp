@@ -56,16 +56,13 @@ double time_to_pressure_s(const Surface& surface, const FirstOrderParameters& cu
 const ParameterTable<FirstOrderParameters>& FirstOrder::table() {
     using P = FirstOrderParameters;
     static const ParameterTable<P> table = {
-        {"valve_time_constant_s", "s", 1e-4, 1e3,
-         [](P& p) -> double& { return p.valve_time_constant_s; },
+        {"valve_time_constant_s", "s", 1e-4, 1e3, &P::valve_time_constant_s,
          "pressure rises with it through the open valve", "facts.md item 20: 2 mm on 60 cm^3"},
-        {"open_time_constant_s", "s", 1e-4, 1e3,
-         [](P& p) -> double& { return p.open_time_constant_s; },
+        {"open_time_constant_s", "s", 1e-4, 1e3, &P::open_time_constant_s,
          "pressure rises with it in a cup off the wall", "assumed"},
-        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, [](P& p) -> double& { return p.pump_stop_band_Pa; },
+        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, &P::pump_stop_band_Pa,
          "a cycling pump stops this close to the steady vacuum", "assumed"},
-        {"pump_restart_band_Pa", "Pa", 0.0, 1e5,
-         [](P& p) -> double& { return p.pump_restart_band_Pa; },
+        {"pump_restart_band_Pa", "Pa", 0.0, 1e5, &P::pump_restart_band_Pa,
          "and starts again this far from it", "assumed"},
     };
     return table;
@@ -73,7 +70,7 @@ const ParameterTable<FirstOrderParameters>& FirstOrder::table() {
 
 bool FirstOrder::pump_rests(const Parameters& parameters, const SealedAir& air) {
     const double above_Pa = air.pressure_Pa - air.surface.vacuum_pressure_Pa;
-    return air.surface.pump_cycles > 0.5 &&
+    return air.surface.pump_cycles &&
            (above_Pa < parameters.pump_stop_band_Pa ||
             (air.pump_resting && above_Pa < parameters.pump_restart_band_Pa));
 }

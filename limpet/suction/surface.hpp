@@ -23,7 +23,7 @@ struct Surface {
     double seal_threshold_sigma = 0.30;     ///< of its logarithm
     double seal_tilt_median_deg = 14.0;     ///< tilt at which half of the touches fail to seal
     double seal_tilt_sigma_deg = 3.0;
-    double pump_cycles = 0.0;       ///< 1: tight enough for the pump to switch off
+    bool pump_cycles = false;       ///< tight enough for the pump to switch off
     double pump_ripple_Pa = 600.0;  ///< amplitude while the pump runs
     double pump_ripple_Hz = 8.0;
     double pore_volume_cm3 = 78.6;          ///< of the wall, pumped out with the cup (pneumatic)

@@ -63,7 +63,7 @@ struct LegParameters {
 };
 
 struct BatteryParameters {
-    double cells = 6.0;
+    int cells = 6;
     double capacity_Ah = 4.0;
     double internal_resistance_ohm = 0.03;
     double avionics_power_W = 12.0;  ///< companion computer, autopilot, sensors

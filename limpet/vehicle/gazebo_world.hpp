@@ -12,11 +12,11 @@ namespace limpet {
 
 /// Gazebo's own sensors on the vehicle, for topics and pictures; the loop reads its own.
 struct GazeboSensors {
-    double imu_rate_Hz = 250.0;
-    double lidar_rate_Hz = 100.0;
+    int imu_rate_Hz = 250;
+    int lidar_rate_Hz = 100;
     double lidar_range_min_m = 0.1;
     double lidar_range_max_m = 12.0;
-    double force_rate_Hz = 250.0;  ///< force and torque in the slider, contacts of the legs
+    int force_rate_Hz = 250;  ///< force and torque in the slider, contacts of the legs
 };
 
 /// What the vehicle's plugin is told.

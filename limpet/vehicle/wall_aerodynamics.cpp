@@ -44,31 +44,26 @@ double closeness(const WallAirParameters& parameters, double radii) {
 const ParameterTable<WallAirParameters>& wall_air_table() {
     using W = WallAirParameters;
     static const ParameterTable<W> table = {
-        {"wall_aerodynamics", "switch", 0.0, 1.0,
-         [](W& w) -> double& { return w.wall_aerodynamics; },
-         "1: steady force and pitching moment of the air near the wall",
+        {"wall_aerodynamics", "switch", 0.0, 1.0, &W::wall_aerodynamics,
+         "steady force and pitching moment of the air near the wall",
          "paper: its simulation has none"},
-        {"wall_force_scale", "-", -10.0, 10.0, [](W& w) -> double& { return w.wall_force_scale; },
+        {"wall_force_scale", "-", -10.0, 10.0, &W::wall_force_scale,
          "of the published mean; > 0 towards the wall",
          "assumed: two facilities disagree on the sign, facts.md section 5"},
-        {"wall_moment_scale", "-", -10.0, 10.0, [](W& w) -> double& { return w.wall_moment_scale; },
+        {"wall_moment_scale", "-", -10.0, 10.0, &W::wall_moment_scale,
          "of the published mean, 0.45 to 1.55 span the two facilities at d/R = 1; > 0 the wall's "
          "side goes down",
          "assumed: facts.md section 5 gives no sign"},
-        {"recirculation_moment_rms_N_m", "N m", 0.0, 10.0,
-         [](W& w) -> double& { return w.recirculation_moment_rms_N_m; },
+        {"recirculation_moment_rms_N_m", "N m", 0.0, 10.0, &W::recirculation_moment_rms_N_m,
          "wandering pitching moment of the wake at the wall, at hover thrust",
          "assumed: facts.md section 5, 0.05 to 0.1; paper: none"},
-        {"recirculation_correlation_s", "s", 0.01, 100.0,
-         [](W& w) -> double& { return w.recirculation_correlation_s; }, "correlation time of it",
-         "assumed: facts.md section 5"},
-        {"recirculation_full_radii", "-", 0.0, 10.0,
-         [](W& w) -> double& { return w.recirculation_full_radii; },
+        {"recirculation_correlation_s", "s", 0.01, 100.0, &W::recirculation_correlation_s,
+         "correlation time of it", "assumed: facts.md section 5"},
+        {"recirculation_full_radii", "-", 0.0, 10.0, &W::recirculation_full_radii,
          "closest motor axis to the wall in propeller radii at which it is full",
          "assumed: 1.7 to 1.9 when attached"},
-        {"recirculation_none_radii", "-", 0.1, 20.0,
-         [](W& w) -> double& { return w.recirculation_none_radii; }, "and from which there is none",
-         "assumed: as the steady part ends"},
+        {"recirculation_none_radii", "-", 0.1, 20.0, &W::recirculation_none_radii,
+         "and from which there is none", "assumed: as the steady part ends"},
     };
     return table;
 }
@@ -112,7 +107,7 @@ void step(const WallAirModel& model, WallAirState& state) {
 }
 
 bool acts(const WallAirModel& model) {
-    return model.parameters.wall_aerodynamics > 0.5 ||
+    return model.parameters.wall_aerodynamics ||
            model.parameters.recirculation_moment_rms_N_m > 0.0;
 }
 
@@ -125,7 +120,7 @@ Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
     const double along = axis_W.dot(x_T_W);
     const double level = std::sqrt(std::max(0.0, 1.0 - along * along));
     Wrench wrench;
-    if (parameters.wall_aerodynamics > 0.5) {
+    if (parameters.wall_aerodynamics) {
         const WallCoefficients c = wall_coefficients(radii);
         const double diameter_m = 2.0 * airframe.rotor.radius_m;
         const double unit_N =

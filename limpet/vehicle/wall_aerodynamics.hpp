@@ -24,7 +24,7 @@ namespace limpet {
 
 /// Rows of `environment:` about the wall. All off by default.
 struct WallAirParameters {
-    double wall_aerodynamics = 0.0;             ///< 1: the steady part
+    bool wall_aerodynamics = false;             ///< the steady part
     double wall_force_scale = 1.0;              ///< of the published mean; > 0 towards the wall
     double wall_moment_scale = 1.0;             ///< > 0 the side at the wall goes down
     double recirculation_moment_rms_N_m = 0.0;  ///< when attached, at hover thrust

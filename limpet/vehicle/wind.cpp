@@ -69,21 +69,21 @@ GustAxis stationary(RandomStream& random) {
 const ParameterTable<WindParameters>& wind_table() {
     using W = WindParameters;
     static const ParameterTable<W> table = {
-        {"wind_speed_m_s", "m/s", 0.0, 30.0, [](W& w) -> double& { return w.wind_speed_m_s; },
+        {"wind_speed_m_s", "m/s", 0.0, 30.0, &W::wind_speed_m_s,
          "constant wind at the vehicle, level", "paper: indoors, none"},
-        {"wind_from_deg", "deg", -360.0, 360.0, [](W& w) -> double& { return w.wind_from_deg; },
+        {"wind_from_deg", "deg", -360.0, 360.0, &W::wind_from_deg,
          "where the wind comes from, from north, clockwise", "convention: as weather stations"},
-        {"gust_wind_m_s", "m/s", 0.0, 30.0, [](W& w) -> double& { return w.gust_wind_m_s; },
+        {"gust_wind_m_s", "m/s", 0.0, 30.0, &W::gust_wind_m_s,
          "> 0: Dryden gusts as they are under this wind at 6.1 m",
          "MIL-F-8785C, 3.7.3; paper: indoors, none"},
-        {"gust_height_m", "m", 3.1, 304.8, [](W& w) -> double& { return w.gust_height_m; },
+        {"gust_height_m", "m", 3.1, 304.8, &W::gust_height_m,
          "height for gust_wind_m_s; those rules begin at 10 ft", "MIL-F-8785C: reference 20 ft"},
-        {"gust_sigma_m_s", "m/s", 0.0, 10.0, [](W& w) -> double& { return w.gust_sigma_m_s; },
+        {"gust_sigma_m_s", "m/s", 0.0, 10.0, &W::gust_sigma_m_s,
          "> 0: Dryden gusts of this deviation on each axis; gust_wind_m_s must be 0",
          "paper: indoors, none"},
-        {"gust_length_m", "m", 0.05, 1000.0, [](W& w) -> double& { return w.gust_length_m; },
+        {"gust_length_m", "m", 0.05, 1000.0, &W::gust_length_m,
          "length of the gusts of gust_sigma_m_s", "assumed: eddies of a hall"},
-        {"gust_drift_m_s", "m/s", 0.01, 30.0, [](W& w) -> double& { return w.gust_drift_m_s; },
+        {"gust_drift_m_s", "m/s", 0.01, 30.0, &W::gust_drift_m_s,
          "speed with which gusts pass when wind_speed_m_s is less",
          "assumed: a gust of 5 m takes 2.5 s"},
     };

@@ -47,14 +47,14 @@ protected:
         flag("ends_with_mission", options.ends_with_mission);
         for (const BoundParameter& row : bind(ros::offboard_manners_table(), options.manners)) {
             if (const YamlNode* node = parameters.find(row.name)) {
-                *row.value = read_number(*node, row);
+                row.value.set(read_number(*node, row));
             }
         }
         auto limits = bind(simulation_table(), flight.scenario.simulation);
         for (const BoundParameter& row : limits) {
             const YamlNode* node = row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;
             if (node != nullptr) {
-                *row.value = read_number(*node, row);
+                row.value.set(read_number(*node, row));
             }
         }
         if (const YamlNode* node = parameters.find("autopilot");

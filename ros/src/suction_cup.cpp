@@ -31,7 +31,7 @@ void SuctionCup::start() {
 
 void SuctionCup::command(bool pump_on, bool valve_open) {
     pump_on_ = pump_on;
-    valve_open_ = valve_open && scenario_.cup.valve_fitted > 0.5;
+    valve_open_ = valve_open && scenario_.cup.valve_fitted;
 }
 
 /// Of the spot that is under the cup; a touch that has not come yet meets the next one.

@@ -6,10 +6,9 @@ namespace limpet::ros {
 const ParameterTable<OffboardManners>& offboard_manners_table() {
     using M = OffboardManners;
     static const ParameterTable<M> table = {
-        {"offboard_loss_s", "s", 0.02, 60.0, [](M& m) -> double& { return m.loss_s; },
-         "without set-points for so long it holds",
+        {"offboard_loss_s", "s", 0.02, 60.0, &M::loss_s, "without set-points for so long it holds",
          "PX4 allows 1 s (COM_OF_LOSS_T); half of it, as set-points come 50 times a second"},
-        {"hold_speed_m_s", "m/s", 0.01, 10.0, [](M& m) -> double& { return m.hold_speed_m_s; },
+        {"hold_speed_m_s", "m/s", 0.01, 10.0, &M::hold_speed_m_s,
          "it brakes down to this, then holds where it is",
          "assumed; PX4 brakes too before it locks its position (MPC_HOLD_MAX_XY)"},
     };

@@ -21,8 +21,8 @@ void vehicle_node() {
     const NodeSetup setup = load_setup(arguments);
     RosVehicleOptions options;
     for (const auto& row : offboard_manners_table()) {
-        double& value = row.field(options.manners);
-        value = parameters.number(std::string(row.name), value, row.minimum, row.maximum);
+        const ParameterValue value = row.of(options.manners);
+        value.set(parameters.number(std::string(row.name), value.get(), row.minimum, row.maximum));
     }
     options.cup_by_node = parameters.flag("cup_by_node", options.cup_by_node);
     options.ends_with_mission = parameters.flag("ends_with_mission", options.ends_with_mission);

@@ -28,7 +28,7 @@ TEST(NodeSetup, GuidanceIsThatOfTheScenario) {
                                         .seed = {}});
     const Scenario scenario = load_scenario("perch_metal_valve");
     EXPECT_EQ(setup.scenario.guidance.hover_thrust, scenario.guidance.hover_thrust);
-    EXPECT_EQ(setup.scenario.guidance.valve_fitted, 1.0);
+    EXPECT_EQ(setup.scenario.guidance.valve_fitted, true);
     EXPECT_EQ(setup.scenario.guidance.hold_s, 0.7);
     EXPECT_EQ(setup.limits.late_limit_s, 0.8);
     EXPECT_EQ(setup.scenario.wall.surface.name, scenario.wall.surface.name);

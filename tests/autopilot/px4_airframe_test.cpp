@@ -126,7 +126,7 @@ TEST_F(WrittenParams, LoadBackAsTheyWere) {
         if (fact != nullptr && fact->type == Px4Type::real32 && !row.name.starts_with("EKF2_")) {
             const double low = std::max(row.minimum, fact->minimum);
             const double high = std::min(row.maximum, fact->maximum);
-            row.field(airframe.autopilot) = low + (high - low) / 3.0;
+            row.of(airframe.autopilot).set(low + (high - low) / 3.0);
         }
     }
     std::ofstream(path_) << px4_params_text(airframe, px4_settings(airframe));

@@ -56,7 +56,7 @@ TEST_F(StandInManners, DoesNotArmTiltedEvenByForce) {
         EXPECT_EQ(disarm(manners, now, false), CommandResult::accepted);
         now.*angle = 0.0;
     }
-    parameters.FD_FAIL_P = 0.0;
+    parameters.FD_FAIL_P = 0;
     now.pitch_rad = radians(85.0);
     EXPECT_EQ(arm(parameters, manners, now, false), CommandResult::accepted);
 }

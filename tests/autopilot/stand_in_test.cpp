@@ -130,9 +130,9 @@ TEST(StandIn, PosesThatStopMakeItsEstimateInvalid) {
 
 TEST(StandIn, WithGpsAndMagnetometerItFindsItsHeading) {
     AutopilotParameters parameters;
-    parameters.EKF2_EV_CTRL = 0.0;
-    parameters.EKF2_GPS_CTRL = 7.0;
-    parameters.EKF2_MAG_TYPE = 0.0;
+    parameters.EKF2_EV_CTRL = 0;
+    parameters.EKF2_GPS_CTRL = 7;
+    parameters.EKF2_MAG_TYPE = 0;
     StandInDriver driver({}, parameters);
     driver.poses_over_tcp = false;
     driver.gps = true;

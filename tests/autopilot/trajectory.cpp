@@ -81,10 +81,10 @@ AutopilotParameters matched_to(const SensorNoise& noise) {
 
 AutopilotParameters matched_to_without_motion_capture(const SensorNoise& noise) {
     AutopilotParameters p = matched_to(noise);
-    p.EKF2_EV_CTRL = 0.0;
-    p.EKF2_GPS_CTRL = 7.0;
-    p.EKF2_BARO_CTRL = 1.0;
-    p.EKF2_MAG_TYPE = 0.0;
+    p.EKF2_EV_CTRL = 0;
+    p.EKF2_GPS_CTRL = 7;
+    p.EKF2_BARO_CTRL = 1;
+    p.EKF2_MAG_TYPE = 0;
     p.EKF2_GPS_P_NOISE = noise.gps_m;
     p.EKF2_GPS_V_NOISE = noise.gps_m_s;
     p.EKF2_BARO_NOISE = noise.barometer_m;

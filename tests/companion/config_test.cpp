@@ -11,6 +11,7 @@
 
 #include "limpet/companion/wires.hpp"
 #include "limpet/core/errors.hpp"
+#include "tests/core/whole_table.hpp"
 
 namespace limpet {
 namespace {
@@ -78,7 +79,7 @@ TEST(CompanionConfig, HasTheDefaultsThatItsFilesName) {
     EXPECT_EQ(config.rigid_body, 3);
     EXPECT_EQ(config.axes.up, devices::UpAxis::z);
     EXPECT_EQ(config.load_source, ReadingSource::serial);
-    EXPECT_EQ(config.guidance.valve_fitted, 1.0);
+    EXPECT_EQ(config.guidance.valve_fitted, true);
     EXPECT_FALSE(config.task.take_off);
     EXPECT_TRUE(has_serial(config));
     EXPECT_EQ(load(kGood + "sensors: {address: udp:14700}\n").sensors->port, 14700) << "named";
@@ -198,15 +199,9 @@ TEST(CompanionConfig, RefusesAKeyFileThatIsNone) {
 }
 
 TEST(CompanionParameters, AreAllInTheirTablesOnceAndInRange) {
-    EXPECT_EQ(companion_limits_table().size(), sizeof(CompanionLimits) / sizeof(double));
-    EXPECT_EQ(motion_capture_table().size(), sizeof(MotionCaptureNumbers) / sizeof(double));
-    EXPECT_EQ(autopilot_wire_table().size(), sizeof(AutopilotNumbers) / sizeof(double));
-    CompanionLimits limits;
-    std::vector<double*> fields;
-    for (const auto& row : companion_limits_table()) {
-        fields.push_back(&row.field(limits));
-    }
-    std::sort(fields.begin(), fields.end());
+    test::expect_whole(companion_limits_table(), "limits");
+    test::expect_whole(motion_capture_table(), "motion_capture");
+    test::expect_whole(autopilot_wire_table(), "autopilot");
     EXPECT_EQ(std::adjacent_find(fields.begin(), fields.end()), fields.end());
     for (const ParameterInfo& row : companion_parameters()) {
         EXPECT_LT(row.minimum, row.maximum) << row.name;

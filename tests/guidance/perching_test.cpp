@@ -25,7 +25,7 @@ TEST(Perching, GoesThroughTheWholeManoeuvre) {
 
 TEST(Perching, WithAValveItOpensIt) {
     Puppet puppet;
-    puppet.parameters.valve_fitted = 1.0;
+    puppet.parameters.valve_fitted = true;
     puppet.leak_tau_s = 16.0;
     puppet.run(120.0);
     EXPECT_THAT(puppet.names(), testing::Contains(valve_open));
@@ -91,7 +91,7 @@ TEST(Perching, GivesUpAfterItsAttempts) {
     puppet.run(200.0);
     ASSERT_TRUE(puppet.memory.ending);
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
-    EXPECT_EQ(puppet.memory.attempt, static_cast<int>(puppet.parameters.attempts));
+    EXPECT_EQ(puppet.memory.attempt, puppet.parameters.attempts);
 }
 
 TEST(Perching, PumpGoesOffOnlyOnceLevelAndStable) {

@@ -176,11 +176,26 @@ TEST_F(BadInput, StepsThatDoNotDivide) {
     EXPECT_EQ(hover_error("simulation: {step_s: 0.0005, touch_step_s: 0.000125}\n"), "");
 }
 
+TEST_F(BadInput, SwitchesAndCounts) {
+    const std::string valve = "x.yaml:3: suction.valve_fitted: must be true or false, is ";
+    EXPECT_EQ(hover_error("suction: {valve_fitted: 0.5}\n"), valve + "\"0.5\"");
+    EXPECT_EQ(hover_error("suction: {valve_fitted: yes}\n"), valve + "\"yes\"");
+    EXPECT_EQ(hover_error("suction: {valve_fitted: \"1\"}\n"), valve + "\"1\"");
+    for (const std::string value : {"true", "False", "0", "1", "1.0"}) {
+        EXPECT_EQ(hover_error("suction: {valve_fitted: " + value + "}\n"), "");
+    }
+    EXPECT_EQ(hover_error("guidance: {attempts: 2.5}\n"),
+              "x.yaml:3: guidance.attempts: 2.5 is not a whole number, allowed 1..100");
+    EXPECT_EQ(hover_error("guidance: {attempts: true}\n"),
+              "x.yaml:3: guidance.attempts: must be a number, is \"true\", allowed 1..100");
+}
+
 TEST_F(BadInput, RatesThatAreNotWhole) {
-    EXPECT_EQ(hover_error("simulation: {guidance_rate_Hz: 12.5}\n"),
-              "x.yaml:3: simulation.guidance_rate_Hz: 12.5 is not a whole number of Hz");
+    EXPECT_EQ(
+        hover_error("simulation: {guidance_rate_Hz: 12.5}\n"),
+        "x.yaml:3: simulation.guidance_rate_Hz: 12.5 is not a whole number, allowed 1..1000 Hz");
     EXPECT_EQ(hover_error("sensors: {lidar_rate_Hz: 33.3}\n"),
-              "x.yaml:3: sensors.lidar_rate_Hz: 33.3 is not a whole number of Hz");
+              "x.yaml:3: sensors.lidar_rate_Hz: 33.3 is not a whole number, allowed 0..1000 Hz");
     EXPECT_EQ(hover_error("simulation: {record_rate_Hz: 0}\n"),
               "x.yaml:3: simulation.record_rate_Hz: 0 is out of range, allowed 1..1000 Hz");
 }

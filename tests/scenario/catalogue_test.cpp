@@ -50,7 +50,7 @@ TEST(Catalogue, FindsNoFolderEmpty) {
 
 TEST(Catalogue, TakesSurfacesByName) {
     const TestData data;
-    EXPECT_EQ(load_surface("glass", data.root()).pump_cycles, 1.0);
+    EXPECT_EQ(load_surface("glass", data.root()).pump_cycles, true);
     EXPECT_EQ(error_of([&] { return load_surface("glas", data.root()); }),
               "\"glas\": no such surface (did you mean glass?); there are stone, glass");
 }

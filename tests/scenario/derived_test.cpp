@@ -47,8 +47,8 @@ TEST_F(Derived, TheEarthsFieldIsTheSensors) {
 }
 
 TEST_F(Derived, GuidanceKnowsOfTheValve) {
-    EXPECT_EQ(load({}).guidance.valve_fitted, 0.0);
-    EXPECT_EQ(load({"suction.valve_fitted=true"}).guidance.valve_fitted, 1.0);
+    EXPECT_EQ(load({}).guidance.valve_fitted, false);
+    EXPECT_EQ(load({"suction.valve_fitted=true"}).guidance.valve_fitted, true);
 }
 
 TEST_F(Derived, GivenKeysWin) {

@@ -16,7 +16,7 @@ void expect_same_surface(Surface a, Surface b) {
     const auto rows_a = bind(surface_table(), a);
     const auto rows_b = bind(surface_table(), b);
     for (std::size_t i = 0; i < rows_a.size(); ++i) {
-        EXPECT_EQ(*rows_a[i].value, *rows_b[i].value) << rows_a[i].name;
+        EXPECT_EQ(rows_a[i].value.get(), rows_b[i].value.get()) << rows_a[i].name;
     }
 }
 
@@ -45,7 +45,7 @@ void expect_same(Scenario a, Scenario b) {
     const auto sections_b = scenario_sections(b);
     for (std::size_t i = 0; i < sections_a.size(); ++i) {
         for (std::size_t j = 0; j < sections_a[i].rows.size(); ++j) {
-            EXPECT_EQ(*sections_a[i].rows[j].value, *sections_b[i].rows[j].value)
+            EXPECT_EQ(sections_a[i].rows[j].value.get(), sections_b[i].rows[j].value.get())
                 << sections_a[i].name << "." << sections_a[i].rows[j].name;
         }
     }
@@ -73,6 +73,13 @@ TEST(RoundTrip, DescriptionsMayHoldAnything) {
         data.load_text("mission: hover\nvehicle: small\ndescription: \"a\\n\\tb\\x07\\0c\\x7f\"\n");
     const Scenario second = load_scenario_text(first.yaml, first.name, {{}, {}, data.root()});
     EXPECT_EQ(second.description, std::string("a\n\tb\x07\0c\x7f", 8));
+}
+
+TEST(RoundTrip, SwitchesAndCountsAreWrittenAsSuch) {
+    const std::string yaml = TestData().load("first", {"suction.valve_fitted=1"}).yaml;
+    EXPECT_NE(yaml.find("\n  valve_fitted: true\n"), std::string::npos) << yaml;
+    EXPECT_NE(yaml.find("\n    cells: 4\n"), std::string::npos);
+    EXPECT_NE(yaml.find("\n  imu_rate_Hz: 250\n"), std::string::npos);
 }
 
 TEST(RoundTrip, NeedsNoOtherFile) {

@@ -60,7 +60,7 @@ TEST(Surfaces, SmootherOnesSealEasierAndOnlyMetalLetsThePumpRest) {
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
         const Surface surface = load_surface(name, kRoot);
         EXPECT_LT(surface.seal_threshold_median_N, threshold_N) << name;
-        EXPECT_EQ(surface.pump_cycles, std::string(name) == "metal" ? 1.0 : 0.0) << name;
+        EXPECT_EQ(surface.pump_cycles, std::string(name) == "metal") << name;
         threshold_N = surface.seal_threshold_median_N;
     }
 }
@@ -103,7 +103,7 @@ TEST(Scenarios, OfTheReadmeLoad) {
         return readme.substr(begin, readme.find("```", begin) - begin);
     };
     const Scenario whole = load_scenario_text(block(first), "README", {{}, {}, kRoot});
-    EXPECT_EQ(whole.cup.valve_fitted, 1.0);
+    EXPECT_EQ(whole.cup.valve_fitted, true);
     EXPECT_EQ(whole.wall.first_touches.size(), 1U);
     const Scenario parts = load_scenario_text(block(second), "README", {{}, {}, kRoot});
     EXPECT_EQ(parts.wall.surface.name, "oily_metal");
@@ -119,8 +119,8 @@ TEST(Scenarios, AreTheExperimentsOfThePaper) {
     EXPECT_EQ(shipped("perch_cinder_block").wall.surface.name, "cinder_block");
     EXPECT_EQ(shipped("perch_turbine_blade").wall.surface.name, "turbine_blade");
     EXPECT_EQ(shipped("perch_metal").wall.surface.name, "metal");
-    EXPECT_EQ(shipped("perch_metal").cup.valve_fitted, 0.0);
-    EXPECT_EQ(shipped("perch_metal_valve").cup.valve_fitted, 1.0);
+    EXPECT_EQ(shipped("perch_metal").cup.valve_fitted, false);
+    EXPECT_EQ(shipped("perch_metal_valve").cup.valve_fitted, true);
     EXPECT_EQ(shipped("failed_perch").wall.first_touches.at(0).name, "spalled_concrete");
     EXPECT_EQ(shipped("hover").mission, Mission::hover);
     EXPECT_FALSE(shipped("hover").wall.present);

@@ -7,6 +7,7 @@
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
+#include "tests/core/whole_table.hpp"
 
 namespace limpet {
 namespace {
@@ -35,42 +36,41 @@ TEST(Tables, SayWhatEveryNumberIsAndWhereItComesFrom) {
 
 TEST(Tables, NameEveryNumberOnce) {
     std::set<std::string> names;
-    std::set<const double*> values;
+    std::set<const void*> values;
     Scenario scenario;
     for (const Section& section : scenario_sections(scenario)) {
         for (const BoundParameter& row : section.rows) {
             EXPECT_TRUE(names.insert(section.name + "." + std::string(row.name)).second)
                 << section.name << "." << row.name;
-            EXPECT_TRUE(values.insert(row.value).second)
+            EXPECT_TRUE(values.insert(row.value.address()).second)
                 << section.name << "." << row.name << " shares its value with another row";
         }
     }
 }
 
-/// A struct of doubles alone has as many rows as doubles: none was forgotten in its table.
-template <class Struct>
-void expect_complete(const ParameterTable<Struct>& table, const char* name) {
-    EXPECT_EQ(table.size(), sizeof(Struct) / sizeof(double)) << name;
-}
-
 TEST(Tables, ForgetNoField) {
-    expect_complete(perching_table(), "guidance");
-    expect_complete(autopilot_table(), "autopilot");
-    expect_complete(sensor_table(), "sensors");
-    expect_complete(simulation_table(), "simulation");
-    expect_complete(lip_table(), "lip");
-    expect_complete(rotor_table(), "rotor");
-    expect_complete(slider_table(), "slider");
-    expect_complete(cup_mount_table(), "cup");
-    expect_complete(leg_table(), "legs");
-    expect_complete(battery_table(), "battery");
-    expect_complete(wind_table(), "wind");
-    expect_complete(pendulum_table(), "pendulum");
-    expect_complete(press_rig_table(), "press_rig");
-    expect_complete(wall_air_table(), "wall_air");
+    test::expect_whole(perching_table(), "guidance");
+    test::expect_whole(autopilot_table(), "autopilot");
+    test::expect_whole(sensor_table(), "sensors");
+    test::expect_whole(simulation_table(), "simulation");
+    test::expect_whole(lip_table(), "lip");
+    test::expect_whole(rotor_table(), "rotor");
+    test::expect_whole(slider_table(), "slider");
+    test::expect_whole(cup_mount_table(), "cup");
+    test::expect_whole(leg_table(), "legs");
+    test::expect_whole(battery_table(), "battery");
+    test::expect_whole(wind_table(), "wind");
+    test::expect_whole(pendulum_table(), "pendulum");
+    test::expect_whole(press_rig_table(), "press_rig");
+    test::expect_whole(wall_air_table(), "wall_air");
+    for_each_type(PressureModels{}, [](auto model) {
+        using Model = typename decltype(model)::type;
+        test::expect_whole(Model::table(), Model::kName.data());
+    });
     CupParameters cup;
-    const std::size_t pressure_model = sizeof(double);  // a whole number, given by its name
-    EXPECT_EQ(suction_rows(cup).size(), (sizeof cup - pressure_model) / sizeof(double));
+    auto rows = suction_rows(cup);
+    rows.push_back({.name = "pressure_model", .value = &cup.pressure_model});  // given by its name
+    test::expect_whole(cup, rows, "suction");
 }
 
 TEST(Tables, HoldEveryDerivedKey) {

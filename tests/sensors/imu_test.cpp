@@ -110,7 +110,7 @@ TEST(Imu, StrapdownIntegrationGivesTheMotionBack) {
 
 TEST(Imu, MeanOfAnIntervalApproachesTheTruthWithItsSquare) {
     // at the middle of the interval the analytic specific force is known
-    const auto worst = [](double rate_Hz) {
+    const auto worst = [](int rate_Hz) {
         SensorParameters parameters = quiet();
         parameters.imu_rate_Hz = rate_Hz;
         const auto truth_at = [](Tick tick) {
@@ -136,7 +136,7 @@ TEST(Imu, MeanOfAnIntervalApproachesTheTruthWithItsSquare) {
 }
 
 TEST(Imu, WhiteNoiseHasItsDensityAtAnyRate) {
-    for (const double rate_Hz : {250.0, 1000.0}) {
+    for (const int rate_Hz : {250, 1000}) {
         SensorParameters parameters = quiet();
         parameters.imu_rate_Hz = rate_Hz;
         parameters.gyro_noise_density_rad_s_rtHz = 3.39e-4;

@@ -85,7 +85,7 @@ TEST(Suite, SilencingOneSensorsNoiseLeavesTheOthersAlone) {
         SensorsModel model;
         for (const auto& row : sensor_table()) {
             if (row.name.starts_with(prefix)) {
-                row.field(model.parameters) = row.get(silent);
+                row.of(model.parameters).set(row.get(silent));
             }
         }
         const Log changed = log_of(model);

@@ -65,7 +65,7 @@ public:
     /// As `limpet px4-params` sets up a vehicle that perches.
     static StandInOptions perching() {
         StandInOptions options;
-        options.parameters.FD_FAIL_P = options.parameters.FD_FAIL_R = 0.0;
+        options.parameters.FD_FAIL_P = options.parameters.FD_FAIL_R = 0;
         return options;
     }
 

@@ -54,8 +54,9 @@ TEST(SetAutopilot, TellsOfMoreThanOneTickCanReport) {
     int changed = 0;
     for (const auto& row : autopilot_table()) {
         if (row.name.starts_with("EKF2_") && row.unit != "count") {  // no jump of control
-            double& value = row.field(parameters);
-            value = value < row.maximum ? std::min(row.maximum, 1.01 * value + 1e-6) : row.minimum;
+            const ParameterValue value = row.of(parameters);
+            value.set(value.get() < row.maximum ? std::min(row.maximum, 1.01 * value.get() + 1e-6)
+                                                : row.minimum);
             ++changed;
         }
     }

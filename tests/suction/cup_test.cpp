@@ -111,7 +111,7 @@ TEST_F(CupOnTheWall, TornOffWhileAttachedItIsContactLost) {
 
 TEST_F(CupOnTheWall, OnMetalThePumpRestsAndTheVacuumStays) {
     surface_ = surface_of(kTableTwo[3]);
-    surface_.pump_cycles = 1.0;
+    surface_.pump_cycles = true;
     hold(0.001, 60.0, 5.0);
     int running = 0;
     for (int k = 0; k < 10000; ++k) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "limpet/core/errors.hpp"
+#include "tests/core/whole_table.hpp"
 
 namespace limpet {
 namespace {
@@ -97,11 +98,11 @@ TEST(SliderForce, StopsPushBackAndNeverPull) {
 template <class Struct>
 void expect_sound(const ParameterTable<Struct>& table) {
     std::set<std::string_view> names;
-    std::set<const double*> fields;
+    std::set<const void*> fields;
     Struct values;
     for (const auto& row : table) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
-        EXPECT_TRUE(fields.insert(&row.field(values)).second) << row.name;
+        EXPECT_TRUE(fields.insert(row.of(values).address()).second) << row.name;
         EXPECT_GE(row.get(values), row.minimum) << row.name;
         EXPECT_LE(row.get(values), row.maximum) << row.name;
         EXPECT_FALSE(row.source.empty()) << row.name;
@@ -117,11 +118,11 @@ TEST(Tables, RowsAreDistinctAndDefaultsAreAllowed) {
     expect_sound(battery_table());
     expect_sound(airframe_table());
     // One row a field: nothing of these structs is out of a vehicle file's reach.
-    EXPECT_EQ(rotor_table().size() * sizeof(double), sizeof(RotorParameters));
-    EXPECT_EQ(slider_table().size() * sizeof(double), sizeof(SliderParameters));
-    EXPECT_EQ(cup_mount_table().size() * sizeof(double), sizeof(CupMountParameters));
-    EXPECT_EQ(leg_table().size() * sizeof(double), sizeof(LegParameters));
-    EXPECT_EQ(battery_table().size() * sizeof(double), sizeof(BatteryParameters));
+    test::expect_whole(rotor_table(), "rotor");
+    test::expect_whole(slider_table(), "slider");
+    test::expect_whole(cup_mount_table(), "cup");
+    test::expect_whole(leg_table(), "legs");
+    test::expect_whole(battery_table(), "battery");
 }
 
 }  // namespace

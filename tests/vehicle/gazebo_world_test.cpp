@@ -157,7 +157,7 @@ TEST(GazeboWorld, ThePluginIsToldTheScenarioAndItsOverrides) {
 
 TEST(GazeboWorld, SensorsHaveOurRangesAndRatesAndPlaces) {
     GazeboWorld world = flight();
-    world.sensors = GazeboSensors{.lidar_rate_Hz = 80.0, .lidar_range_max_m = 7.0};
+    world.sensors = GazeboSensors{.lidar_rate_Hz = 80, .lidar_range_max_m = 7.0};
     const Written written(world);
     const auto base = written.model("uav").child("link");
     const auto left = base.find_child_by_attribute("sensor", "name", "lidar_left");

@@ -21,7 +21,7 @@ RotorsState spinning_at(double speed_rad_s) {
 
 WallAirParameters steady() {
     WallAirParameters parameters;
-    parameters.wall_aerodynamics = 1.0;
+    parameters.wall_aerodynamics = true;
     return parameters;
 }
 
