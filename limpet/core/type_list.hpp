@@ -15,8 +15,22 @@ struct Type {
 
 /// Calls `visit(Type<T>{})` for each type, in the list's order.
 template <class... Types, class Visit>
-void for_each_type(TypeList<Types...> /*list*/, Visit&& visit) {
+constexpr void for_each_type(TypeList<Types...> /*list*/, Visit&& visit) {
     (visit(Type<Types>{}), ...);
+}
+
+/// Parameters of all types of a registry side by side, so that a scenario holds them whichever it
+/// uses. No two may have a name in common.
+template <class List>
+struct ParametersOf;
+template <class... Types>
+struct ParametersOf<TypeList<Types...>> : Types::Parameters... {};
+
+/// Calls `visit(table, numbers)` for the parameters of each type.
+template <class... Types, class Visit>
+void for_each_table(TypeList<Types...> /*list*/, ParametersOf<TypeList<Types...>>& all,
+                    Visit&& visit) {
+    (visit(Types::table(), static_cast<typename Types::Parameters&>(all)), ...);
 }
 
 }  // namespace limpet

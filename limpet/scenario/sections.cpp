@@ -61,10 +61,8 @@ std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
 
 std::vector<BoundParameter> suction_rows(CupParameters& cup) {
     std::vector<BoundParameter> rows = bind(cup_table(), cup);
-    for_each_type(PressureModels{}, [&](auto model) {
-        using Model = typename decltype(model)::type;
-        typename Model::Parameters& numbers = cup.pressure;
-        rows = joined(std::move(rows), bind(Model::table(), numbers));
+    for_each_table(PressureModels{}, cup.pressure, [&](const auto& table, auto& numbers) {
+        rows = joined(std::move(rows), bind(table, numbers));
     });
     return joined(std::move(rows), bind(lip_table(), cup.lip));
 }
@@ -107,7 +105,7 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     sections.push_back({"suction", suction_rows(scenario.cup)});
     sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
     sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
-    sections.push_back({"sensors", bind(sensor_table(), scenario.sensors)});
+    sections.push_back({"sensors", sensor_rows(scenario.sensors)});
     sections.push_back({"simulation", bind(simulation_table(), scenario.simulation)});
     return sections;
 }

@@ -23,12 +23,7 @@ namespace limpet {
 // and its place here. The first is the default.
 using PressureModels = TypeList<FirstOrder, Pneumatic>;
 
-/// The numbers of every model side by side, so that a scenario holds them whichever it uses.
-template <class List>
-struct NumbersOf;
-template <class... Models>
-struct NumbersOf<TypeList<Models...>> : Models::Parameters... {};
-struct PressureParameters : NumbersOf<PressureModels> {};
+struct PressureParameters : ParametersOf<PressureModels> {};
 
 /// A model without its type.
 struct PressureModel {

@@ -51,7 +51,9 @@ TEST(Tables, NameEveryNumberOnce) {
 TEST(Tables, ForgetNoField) {
     test::expect_whole(perching_table(), "guidance");
     test::expect_whole(autopilot_table(), "autopilot");
-    test::expect_whole(sensor_table(), "sensors");
+    for_each_type(Sensors{}, [](auto sensor) {
+        test::expect_whole(decltype(sensor)::type::table(), "sensors");
+    });
     test::expect_whole(simulation_table(), "simulation");
     test::expect_whole(lip_table(), "lip");
     test::expect_whole(rotor_table(), "rotor");
