@@ -13,7 +13,7 @@ namespace limpet {
 struct SensorsModel {
     SensorParameters parameters;
     bool has_cup = true;  ///< LiDARs, force and pressure belong to the perching mechanism
-    SensorMounts mounts;
+    SensorMounts mounts = {};
 };
 
 /// All units of a registry's sensors.

@@ -316,8 +316,8 @@ TEST(Recorder, KeepsNumbersOfASensorThatNoTopicIsFor) {
     const Recording recording = read_recording(folder / "a.mcap");
     const Table& own = recording.table("/sensors/own");
     EXPECT_EQ(own.time_s, (std::vector<double>{0.01, 0.02}));
-    EXPECT_EQ(own.numbers("air_degC"), (std::vector<double>{21.5, 22.0}));
-    EXPECT_EQ(own.numbers("slope_Pa"), (std::vector<double>{-3.0, 0.0}));
+    EXPECT_EQ(own.find("air_degC")->values, (std::vector<double>{21.5, 22.0}));
+    EXPECT_EQ(own.find("slope_Pa")->values, (std::vector<double>{-3.0, 0.0}));
 }
 
 TEST(Recorder, ASampleThatNeverCameIsAMistake) {
