@@ -37,7 +37,7 @@ PressureTrace trace_of(const Recording& recording) {
 }
 
 /// The pneumatic model's leak depends on the clamping; Table II was fitted at 20 N (0008).
-const std::vector<std::string> kPneumatic = {"suction.pneumatic=1", "press_rig.press_N=20",
+const std::vector<std::string> kPneumatic = {"suction.pressure_model=pneumatic", "press_rig.press_N=20",
                                              "wall.surface.seal_threshold_median_N=10"};
 
 Press fly_press(const TableTwo& column, const Study& study) {
@@ -194,7 +194,7 @@ PageTable beyond_the_exponential() {
     const Scenario scenario = load_scenario("press_concrete");
     const double radius_m = scenario.cup.lip.radius_m;
     constexpr double kPress_N = 20.0;
-    PneumaticParameters parameters = scenario.cup.pneumatics;
+    PneumaticParameters parameters = scenario.cup.pressure;
     PageTable table{
         .id = "pneumatic-predictions",
         .title = "What eqs. (5) and (6) cannot tell: porous concrete",
@@ -216,12 +216,12 @@ PageTable beyond_the_exponential() {
         table.rows.push_back({fmt::format("whole, hose narrowed to {} mm", bore_mm),
                               steady_hPa(parameters, {sealed()})[0], none});
     }
-    parameters = scenario.cup.pneumatics;
+    parameters = scenario.cup.pressure;
     const std::vector<double> both = steady_hPa(parameters, {sealed(), sealed()});
     table.rows.push_back({std::string("two cups on one pump, both whole"), both[0], both[1]});
     const std::vector<double> one = steady_hPa(
         parameters,
-        {sealed(), cup_off_the_wall(parameters, scenario.cup.vent.open_time_constant_s)});
+        {sealed(), cup_off_the_wall(parameters, scenario.cup.pressure.open_time_constant_s)});
     table.rows.push_back({std::string("two cups on one pump, one off the wall"), one[0], one[1]});
     return table;
 }

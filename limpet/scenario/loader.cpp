@@ -104,7 +104,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
             std::min(scenario.simulation.touch_step_s, scenario.simulation.step_s);
     }
     derive(scenario);
-    read_rows(root.find("suction"), find_section(sections, "suction").rows);
+    read_suction(root.find("suction"), scenario.cup);
     derive_from_suction(scenario);
     for (const char* name : {"guidance", "autopilot"}) {
         read_rows(root.find(name), find_section(sections, name).rows);

@@ -11,7 +11,7 @@
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/guidance/parameters.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/sensors/registry.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"

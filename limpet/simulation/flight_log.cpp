@@ -23,6 +23,13 @@ RecordingInfo describe(const SimulationModel& model) {
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
     info.attachments.push_back(
         {.name = "model.xml", .media_type = "application/xml", .text = model.mjcf});
+    for_each_type(Sensors{}, [&](auto type) {
+        using Sensor = typename decltype(type)::type;
+        if constexpr (!kIsRead<Sensor>) {
+            info.columns.push_back(
+                {.topic = Sensor::kTopic, .type = Sensor::kMessage, .columns = Sensor::kColumns});
+        }
+    });
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;
@@ -39,6 +46,14 @@ void FlightLog::tick(const SimulationModel& model, const SimulationState& state,
         recorder_.event(events.events[k]);
     }
     recorder_.new_readings(state.sensors.readings, last_);
+    std::size_t channel = 0;
+    for_each_type(Sensors{}, [&](auto type) {
+        using Sensor = typename decltype(type)::type;
+        if constexpr (!kIsRead<Sensor>) {
+            const auto& heard = state.sensors.template units<Sensor>()[0].heard;
+            recorder_.columns(channel++, heard, Sensor::numbers(heard.value));
+        }
+    });
     if (due(state.tick, model.record_rate_Hz)) {
         const double time_s = seconds(state.tick);
         recorder_.truth(state.truth);

@@ -14,8 +14,8 @@ SensorsModel sensors_of(const Scenario& scenario) {
     const double half_m = 0.5 * airframe.lidar_separation_m;
     return {.parameters = scenario.sensors,
             .has_cup = airframe.has_cup,
-            .lidar_left_p_B_m = {airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
-            .lidar_right_p_B_m = {airframe.lidar_x_m, half_m, airframe.lidar_z_m}};
+            .mounts = {.lidar_p_B_m = {Vector3{airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
+                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}}};
 }
 
 int whole(double value) {

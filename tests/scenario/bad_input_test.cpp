@@ -30,6 +30,13 @@ TEST_F(BadInput, OutOfRange) {
               "x.yaml:3: wall.surface.friction: -1 is out of range, allowed 0..3");
 }
 
+TEST_F(BadInput, NoPressureModel) {
+    EXPECT_EQ(hover_error("suction: {pressure_model: linear}\n"),
+              "x.yaml:3: suction.pressure_model: \"linear\" is none of first_order, pneumatic");
+    EXPECT_EQ(hover_error("suction: {pneumatic: 1}\n"),
+              "x.yaml:3: suction.pneumatic: is no key any more, say pressure_model: pneumatic");
+}
+
 TEST_F(BadInput, NotFinite) {
     for (const std::string value : {".nan", ".NaN", "nan", ".inf", "-.inf", "+inf", "Infinity"}) {
         EXPECT_EQ(hover_error("simulation: {hover_s: " + value + "}\n"),
