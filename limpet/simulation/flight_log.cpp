@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "limpet/core/version.hpp"
+#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
@@ -21,8 +22,9 @@ RecordingInfo describe(const SimulationModel& model) {
     }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
-    info.attachments.push_back(
-        {.name = "model.xml", .media_type = "application/xml", .text = model.mjcf});
+    info.attachments.push_back({.name = "model.xml",
+                                .media_type = "application/xml",
+                                .text = write_mjcf(scenario.airframe, scene_of(scenario))});
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;

@@ -237,8 +237,8 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
                        ? LipLoad{}
                        : load_on(parameters, state, surface, motion, input.held_T);
         }
-        output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
-                           .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};
+        output.wrench_W = {.force_N = motion.R_WT * load.wrench_T.force_N,
+                           .moment_N_m = motion.R_WT * load.wrench_T.moment_N_m};
         const Quaternion q_CW = cup.q_WF.conjugate();
         status.wrench_C = {.force_N = q_CW * output.wrench_W.force_N,
                            .moment_N_m = q_CW * output.wrench_W.moment_N_m};

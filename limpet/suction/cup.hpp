@@ -50,7 +50,7 @@ struct CupParameters {
 /// Immutable during a flight.
 struct CupModel {
     CupParameters parameters;
-    WallPlane wall;
+    WallGeometry wall;
 };
 
 struct CupState {

@@ -130,8 +130,8 @@ CupOutput ApartLip::step(const CupModel& model, CupState& state, const Surface& 
     if (contact.let_go != LetGo::no) {
         barrier_ = next_;  // the number under which this will be told
     }
-    output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
-                       .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};
+    output.wrench_W = {.force_N = motion.R_WT * load.wrench_T.force_N,
+                       .moment_N_m = motion.R_WT * load.wrench_T.moment_N_m};
     const Quaternion q_CW = cup.q_WF.conjugate();
     status.wrench_C = {.force_N = q_CW * output.wrench_W.force_N,
                        .moment_N_m = q_CW * output.wrench_W.moment_N_m};

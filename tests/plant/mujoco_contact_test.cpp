@@ -8,7 +8,7 @@ namespace {
 
 TEST(Ray, MeasuresTheDistanceToASlantedWall) {
     Scene scene = test::wall_ahead();
-    scene.wall.q_WT = quaternion_from_euler({.yaw_rad = radians(20.0)});
+    scene.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(20.0)}).toRotationMatrix();
     MujocoPlant plant(test::compile(Airframe{}, scene));
     // The wall's plane through (1.5, 0) with normal (cos 20, sin 20): along x from y = +-0.2 it is
     // 1.5 -+ 0.2 tan 20 away. The vehicle, in the way, is transparent.
@@ -16,7 +16,7 @@ TEST(Ray, MeasuresTheDistanceToASlantedWall) {
     const double slant = 0.2 * std::tan(radians(20.0));
     EXPECT_NEAR(plant.ray({0.0, 0.2, 0.0}, north).value(), 1.5 - slant, 1e-12);
     EXPECT_NEAR(plant.ray({0.0, -0.2, 0.0}, north).value(), 1.5 + slant, 1e-12);
-    const Vector3 square_on = scene.wall.q_WT * north;
+    const Vector3 square_on = scene.wall.R_WT * north;
     EXPECT_NEAR(plant.ray(Vector3::Zero(), square_on).value(), 1.5 * std::cos(radians(20.0)),
                 1e-12);
 }

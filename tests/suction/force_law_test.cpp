@@ -125,7 +125,7 @@ TEST(HeldLoad, HasTheLimitsOfTheLaw) {
 }
 
 TEST(LipMotion, IsRelativeToATurnedWall) {
-    WallPlane wall;
+    WallGeometry wall;
     wall.p_WT_m = {1.0, 2.0, 0.0};
     wall.R_WT = quaternion_from_euler({.yaw_rad = kPi / 2.0}).toRotationMatrix();  // faces west
     Kinematics cup;
@@ -143,7 +143,7 @@ TEST(LipMotion, IsRelativeToATurnedWall) {
 }
 
 TEST(LipMotion, BesideTheWallItFacesNothing) {
-    WallPlane wall;
+    WallGeometry wall;
     wall.half_width_m = 0.5;
     Kinematics cup;
     cup.p_WF_m = {0.0, 0.6, 0.0};

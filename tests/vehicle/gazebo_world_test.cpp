@@ -81,7 +81,7 @@ TEST(GazeboWorld, TheWallsFaceIsWhereThePlaneIs) {
 TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
     GazeboWorld east = flight();
     east.walls[0].face.p_WT_m = {0.0, 2.2, -0.3};
-    east.walls[0].face.q_WT = quaternion_from_euler({.yaw_rad = radians(90.0)});
+    east.walls[0].face.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
     const auto [point, normal] = face_of(Written(east));
     // East is minus west, up is minus down.
     EXPECT_LT((point - Vector3(0.0, -2.2, 0.3)).norm(), 1e-12);
@@ -91,7 +91,8 @@ TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
 TEST(GazeboWorld, AWallThatLeansAwayLooksUp) {
     GazeboWorld leaning = flight();
     // T's x, into the wall, turned down by 20 deg.
-    leaning.walls[0].face.q_WT = Eigen::AngleAxisd(radians(-20.0), Vector3::UnitY());
+    leaning.walls[0].face.R_WT =
+        Eigen::AngleAxisd(radians(-20.0), Vector3::UnitY()).toRotationMatrix();
     const auto [point, normal] = face_of(Written(leaning));
     EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
     EXPECT_NEAR(normal.x(), -0.9396926207859084, 1e-12);
