@@ -32,6 +32,8 @@ void expect_same(Scenario a, Scenario b) {
     EXPECT_EQ(a.airframe.rotor_p_B_m, b.airframe.rotor_p_B_m);
     EXPECT_EQ(a.airframe.rotor_direction, b.airframe.rotor_direction);
     EXPECT_EQ(a.wall.present, b.wall.present);
+    EXPECT_EQ(a.wall.geometry.shape, b.wall.geometry.shape);
+    EXPECT_EQ(a.engine, b.engine);
     EXPECT_EQ(a.wall.geometry.p_WT_m, b.wall.geometry.p_WT_m);
     EXPECT_EQ(a.wall.geometry.R_WT, b.wall.geometry.R_WT);
     EXPECT_EQ(a.start.p_WB_m, b.start.p_WB_m);
