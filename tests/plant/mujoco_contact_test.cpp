@@ -21,6 +21,30 @@ TEST(Ray, MeasuresTheDistanceToASlantedWall) {
                 1e-12);
 }
 
+/// A shape's distances and the body that stands for it in the engine are one wall.
+TEST(Ray, MeetsEveryShapeWhereItsTangentFrameIs) {
+    for (const WallShape* shape : wall_shapes()) {
+        Scene scene = test::wall_ahead();
+        scene.wall.shape = shape;
+        scene.wall.R_WT =
+            quaternion_from_euler({.pitch_rad = radians(-10.0), .yaw_rad = radians(20.0)})
+                .toRotationMatrix();
+        const MujocoPlant plant(test::compile(Airframe{}, scene));
+        for (const double y : {-0.8, 0.0, 1.1}) {
+            for (const double z : {-0.7, 0.0, 0.9}) {
+                const Vector3 p_W_m(0.1, y, z);
+                const TangentFrame spot = tangent_frame(scene.wall, p_W_m);
+                const auto distance_m = plant.ray(p_W_m, spot.into_W());
+                ASSERT_TRUE(distance_m && spot.on_wall) << shape->name;
+                EXPECT_NEAR(*distance_m, spot.gap_m, 1e-9) << shape->name;
+            }
+        }
+        const Vector3 above_W_m = scene.wall.R_WT * Vector3(-1.0, 0.0, -2.1) + scene.wall.p_WT_m;
+        EXPECT_FALSE(tangent_frame(scene.wall, above_W_m).on_wall) << shape->name;
+        EXPECT_FALSE(plant.ray(above_W_m, scene.wall.R_WT.col(0))) << shape->name;
+    }
+}
+
 TEST(Ray, MissesWhatIsNotThere) {
     MujocoPlant plant(test::compile(Airframe{}));
     EXPECT_FALSE(plant.ray(Vector3::Zero(), -Vector3::UnitX()));

@@ -70,12 +70,24 @@ std::pair<Vector3, Vector3> face_of(const Written& world) {
     return {pose * Vector3(-0.5 * size.at(0), 0.0, 0.0), -pose.linear().col(0)};
 }
 
-TEST(GazeboWorld, TheWallsFaceIsWhereThePlaneIs) {
+TEST(GazeboWorld, TheWallsFaceIsWhereTheScenesIs) {
     const Written world(flight());
     const auto [point, normal] = face_of(world);
     EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
     EXPECT_LT((normal - Vector3(-1.0, 0.0, 0.0)).norm(), 1e-12);
     EXPECT_STREQ(world.model("wall").child("static").text().get(), "true");
+}
+
+TEST(GazeboWorld, ARoundWallStandsARadiusBehindItsFace) {
+    GazeboWorld round = flight();
+    WallScene& face = round.walls[0].face;
+    face.shape = wall_shapes()[1];
+    face.radius_m = 3.0;
+    const auto wall = Written(round).model("wall");
+    const auto shape = wall.child("link").child("collision").child("geometry").child("cylinder");
+    EXPECT_EQ(shape.child("radius").text().as_double(), 3.0);
+    EXPECT_EQ(shape.child("length").text().as_double(), 2.0 * face.half_height_m);
+    EXPECT_LT((pose_of(wall).translation() - Vector3(5.2, 0.0, 0.0)).norm(), 1e-12);
 }
 
 TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
