@@ -83,7 +83,8 @@ TEST(GazeboWorld, ARoundWallStandsARadiusBehindItsFace) {
     WallScene& face = round.walls[0].face;
     face.shape = wall_shapes()[1];
     face.radius_m = 3.0;
-    const auto wall = Written(round).model("wall");
+    const Written world(round);
+    const auto wall = world.model("wall");
     const auto shape = wall.child("link").child("collision").child("geometry").child("cylinder");
     EXPECT_EQ(shape.child("radius").text().as_double(), 3.0);
     EXPECT_EQ(shape.child("length").text().as_double(), 2.0 * face.half_height_m);
