@@ -103,34 +103,21 @@ void write_finish(pugi::xml_node visual, const GazeboWorld& world, const PlacedW
 }
 
 /// In the axes of T turned up: x into the wall, y left, z up the wall.
-void write_solid(pugi::xml_node parent, const WallSolid& solid) {
-    auto geometry = add(parent, "geometry");
-    switch (solid.kind) {
-        case WallSolid::Kind::box:
-            add_text(add(geometry, "box"), "size", text(solid.size_m));
-            break;
-        case WallSolid::Kind::cylinder: {
-            auto cylinder = add(geometry, "cylinder");
-            add_text(cylinder, "radius", text(solid.size_m.x()));
-            add_text(cylinder, "length", text(solid.size_m.z()));
-            break;
-        }
-    }
-}
-
 void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall& wall) {
     const WallScene& face = wall.face;
     const WallSolid solid = solid_of(face);
+    const Part shape{.shape = solid.kind == WallSolid::Kind::box ? Shape::box : Shape::cylinder,
+                     .size_m = solid.size_m};
     const Quaternion q_WT(face.R_WT);
     auto model = add(node, "model", "name", wall.name);
     add_text(model, "static", "true");
     add_text(model, "pose", sdf::pose(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
     auto link = add(model, "link", "name", "link");
     auto collision = add(link, "collision", "name", "wall");
-    write_solid(collision, solid);
+    sdf::write_geometry(collision, shape);
     sdf::write_surface(collision, kRigid);
     auto visual = add(link, "visual", "name", "wall");
-    write_solid(visual, solid);
+    sdf::write_geometry(visual, shape);
     write_finish(visual, world, wall);
 }
 

@@ -2,6 +2,7 @@
 #include "limpet/plant/engines.hpp"
 
 #include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
 
 #include <set>
 

@@ -211,7 +211,7 @@ TEST(GazeboWorld, EveryTexturedWallFindsItsMaterialAndItsTexture) {
     GazeboWorld world = flight();
     world.textures = true;
     world.walls[0].face.surface = "cinder_block";
-    world.walls.push_back({.name = "second", .face = {.surface = "metal"}});
+    world.walls.push_back({.name = "second", .face = {{}, true, "metal"}});
     const Written written(world);
     const auto files = write_wall_looks(world);
     std::string script;
