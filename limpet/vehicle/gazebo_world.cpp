@@ -106,7 +106,8 @@ void write_finish(pugi::xml_node visual, const GazeboWorld& world, const PlacedW
 void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall& wall) {
     const WallScene& face = wall.face;
     const WallSolid solid = solid_of(face);
-    const Part shape{.shape = solid.kind == WallSolid::Kind::box ? Shape::box : Shape::cylinder,
+    const Part shape{.name = "wall",
+                     .shape = solid.kind == WallSolid::Kind::box ? Shape::box : Shape::cylinder,
                      .size_m = solid.size_m};
     const Quaternion q_WT(face.R_WT);
     auto model = add(node, "model", "name", wall.name);
