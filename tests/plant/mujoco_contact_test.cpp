@@ -27,7 +27,7 @@ TEST(Ray, MeetsEveryShapeWhereItsTangentFrameIs) {
         Scene scene = test::wall_ahead();
         scene.wall.shape = shape;
         scene.wall.R_WT =
-            quaternion_from_euler({.pitch_rad = radians(-10.0), .yaw_rad = radians(20.0)})
+            quaternion_from_euler({.pitch_rad = radians(10.0), .yaw_rad = radians(20.0)})
                 .toRotationMatrix();
         const MujocoPlant plant(test::compile(Airframe{}, scene));
         for (const double y : {-0.8, 0.0, 1.1}) {
