@@ -42,6 +42,26 @@ std::string range(const ParameterInfo& row) {
     return row.is_switch ? "true, false" : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
 }
 
+/// Keys that take a name, after those that take a number.
+void print_choices(const std::string& room, bool markdown) {
+    for (const Choice& choice : choices_of(room)) {
+        const std::string title = choice.section + "." + choice.key;
+        if (markdown) {
+            fmt::print("\n## {}\n\n| name | what |\n|---|---|\n", title);
+        } else {
+            fmt::print("\n{}:\n", title);
+        }
+        for (const CatalogueEntry& entry : choice.names) {
+            const char* note = &entry == &choice.names.front() ? " (default)" : "";
+            if (markdown) {
+                fmt::print("| `{}`{} | {} |\n", entry.name, note, entry.description);
+            } else {
+                fmt::print("  {}{}  {}\n", entry.name, note, entry.description);
+            }
+        }
+    }
+}
+
 void print_text(const std::vector<ParameterInfo>& rows) {
     std::string section;
     std::size_t width = 0;
@@ -96,6 +116,7 @@ Verb params_verb() {
             .run = [options](const Given&) {
                 const auto rows = rows_of(options->room);
                 options->format == "text" ? print_text(rows) : print_markdown(rows);
+                print_choices(options->room, options->format == "markdown");
                 return ExitCode::ok;
             }};
 }

@@ -42,7 +42,7 @@ LevelOnCup::LevelOnCup(std::shared_ptr<const SimulationModel> model)
 /// Square before the wall, the lip just on it, sealed at the surface's best vacuum.
 void LevelOnCup::put_on_wall() {
     const Scenario& scenario = model_->scenario;
-    const WallPlane& wall = model_->cup.wall;
+    const WallGeometry& wall = model_->cup.wall;
     const Vector3 x_T_W = wall.R_WT.col(0);
     const double yaw_rad = std::atan2(x_T_W.y(), x_T_W.x());
     const Quaternion q_WB = quaternion_from_euler({.yaw_rad = yaw_rad});

@@ -189,8 +189,7 @@ void fill(StabilityMap& map, int jobs) {
             motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
         const Scenario scenario =
             load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
-        LevelOnCup loop(
-            build_model(scenario, [&](const std::string& mjcf) { return plants.get(mjcf); }));
+        LevelOnCup loop(build_model(scenario, plants.get(scenario)));
         map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
     });
 }

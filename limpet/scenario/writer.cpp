@@ -102,6 +102,7 @@ void write_wall(Writer& writer, WallSetup& wall) {
         return;
     }
     writer.line(0, "wall:");
+    writer.value(1, "shape", wall.geometry.shape->name);
     writer.rows(1, bind(wall_table(), wall));
     write_surface(writer, 1, "surface:", wall.surface);
     if (!wall.first_touches.empty()) {
@@ -145,6 +146,7 @@ std::string to_yaml(const Scenario& scenario) {
             writer.value(1, "pressure_model", pressure_models()[copy.cup.pressure_model].name);
         }
     }
+    writer.value(1, "engine", copy.engine->name);  // of the last section, simulation
     return writer.take();
 }
 

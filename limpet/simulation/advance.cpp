@@ -45,7 +45,8 @@ void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plan
         plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
     }
     if (before == CupPhase::free && state.cup.status.phase != CupPhase::free) {
-        observe_touch(state.metrics, time_s, model.cup.wall.R_WT.col(0).dot(cup.v_WF_W_m_s));
+        observe_touch(state.metrics, time_s,
+                      tangent_frame(model.cup.wall, cup.p_WF_m).into_W().dot(cup.v_WF_W_m_s));
     }
     if (output.event) {
         events.add(*output.event);
@@ -72,9 +73,9 @@ AirLoad load_of_air(const SimulationModel& model, const SimulationState& state) 
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
     if (acts(model.wall_air) && model.scenario.wall.present) {
-        const Wrench wall_W =
-            wall_air_wrench_W(model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N,
-                              base.q_WF, closest_hub_m(model, base), model.cup.wall.R_WT.col(0));
+        const Wrench wall_W = wall_air_wrench_W(
+            model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N, base.q_WF,
+            closest_hub_m(model, base), tangent_frame(model.cup.wall, base.p_WF_m).into_W());
         air.wrench_W.force_N += wall_W.force_N;
         air.wrench_W.moment_N_m += wall_W.moment_N_m;
     }

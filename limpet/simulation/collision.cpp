@@ -6,19 +6,6 @@
 #include <limits>
 
 namespace limpet {
-namespace {
-
-/// Distance of a point from the wall's plane, > 0 in front of it.
-double before_wall_m(const WallPlane& wall, const Vector3& p_W_m) {
-    return -wall.R_WT.col(0).dot(p_W_m - wall.p_WT_m);
-}
-
-bool within_wall(const WallPlane& wall, const Vector3& p_W_m) {
-    const Vector3 p_T_m = wall.R_WT.transpose() * (p_W_m - wall.p_WT_m);
-    return std::abs(p_T_m.y()) <= wall.half_width_m && std::abs(p_T_m.z()) <= wall.half_height_m;
-}
-
-}  // namespace
 
 bool legs_near_wall(const SimulationModel& model, const Kinematics& base) {
     const Airframe& airframe = model.scenario.airframe;
@@ -34,7 +21,7 @@ double closest_hub_m(const SimulationModel& model, const Kinematics& base) {
     double closest_m = std::numeric_limits<double>::infinity();
     for (const Vector3& p_BR_m : model.scenario.airframe.rotor_p_B_m) {
         const Vector3 p_WR_m = base.p_WF_m + base.q_WF * p_BR_m;
-        if (within_wall(model.cup.wall, p_WR_m)) {
+        if (tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
         }
     }
@@ -52,7 +39,7 @@ std::optional<Ending> collision(const SimulationModel& model, const Truth& truth
             airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
         return std::nullopt;
     }
-    const Vector3 n_W = model.cup.wall.R_WT.col(0);
+    const Vector3 n_W = tangent_frame(model.cup.wall, p_WB_m).into_W();
     const double along_axis = n_W.dot(truth.base.q_WF * Vector3::UnitZ());
     // A disc reaches its radius times the sine of the angle between its axis and the direction.
     const double reach_m =
@@ -60,7 +47,7 @@ std::optional<Ending> collision(const SimulationModel& model, const Truth& truth
     for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
         const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * p_BR_m;
         if (before_wall_m(model.cup.wall, p_WR_m) < reach_m &&
-            within_wall(model.cup.wall, p_WR_m)) {
+            tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             return Ending{.outcome = Outcome::crashed, .reason = "a propeller hit the wall"};
         }
     }

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "limpet/core/version.hpp"
+#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
@@ -21,8 +22,6 @@ RecordingInfo describe(const SimulationModel& model) {
     }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
-    info.attachments.push_back(
-        {.name = "model.xml", .media_type = "application/xml", .text = model.mjcf});
     for_each_type(Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
         if constexpr (!kIsRead<Sensor>) {
@@ -30,6 +29,9 @@ RecordingInfo describe(const SimulationModel& model) {
                 {.topic = Sensor::kTopic, .type = Sensor::kMessage, .columns = Sensor::kColumns});
         }
     });
+    info.attachments.push_back({.name = "model.xml",
+                                .media_type = "application/xml",
+                                .text = write_mjcf(scenario.airframe, scene_of(scenario))});
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;

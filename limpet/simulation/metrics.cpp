@@ -153,10 +153,10 @@ void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, dou
 }
 
 void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
-                   const WallPlane& wall) {
+                   const WallGeometry& wall) {
     if (event.name == EventName::approach_started) {
         const Vector3 x_B_W = truth.base.q_WF * Vector3::UnitX();
-        const Vector3 x_T_W = wall.R_WT.col(0);
+        const Vector3 x_T_W = tangent_frame(wall, truth.base.p_WF_m).into_W();
         metrics.alignment_at_approach_deg = degrees(
             std::abs(wrap_pi(std::atan2(x_B_W.y(), x_B_W.x()) - std::atan2(x_T_W.y(), x_T_W.x()))));
         ++metrics.attempts;

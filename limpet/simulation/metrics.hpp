@@ -9,8 +9,8 @@
 
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/signals/truth.hpp"
+#include "limpet/core/wall.hpp"
 #include "limpet/guidance/perching.hpp"
-#include "limpet/suction/force_law.hpp"
 #include "limpet/vehicle/battery.hpp"
 
 namespace limpet {
@@ -88,6 +88,7 @@ void observe_touch(Metrics& metrics, double time_s, double speed_m_s);
 void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, double rest_s,
                   double land_pressure_Pa, const Truth& truth, const BatteryState& battery);
 /// @param wall  for the true alignment
-void observe_event(Metrics& metrics, const Event& event, const Truth& truth, const WallPlane& wall);
+void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
+                   const WallGeometry& wall);
 
 }  // namespace limpet

@@ -2,9 +2,9 @@
 #include "limpet/simulation/model.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "limpet/simulation/advance.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
@@ -34,20 +34,21 @@ AutopilotModel autopilot_model(const Scenario& scenario) {
     return make_autopilot(scenario.autopilot, rotors);
 }
 
+std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
+    return build_model(scenario, scenario.engine->make(scenario.airframe, scene_of(scenario)));
+}
+
 std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
-                                                   const CompilePlant& compile) {
+                                                   std::shared_ptr<const PlantModel> plant) {
     auto model = std::make_shared<SimulationModel>();
     model->scenario = scenario;
-    Scene scene = scene_of(scenario);
-    model->mjcf = write_mjcf(scenario.airframe, scene);
-    scene.visuals = false;
-    model->plant = compile(write_mjcf(scenario.airframe, scene));
+    model->plant = std::move(plant);
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_model(scenario);
     model->task = {.perch = scenario.mission != Mission::hover,
                    .take_off = scenario.mission == Mission::perch_and_take_off,
                    .hover_s = scenario.simulation.hover_s};
-    model->cup = {.parameters = scenario.cup, .wall = scenario.wall.plane};
+    model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "limpet/autopilot/builtin.hpp"
 #include "limpet/core/signals/truth.hpp"
@@ -27,7 +25,6 @@ namespace limpet {
 /// What a flight is made of. Immutable once built: many runs in many threads share one.
 struct SimulationModel {
     Scenario scenario;
-    std::string mjcf;  ///< vehicle and surroundings as MuJoCo can draw them; the plant goes without
     std::shared_ptr<const PlantModel> plant;
     SensorsModel sensors;
     AutopilotModel autopilot;
@@ -43,18 +40,16 @@ struct SimulationModel {
     int touch_steps_a_tick = 4;  ///< around a touch
     int record_rate_Hz = 100;
 };
-/// On the embedded plant, MuJoCo (embedded.cpp, left out where MuJoCo is not built in).
+/// On a plant of the scenario's engine.
 [[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario);
 
 /// The built-in autopilot of the scenario's vehicle, which can also fly behind a wire.
 [[nodiscard]] AutopilotModel autopilot_model(const Scenario& scenario);
 
-/// Makes the plant of a model's text.
-using CompilePlant = std::function<std::shared_ptr<const PlantModel>(const std::string& mjcf)>;
-/// The same with plants from elsewhere: models that differ in other things can share one, and
-/// another engine may be the plant.
-[[nodiscard]] std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
-                                                                 const CompilePlant& compile);
+/// On a plant that is there: models that differ in other things can share one, and the bodies may
+/// be another program's.
+[[nodiscard]] std::shared_ptr<const SimulationModel> build_model(
+    const Scenario& scenario, std::shared_ptr<const PlantModel> plant);
 
 /// What a trial on a mount has come to, see rig.hpp.
 struct RigState {

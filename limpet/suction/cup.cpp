@@ -179,8 +179,8 @@ Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
                    ? LipLoad{}
                    : load_on(model, state, surface, lip.motion, input.held_T);
     }
-    const Wrench wrench_W{.force_N = model.wall.R_WT * load.wrench_T.force_N,
-                          .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};
+    const Wrench wrench_W{.force_N = lip.motion.R_WT * load.wrench_T.force_N,
+                          .moment_N_m = lip.motion.R_WT * load.wrench_T.moment_N_m};
     const Quaternion q_CW = cup.q_WF.conjugate();
     status.wrench_C = {.force_N = q_CW * wrench_W.force_N,
                        .moment_N_m = q_CW * wrench_W.moment_N_m};

@@ -46,7 +46,7 @@ struct CupParameters {
 /// Immutable during a flight.
 struct CupModel {
     CupParameters parameters;
-    WallPlane wall;
+    WallGeometry wall;
 };
 
 struct CupState {

@@ -56,15 +56,13 @@ TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     EXPECT_EQ(row.state_hash, fly(build_model(scenario), {}, {}, 3).state_hash);
 }
 
-TEST(Workers, PlantsAreCompiledOnceForEachText) {
+TEST(Workers, PlantsAreMadeOnceForEachVehicleAndScene) {
     const Bench bench;
     const Campaign campaign = campaign_of(bench, short_hovers(4));
     PlantCache plants;
     const auto plant_of = [&](std::uint32_t run) {
         const auto sample = draw(campaign.keys, campaign.seed, run);
-        return build_model(scenario_of(campaign, sample),
-                           [&](const std::string& mjcf) { return plants.get(mjcf); })
-            ->plant;
+        return plants.get(scenario_of(campaign, sample));
     };
     EXPECT_EQ(plant_of(0), plant_of(2));  // the same vehicle
     EXPECT_NE(plant_of(0), plant_of(1));

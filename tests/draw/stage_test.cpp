@@ -85,7 +85,7 @@ TEST(Stage, sees_every_part_move) {
 
 TEST(Stage, knows_its_wall) {
     Scene turned = scene();
-    turned.wall.q_WT = quaternion_from_euler({.yaw_rad = radians(90.0)});
+    turned.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
     const Stage stage(write_mjcf(Airframe{}, turned), kWidth_px, kHeight_px);
     const auto face = stage.wall();
     ASSERT_TRUE(face.has_value());

@@ -37,6 +37,15 @@ TEST_F(BadInput, NoPressureModel) {
               "x.yaml:3: suction.pneumatic: is no key any more, say pressure_model: pneumatic");
 }
 
+TEST_F(BadInput, NamesOfRegistries) {
+    EXPECT_EQ(hover_error("simulation: {engine: mujocko}\n"),
+              "x.yaml:3: simulation.engine: \"mujocko\": no such engine (did you mean mujoco?); "
+              "there is mujoco");
+    EXPECT_EQ(hover_error("wall: {surface: stone, shape: sphere}\n"),
+              "x.yaml:3: wall.shape: \"sphere\": no such shape of a wall; there are plane, "
+              "cylinder");
+}
+
 TEST_F(BadInput, NotFinite) {
     for (const std::string value : {".nan", ".NaN", "nan", ".inf", "-.inf", "+inf", "Infinity"}) {
         EXPECT_EQ(hover_error("simulation: {hover_s: " + value + "}\n"),
