@@ -4,7 +4,7 @@
 
 namespace limpet {
 
-std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario) {
+std::shared_ptr<const FlightModel> build_model(const Scenario& scenario) {
     return build_model(scenario, [](const std::string& mjcf) {
         return std::make_shared<const MujocoModel>(mjcf);
     });

@@ -4,12 +4,13 @@
 #include <fmt/core.h>
 
 #include "limpet/core/version.hpp"
+#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
 
-RecordingInfo describe(const SimulationModel& model) {
-    const Scenario& scenario = model.scenario;
+RecordingInfo describe(const FlightModel& model) {
+    const Scenario& scenario = *model.scenario;
     RecordingInfo info;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
@@ -21,8 +22,9 @@ RecordingInfo describe(const SimulationModel& model) {
     }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
-    info.attachments.push_back(
-        {.name = "model.xml", .media_type = "application/xml", .text = model.mjcf});
+    info.attachments.push_back({.name = "model.xml",
+                                .media_type = "application/xml",
+                                .text = write_mjcf(scenario.airframe, scene_of(scenario))});
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;
@@ -30,11 +32,10 @@ RecordingInfo describe(const SimulationModel& model) {
 
 }  // namespace
 
-FlightLog::FlightLog(const std::filesystem::path& path, const SimulationModel& model)
+FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model)
     : recorder_(path, describe(model)) {}
 
-void FlightLog::tick(const SimulationModel& model, const SimulationState& state,
-                     const EventList& events) {
+void FlightLog::tick(const FlightModel& model, const FlightState& state, const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
