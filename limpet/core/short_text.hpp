@@ -28,13 +28,14 @@ public:
         each(self.text_, self.size_);
     }
 
+    /// Found for a ShortText alone: any two strings would convert to one.
+    [[nodiscard]] friend bool operator==(const ShortText& text, std::string_view other) {
+        return text.view() == other;
+    }
+
 private:
     std::array<char, kRoom> text_{};
     std::size_t size_ = 0;
 };
-
-[[nodiscard]] inline bool operator==(const ShortText& text, std::string_view other) {
-    return text.view() == other;
-}
 
 }  // namespace limpet
