@@ -140,26 +140,39 @@ void LevelOnCup::find_carried() {
             carried_.push_back(place);
         }
     }
+    restore(here);
+    keep_what_reaches(16);  // most places are dead: a look at many at once
+    keep_what_reaches(1);
+}
 
-    const Eigen::Index bodies = size() - static_cast<Eigen::Index>(carried_.size());
-    const Vector at_rest = image(here, Vector::Zero(size()));
-    Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> reaches(size(), size());  // column to row
-    for (Eigen::Index i = bodies; i < size(); ++i) {
-        reaches.col(i) = image(here, kStep * Vector::Unit(size(), i)).array() != at_rest.array();
+/// Of what is carried, the groups of so many whose nudge reaches the bodies in the end.
+void LevelOnCup::keep_what_reaches(Eigen::Index group) {
+    const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+    const Eigen::Index n = size();
+    const auto bodies = static_cast<Eigen::Index>(2 * plant_.freedoms());
+    const Vector at_rest = image(here, Vector::Zero(n));
+    using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+    std::vector<Flags> reached;  // by each group
+    for (Eigen::Index at = bodies; at < n; at += group) {
+        Vector nudge = Vector::Zero(n);
+        nudge.segment(at, std::min(group, n - at)).setConstant(kStep);
+        reached.push_back(image(here, nudge).array() != at_rest.array());
     }
-    Eigen::Array<bool, Eigen::Dynamic, 1> counts(size());
-    counts = false;
+    Flags counts = Flags::Constant(n, false);
     counts.head(bodies) = true;
     for (Eigen::Index before = 0; before != counts.count();) {
         before = counts.count();
-        for (Eigen::Index i = bodies; i < size(); ++i) {
-            counts[i] = counts[i] || (reaches.col(i) && counts).any();
+        for (std::size_t k = 0; k < reached.size(); ++k) {
+            const Eigen::Index at = bodies + static_cast<Eigen::Index>(k) * group;
+            if (!counts[at] && (reached[k] && counts).any()) {
+                counts.segment(at, std::min(group, n - at)) = true;
+            }
         }
     }
     std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < carried_.size(); ++k) {
-        if (counts[bodies + static_cast<Eigen::Index>(k)]) {
-            kept.push_back(carried_[k]);
+    for (Eigen::Index at = bodies; at < n; ++at) {
+        if (counts[at]) {
+            kept.push_back(carried_[static_cast<std::size_t>(at - bodies)]);
         }
     }
     carried_ = std::move(kept);

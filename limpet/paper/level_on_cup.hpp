@@ -39,6 +39,7 @@ private:
     void period();
     void restore(const Snapshot& snapshot);
     void find_carried();
+    void keep_what_reaches(Eigen::Index group);
     [[nodiscard]] Eigen::Index size() const;
     [[nodiscard]] Eigen::VectorXd numbers(const PlantState& origin);
     void add(const Eigen::VectorXd& step);
