@@ -22,12 +22,12 @@ struct Inner {
 };
 
 struct Outer {
-    Inner inner;
+    Inner inner = {};
     bool flag = true;
     Colour colour = Colour::green;
     Vector3 v = {4.0, 5.0, 6.0};
     Quaternion q = Quaternion(7.0, 8.0, 9.0, 10.0);  // w first
-    std::optional<Inner> maybe;
+    std::optional<Inner> maybe = {};
     std::variant<Colour, Inner> either = Colour::red;
 };
 
