@@ -51,8 +51,8 @@ std::uint32_t software_version() {
     return version << 8U;
 }
 
-mavlink::TelemetrySetup setup(const SimulationModel& model) {
-    const Scenario& scenario = model.scenario;
+mavlink::TelemetrySetup setup(const FlightModel& model) {
+    const Scenario& scenario = *model.scenario;
     return {.battery_cells = scenario.airframe.battery.cells,
             .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
             .lidar_maximum_m = scenario.sensors.lidar_range_max_m,
@@ -91,7 +91,7 @@ void check(const GroundStationOptions& options, bool builtin) {
     }
 }
 
-GroundStation::GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+GroundStation::GroundStation(const GroundStationOptions& options, const FlightModel& model,
                              Terminal& terminal)
     : terminal_(terminal),
       wanted_(model.autopilot.parameters),
@@ -129,7 +129,7 @@ void GroundStation::tick(Flight& flight, const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         telemetry_.event(events.events[k]);
     }
-    const SimulationState& state = flight.state();
+    const FlightState& state = flight.state();
     if (!due(state.tick, kUpdates_Hz)) {
         return;
     }

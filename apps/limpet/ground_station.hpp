@@ -25,7 +25,7 @@ void check(const GroundStationOptions& options, bool builtin);
 class GroundStation {
 public:
     /// @throws InputError for an address or a key that cannot be used
-    GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+    GroundStation(const GroundStationOptions& options, const FlightModel& model,
                   Terminal& terminal);
     GroundStation(const GroundStation&) = delete;
     GroundStation& operator=(const GroundStation&) = delete;

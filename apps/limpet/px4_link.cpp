@@ -123,7 +123,7 @@ void check(const Px4LinkOptions& options, const Scenario& scenario) {
     }
 }
 
-Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
+Px4Link::Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
@@ -137,7 +137,7 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bo
     try {
         hil_ = open(hil, wire_log_.get());
         terminal.line("waiting for PX4 on " + hil_->transport().describe());
-        say_how(options, model.scenario.name, terminal);
+        say_how(options, model.scenario->name, terminal);
         wait_for_peer(*hil_, options.wait_s, terminal, stop);
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log

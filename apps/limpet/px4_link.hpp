@@ -46,7 +46,7 @@ public:
     /// @throws InputError when a wire cannot be opened or nobody comes in time; nothing is then
     ///         left in the folder
     /// @throws Interrupted on `stop`
-    Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
+    Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
     /// Closes wire.mcap, when no flight came of it.

@@ -139,8 +139,8 @@ private:
 };
 
 /// @throws InputError naming the run
-std::shared_ptr<const SimulationModel> model_of(const Campaign& campaign, const RunRow& row,
-                                                PlantCache& plants) {
+std::shared_ptr<const FlightModel> model_of(const Campaign& campaign, const RunRow& row,
+                                            PlantCache& plants) {
     try {
         const Scenario scenario = scenario_of(campaign, row.sample);
         return build_model(scenario, plants.get(scenario));

@@ -215,8 +215,9 @@ void Companion::guide(double time_s) {
               alone ? CompanionEnd::mission_over
                     : (pending_.cause == Cause::interrupted ? CompanionEnd::interrupted
                                                             : CompanionEnd::handed_back),
-              alone ? std::string(memory_.ending->reason)
-                    : fmt::format("{}; {}", memory_.ending->reason, to_string(pending_.cause)),
+              alone
+                  ? std::string(memory_.ending->reason)
+                  : fmt::format("{}; {}", memory_.ending->reason.view(), to_string(pending_.cause)),
               time_s);
     }
 }

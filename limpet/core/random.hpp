@@ -54,6 +54,12 @@ public:
     /// @param sigma   standard deviation of its logarithm, >= 0
     [[nodiscard]] double lognormal(double median, double sigma);
 
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        each(self.seed_, self.run_, self.stream_, self.counter_, self.uniforms_,
+             self.uniforms_left_);
+    }
+
 private:
     void refill();
 

@@ -7,19 +7,19 @@
 
 namespace limpet {
 
-bool legs_near_wall(const SimulationModel& model, const Kinematics& base) {
-    const Airframe& airframe = model.scenario.airframe;
-    if (!airframe.has_cup || !model.scenario.wall.present) {
+bool legs_near_wall(const FlightModel& model, const Kinematics& base) {
+    const Airframe& airframe = model.airframe;
+    if (!airframe.has_cup || !model.has_wall) {
         return false;
     }
     const Vector3 tips_B_m(airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m);
     return before_wall_m(model.cup.wall, base.p_WF_m + base.q_WF * tips_B_m) <
-           model.scenario.simulation.contact_range_m;
+           model.simulation.contact_range_m;
 }
 
-double closest_hub_m(const SimulationModel& model, const Kinematics& base) {
+double closest_hub_m(const FlightModel& model, const Kinematics& base) {
     double closest_m = std::numeric_limits<double>::infinity();
-    for (const Vector3& p_BR_m : model.scenario.airframe.rotor_p_B_m) {
+    for (const Vector3& p_BR_m : model.airframe.rotor_p_B_m) {
         const Vector3 p_WR_m = base.p_WF_m + base.q_WF * p_BR_m;
         if (tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
@@ -28,15 +28,14 @@ double closest_hub_m(const SimulationModel& model, const Kinematics& base) {
     return closest_m;
 }
 
-std::optional<Ending> collision(const SimulationModel& model, const Truth& truth) {
-    const Airframe& airframe = model.scenario.airframe;
+std::optional<Ending> collision(const FlightModel& model, const Truth& truth) {
+    const Airframe& airframe = model.airframe;
     const Vector3& p_WB_m = truth.base.p_WF_m;
-    if (p_WB_m.z() > model.scenario.simulation.start_height_m) {
+    if (p_WB_m.z() > model.simulation.start_height_m) {
         return Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
-    if (!model.scenario.wall.present ||
-        std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
-            airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
+    if (!model.has_wall || std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
+                               airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
         return std::nullopt;
     }
     const Vector3 n_W = tangent_frame(model.cup.wall, p_WB_m).into_W();
@@ -54,13 +53,11 @@ std::optional<Ending> collision(const SimulationModel& model, const Truth& truth
     return std::nullopt;
 }
 
-const Surface& surface_under_cup(const SimulationModel& model, const CupState& cup) {
-    const WallSetup& wall = model.scenario.wall;
+const Surface& surface_under_cup(const FlightModel& model, const CupState& cup) {
     // The touch that is going on has been counted; a free cup looks at the spot that comes next.
     const int touch = cup.touches - (cup.status.phase == CupPhase::free ? 0 : 1);
-    return touch < static_cast<int>(wall.first_touches.size())
-               ? wall.first_touches[static_cast<std::size_t>(touch)]
-               : wall.surface;
+    const auto last = static_cast<int>(model.surfaces.size()) - 1;
+    return model.surfaces[static_cast<std::size_t>(std::min(touch, last))];
 }
 
 }  // namespace limpet

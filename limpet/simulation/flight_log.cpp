@@ -9,8 +9,8 @@
 namespace limpet {
 namespace {
 
-RecordingInfo describe(const SimulationModel& model) {
-    const Scenario& scenario = model.scenario;
+RecordingInfo describe(const FlightModel& model) {
+    const Scenario& scenario = *model.scenario;
     RecordingInfo info;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
@@ -39,11 +39,10 @@ RecordingInfo describe(const SimulationModel& model) {
 
 }  // namespace
 
-FlightLog::FlightLog(const std::filesystem::path& path, const SimulationModel& model)
+FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model)
     : recorder_(path, describe(model)) {}
 
-void FlightLog::tick(const SimulationModel& model, const SimulationState& state,
-                     const EventList& events) {
+void FlightLog::tick(const FlightModel& model, const FlightState& state, const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }

@@ -137,7 +137,7 @@ std::string_view RemoteGuidance::keep(std::string_view text) {
 
 void RemoteGuidance::end(Outcome outcome, std::string_view reason) {
     if (!ending_) {
-        ending_ = Ending{.outcome = outcome, .reason = keep(reason)};
+        ending_ = Ending{.outcome = outcome, .reason = reason};
     }
 }
 
