@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// perching_node without ROS: a puppet's inputs, an autopilot that does as it is asked.
-#include "ros/src/session.hpp"
+// A session by request, as the ROS node has it: a puppet's inputs, an autopilot that does as it is
+// asked.
+#include "limpet/companion/session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace limpet::ros {
+namespace limpet {
 namespace {
 
 using testing::HasSubstr;
 
 class Session : public testing::Test {
 protected:
-    Session() : session_(setup()) {}
+    Session() : session_(setup(), watch()) {}
 
     static SessionSetup setup() {
         SessionSetup setup;
-        setup.asks_for_mode = true;
+        setup.task.take_off = false;
+        setup.by_request = setup.asks_for_mode = true;
+        setup.watches_motion_capture = false;
         setup.guidance.land_pitch_s = 0.5;
         setup.guidance.rest_s = 1.0;
         setup.guidance.slip_limit_m = 10.0;  // the puppet pitches about itself, not about its cup
         return setup;
+    }
+
+    CompanionWatch watch() {
+        return {.on_event = [this](const Event& event) { events_.push_back(event.name); },
+                .on_line = {}};
     }
 
     /// What the vehicle is like now, as all sensors tell it.
@@ -72,6 +80,7 @@ protected:
         run(0.1);
     }
 
+    std::vector<EventName> events_;
     PerchingSession session_;
     double time_s_ = 1.0;
     Vector3 p_WB_m_ = Vector3::Zero();
@@ -87,7 +96,7 @@ TEST_F(Session, WaitsForItsInputsAndNamesThem) {
     run(1.0);
     EXPECT_EQ(session_.phase(), SessionPhase::waiting);
     EXPECT_FALSE(session_.streams());
-    EXPECT_THAT(session_.obstacle(), HasSubstr("no autopilot, no pose"));
+    EXPECT_THAT(session_.obstacle(), HasSubstr("no heartbeat of the autopilot"));
     const Answer answer = session_.perch(time_s_);
     EXPECT_FALSE(answer.done);
     EXPECT_THAT(answer.message, HasSubstr("no left LiDAR"));
@@ -137,13 +146,13 @@ TEST_F(Session, AbortedInTheAirItHandsBackAndThePumpGoesOff) {
     ASSERT_TRUE(session_.perch(time_s_).done);
     run_until(PerchingState::approaching, 5.0);
     EXPECT_TRUE(session_.setpoint().pump_on);
-    EXPECT_TRUE(session_.abort(time_s_).done);
+    EXPECT_TRUE(session_.abort().done);
     run(0.04);
     EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
     EXPECT_FALSE(session_.streams());
     EXPECT_FALSE(word_.offboard);
     EXPECT_FALSE(session_.setpoint().pump_on);
-    EXPECT_FALSE(session_.abort(time_s_).done);
+    EXPECT_FALSE(session_.abort().done);
     EXPECT_TRUE(session_.perch(time_s_).done);
     run(0.1);
     EXPECT_EQ(session_.phase(), SessionPhase::flying);
@@ -157,7 +166,7 @@ TEST_F(Session, AbortedOnTheCupItComesToRestAndSetPointsGoOn) {
     run_until(PerchingState::holding, 1.0);
     pressure_Pa_ = 70000.0;
     run_until(PerchingState::pitching_up, 2.0);
-    EXPECT_TRUE(session_.abort(time_s_).done);
+    EXPECT_TRUE(session_.abort().done);
     for (int k = 0; k < 500; ++k) {
         run(0.02);
         pitch_rad_ = radians(66.0);
@@ -265,4 +274,4 @@ TEST_F(Session, ATickThatComesTooLateHandsBack) {
 }
 
 }  // namespace
-}  // namespace limpet::ros
+}  // namespace limpet
