@@ -124,9 +124,6 @@ void Companion::forward_pose(double time_s) {
 
 std::string Companion::mechanism_obstacle(double time_s) const {
     constexpr double kAnswer_s = 1.0;
-    if (!session_.drives_mechanism()) {
-        return "";
-    }
     if (inputs_.mechanism_s() < 0.0 || time_s - inputs_.mechanism_s() > kAnswer_s) {
         return "no answer of pump and valve";
     }
@@ -156,7 +153,7 @@ void Companion::feed(double time_s) {
                      .offboard = report.offboard,
                      .in_air = report.landed_state == kInAir}};
     if (!flies) {  // for people: costs memory
-        in.obstacle = mechanism_obstacle(time_s);
+        in.mechanism = mechanism_obstacle(time_s);
         in.waits_for = offboard_.obstacle(time_s);
     }
 }

@@ -74,7 +74,7 @@ struct SessionInputs {
     Sample<Vector3> velocity_W_m_s{.value = Vector3::Zero()};
     Sample<Vector3> rate_B_rad_s{.value = Vector3::Zero()};
     Sample<AutopilotWord> autopilot;
-    std::string obstacle;   ///< what else keeps it from beginning: "no answer of pump and valve"
+    std::string mechanism;  ///< why pump and valve will not do as they are told; empty: they will
     std::string waits_for;  ///< what it takes to be flown, once ready: "not armed yet"
 };
 

@@ -83,12 +83,13 @@ std::string PerchingSession::missing(double time_s) const {
     want(readings.force, "no force");
     want(readings.cup_pressure, "no cup pressure");
     const bool pressure = readings.cup_pressure.fresh(time_s, setup_.guidance.sensor_limit_s);
-    if (setup_.has_mechanism && !drives_mechanism_ && pressure) {
+    if (drives_mechanism_) {
+        add(inputs_.mechanism);
+    } else if (setup_.has_mechanism && pressure) {
         add(fmt::format(
             "the cup is not free (it holds {:.0f} hPa: on a wall? the pump is left as it is)",
             readings.cup_pressure.value.pressure_Pa / 100.0));
     }
-    add(inputs_.obstacle);
     if (!heard(time_s)) {
         add("no heartbeat of the autopilot");
     } else if (const std::string_view part = stale_estimate(time_s); !part.empty()) {

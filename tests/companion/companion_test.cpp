@@ -144,8 +144,7 @@ TEST(Companion, WithAKeyHearsOnlyWhatIsSigned) {
             r.stage.sign_autopilot(signing);
         }
         r.run(2.0);
-        EXPECT_EQ(r.companion->phase(),
-                  stage_signs ? SessionPhase::ready : SessionPhase::waiting);
+        EXPECT_EQ(r.companion->phase(), stage_signs ? SessionPhase::ready : SessionPhase::waiting);
         EXPECT_EQ(r.wires.autopilot->count().unsigned_ > 0, !stage_signs);
     }
 }

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "limpet/companion/mechanism_out.hpp"
+
 namespace limpet {
 namespace {
 
@@ -40,7 +42,9 @@ protected:
         in.rate_B_rad_s = {time_s_, Vector3::Zero()};
         const RangeReading range{.distance_m = 1.5 - p_WB_m_.x(), .valid = true};
         in.readings.lidar_left = in.readings.lidar_right = {time_s_, range};
-        in.readings.force = {time_s_, {force_N_}};
+        if (force_works_) {
+            in.readings.force = {time_s_, {force_N_}};
+        }
         in.readings.cup_pressure = {time_s_, {pressure_Pa_}};
         in.readings.battery = {time_s_, {.remaining = 1.0}};
         in.autopilot = {time_s_, word_};
@@ -89,6 +93,7 @@ protected:
     double pressure_Pa_ = kAtmosphere_Pa;
     AutopilotWord word_{.connected = true, .armed = true, .offboard = false};
     bool alive_ = true;
+    bool force_works_ = true;
 };
 
 TEST_F(Session, WaitsForItsInputsAndNamesThem) {
@@ -271,6 +276,72 @@ TEST_F(Session, ATickThatComesTooLateHandsBack) {
     run(0.02);
     EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
     EXPECT_THAT(session_.reason(), HasSubstr("too late"));
+}
+
+// --- ready, flown by its set-points, not begun yet ----------------------------------------------
+
+class StandsReady : public Session {
+protected:
+    StandsReady() {
+        run(0.5);
+        word_.offboard = true;
+        run(0.5);
+        EXPECT_EQ(session_.phase(), SessionPhase::ready);
+    }
+};
+
+TEST_F(StandsReady, AnOperatorsModeIsNotTakenBack) {
+    force_works_ = false;
+    run(1.0);
+    ASSERT_TRUE(session_.perch(time_s_).done);
+    run(0.1);
+    word_.offboard = false;
+    force_works_ = true;
+    run(0.5);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_THAT(session_.reason(), HasSubstr("another mode was chosen"));
+    EXPECT_FALSE(word_.offboard);
+}
+
+TEST_F(StandsReady, DoesNotBeginWithoutAnInput) {
+    force_works_ = false;
+    run(1.0);
+    ASSERT_TRUE(session_.perch(time_s_).done);
+    run(0.5);
+    EXPECT_EQ(session_.phase(), SessionPhase::ready) << "set-points must not stop";
+    EXPECT_THAT(session_.obstacle(), HasSubstr("no force"));
+    force_works_ = true;
+    run(0.1);
+    EXPECT_EQ(session_.phase(), SessionPhase::flying);
+}
+
+TEST_F(StandsReady, ALateTickHandsBack) {
+    time_s_ += 0.4;  // late_limit_s is 0.3
+    run(0.02);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_THAT(session_.reason(), HasSubstr("too late"));
+}
+
+TEST_F(StandsReady, WithoutAPoseItHolds) {
+    alive_ = false;
+    run(0.4);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_EQ(session_.left_by(), Action::hold);
+    EXPECT_THAT(session_.reason(), HasSubstr("pose stale"));
+}
+
+TEST(MechanismPace, SaysItAtOnceAndAgain) {
+    MechanismPace pace;
+    const mavlink::MechanismCommand off{};
+    const mavlink::MechanismCommand on{.pump_on = true};
+    EXPECT_TRUE(pace.due(off, 10.0, 5.0));
+    EXPECT_FALSE(pace.due(off, 10.0, 5.05));
+    EXPECT_TRUE(pace.due(off, 10.0, 5.1));
+    EXPECT_EQ(pace.repeats(), 1);
+    EXPECT_TRUE(pace.due(on, 10.0, 5.12));
+    EXPECT_EQ(pace.repeats(), 0);
+    EXPECT_EQ(pace.asked_s(), 5.12);
+    EXPECT_TRUE(pace.due(on, 10.0, 0.0)) << "a simulation that began anew";
 }
 
 }  // namespace
