@@ -89,7 +89,7 @@ Answer PerchingSession::perch(double time_s) {
         go(SessionPhase::waiting, time_s);
         wait(time_s);
     }
-    if (phase_ != SessionPhase::ready) {
+    if (phase_ != SessionPhase::ready || !obstacle_.empty()) {
         return {false, fmt::format("not ready: {}", obstacle_)};
     }
     if (!inputs_.autopilot.value.armed) {
