@@ -300,7 +300,7 @@ TEST_F(StandsReady, AnOperatorsModeIsNotTakenBack) {
 
 TEST_F(StandsReady, DoesNotBeginWithoutAnInput) {
     force_works_ = false;
-    run(1.0);
+    run(2.0);
     EXPECT_EQ(session_.phase(), SessionPhase::ready) << "set-points must not stop";
     EXPECT_THAT(session_.perch(time_s_).message, HasSubstr("not ready: no force"));
     force_works_ = true;
