@@ -25,14 +25,7 @@ TransportAddress address(const GroundStationOptions& options) {
 mavlink::Link open(const GroundStationOptions& options) {
     mavlink::Link link(open_transport(address(options), Role::connect),
                        {.system = 1, .component = mavlink::kAutopilotComponent});
-    if (!options.signing_key.empty()) {
-        link.sign(
-            {.key = mavlink::read_signing_key(options.signing_key), .link_id = 0, .unix_us = [] {
-                 using namespace std::chrono;
-                 return static_cast<std::uint64_t>(
-                     duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-             }});
-    }
+    mavlink::sign(link, options.signing_key);
     return link;
 }
 

@@ -3,33 +3,19 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "options.hpp"
 
 namespace limpet::app {
 namespace {
 
-/// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
-constexpr std::uint8_t kSimulatorSystem = 255;
-
-TransportAddress hil_address(const Px4LinkOptions& options) {
-    return address_of("--hil", options.hil, {Medium::tcp, Medium::serial});
-}
-
-TransportAddress offboard_address(const Px4LinkOptions& options) {
-    return address_of("--offboard", options.offboard, {Medium::udp});
-}
-
-std::unique_ptr<mavlink::Link> open(const TransportAddress& address, WireLog* log = nullptr) {
-    auto wire = open_transport(address, Role::listen);
-    return std::make_unique<mavlink::Link>(
-        log != nullptr ? tapped(std::move(wire), *log) : std::move(wire),
-        mavlink::Sender{.system = kSimulatorSystem, .component = mavlink::kCompanionComponent});
+Px4Addresses addresses_of(const Px4LinkOptions& options) {
+    return {.hil = address_of("--hil", options.hil, {Medium::tcp, Medium::serial}),
+            .offboard = address_of("--offboard", options.offboard, {Medium::udp}),
+            .wait_s = options.wait_s};
 }
 
 /// How to start what is waited for, to be copied.
@@ -51,24 +37,6 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
     terminal.line("without a PX4 at hand: limpet stand-in " + scenario +
                   unless_default("--hil", options.hil, by_default.hil) +
                   unless_default("--peer", options.offboard, by_default.offboard));
-}
-
-void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
-                   const std::atomic<bool>* stop) {
-    using Clock = std::chrono::steady_clock;
-    const std::string where = link.transport().describe();
-    const Clock::time_point begin = Clock::now();
-    while (!link.wait_for_peer(std::chrono::milliseconds(100))) {
-        const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
-        terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, wait_s));
-        if (stop != nullptr && *stop) {
-            throw Interrupted("interrupted while waiting for PX4");
-        }
-        if (waited_s > wait_s) {
-            throw InputError(
-                fmt::format("no PX4 came to {} within {:g} s (--wait SECONDS)", where, wait_s));
-        }
-    }
 }
 
 }  // namespace
@@ -111,8 +79,7 @@ double speed_of(const std::string& text, double by_default) {
 }
 
 void check(const Px4LinkOptions& options, const Scenario& scenario) {
-    (void)hil_address(options);
-    (void)offboard_address(options);
+    (void)addresses_of(options);
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
@@ -127,39 +94,38 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool f
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
-    const TransportAddress hil = hil_address(options);
-    if (!options.serial() && flies) {
-        offboard_ = open(offboard_address(options));
-    }
     if (options.record_wire) {
         wire_log_ = std::make_unique<WireLog>(folder / "wire.mcap");
     }
+    Px4WireWatch watch{
+        .on_open =
+            [&](const std::string& where) {
+                terminal.line("waiting for PX4 on " + where);
+                say_how(options, model.scenario->name, terminal);
+            },
+        .on_wait =
+            [&](double waited_s) {
+                terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, options.wait_s));
+            },
+        .on_text =
+            [&terminal](const std::string& text) {
+                terminal.line(terminal.dim("          PX4: " + text));
+            },
+        .wait_key = "--wait SECONDS"};
+    if (wire_log_) {
+        watch.tap = [this](auto wire) { return tapped(std::move(wire), *wire_log_); };
+    }
     try {
-        hil_ = open(hil, wire_log_.get());
-        terminal.line("waiting for PX4 on " + hil_->transport().describe());
-        say_how(options, model.scenario->name, terminal);
-        wait_for_peer(*hil_, options.wait_s, terminal, stop);
+        wires_.emplace(addresses_of(options), model.control_rate_Hz, flies, watch, stop);
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log
         std::filesystem::remove(folder / "wire.mcap.part", ignored);
         throw;
     }
-    Px4Options px4;
-    px4.hil.timing =
-        options.serial() ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
-    px4.hil.motion_capture = flies;
-    px4.hil.stop = stop;
-    px4.control_rate_Hz = model.control_rate_Hz;
-    px4.flies = flies;
-    px4.on_text = [&terminal](const std::string& text) {
-        terminal.line(terminal.dim("          PX4: " + text));
-    };
-    autopilot_ =
-        std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
 }
 
 Px4Link::~Px4Link() {
-    if (wire_log_ && autopilot_ && !wire_finished_) {
+    if (wire_log_ && wires_ && !wire_finished_) {
         try {
             wire_log_->finish();  // what led to no flight is what one wants to see
         } catch (const InputError&) {
@@ -179,10 +145,10 @@ std::filesystem::path Px4Link::finish_wire_log() {
 
 LinkReport Px4Link::report(const FlightPerformance& performance) const {
     LinkReport report;
-    report.hil = autopilot_->count();
-    report.wires.emplace_back("hil", *hil_);
-    if (offboard_) {
-        report.wires.emplace_back("offboard", *offboard_);
+    report.hil = wires_->autopilot().count();
+    report.wires.emplace_back("hil", wires_->hil());
+    if (wires_->offboard() != nullptr) {
+        report.wires.emplace_back("offboard", *wires_->offboard());
     }
     report.wall_s = performance.wall_s;
     report.waited_s = performance.waited_s;

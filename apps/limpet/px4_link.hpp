@@ -4,10 +4,11 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/autopilot/px4.hpp"
+#include "limpet/autopilot/px4_wires.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
 #include "link_report.hpp"
@@ -54,7 +55,7 @@ public:
     Px4Link(const Px4Link&) = delete;
     Px4Link& operator=(const Px4Link&) = delete;
 
-    [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
+    [[nodiscard]] Px4Autopilot& autopilot() { return wires_->autopilot(); }
     [[nodiscard]] double speed() const { return speed_; }
     /// After the flight: closes wire.mcap.
     /// @return it, or an empty path
@@ -64,9 +65,7 @@ public:
 
 private:
     std::unique_ptr<WireLog> wire_log_;
-    std::unique_ptr<mavlink::Link> hil_;
-    std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
-    std::unique_ptr<Px4Autopilot> autopilot_;
+    std::optional<Px4Wires> wires_;
     double speed_ = 0.0;
     bool wire_finished_ = false;
 };

@@ -1,26 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// perching_node without ROS: a puppet's inputs, an autopilot that does as it is asked.
-#include "ros/src/session.hpp"
+// A session by request, as the ROS node has it: a puppet's inputs, an autopilot that does as it is
+// asked.
+#include "limpet/companion/session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace limpet::ros {
+#include "limpet/companion/mechanism_out.hpp"
+
+namespace limpet {
 namespace {
 
 using testing::HasSubstr;
 
 class Session : public testing::Test {
 protected:
-    Session() : session_(setup()) {}
+    Session() : session_(setup(), watch()) {}
 
     static SessionSetup setup() {
         SessionSetup setup;
-        setup.asks_for_mode = true;
+        setup.task.take_off = false;
+        setup.by_request = setup.asks_for_mode = true;
+        setup.watches_motion_capture = false;
         setup.guidance.land_pitch_s = 0.5;
         setup.guidance.rest_s = 1.0;
         setup.guidance.slip_limit_m = 10.0;  // the puppet pitches about itself, not about its cup
         return setup;
+    }
+
+    CompanionWatch watch() {
+        return {.on_event = [this](const Event& event) { events_.push_back(event.name); },
+                .on_line = {}};
     }
 
     /// What the vehicle is like now, as all sensors tell it.
@@ -32,7 +42,9 @@ protected:
         in.rate_B_rad_s = {time_s_, Vector3::Zero()};
         const RangeReading range{.distance_m = 1.5 - p_WB_m_.x(), .valid = true};
         in.readings.lidar_left = in.readings.lidar_right = {time_s_, range};
-        in.readings.force = {time_s_, {force_N_}};
+        if (force_works_) {
+            in.readings.force = {time_s_, {force_N_}};
+        }
         in.readings.cup_pressure = {time_s_, {pressure_Pa_}};
         in.readings.battery = {time_s_, {.remaining = 1.0}};
         in.autopilot = {time_s_, word_};
@@ -72,6 +84,7 @@ protected:
         run(0.1);
     }
 
+    std::vector<EventName> events_;
     PerchingSession session_;
     double time_s_ = 1.0;
     Vector3 p_WB_m_ = Vector3::Zero();
@@ -80,6 +93,7 @@ protected:
     double pressure_Pa_ = kAtmosphere_Pa;
     AutopilotWord word_{.connected = true, .armed = true, .offboard = false};
     bool alive_ = true;
+    bool force_works_ = true;
 };
 
 TEST_F(Session, WaitsForItsInputsAndNamesThem) {
@@ -87,7 +101,7 @@ TEST_F(Session, WaitsForItsInputsAndNamesThem) {
     run(1.0);
     EXPECT_EQ(session_.phase(), SessionPhase::waiting);
     EXPECT_FALSE(session_.streams());
-    EXPECT_THAT(session_.obstacle(), HasSubstr("no autopilot, no pose"));
+    EXPECT_THAT(session_.obstacle(), HasSubstr("no heartbeat of the autopilot"));
     const Answer answer = session_.perch(time_s_);
     EXPECT_FALSE(answer.done);
     EXPECT_THAT(answer.message, HasSubstr("no left LiDAR"));
@@ -137,13 +151,13 @@ TEST_F(Session, AbortedInTheAirItHandsBackAndThePumpGoesOff) {
     ASSERT_TRUE(session_.perch(time_s_).done);
     run_until(PerchingState::approaching, 5.0);
     EXPECT_TRUE(session_.setpoint().pump_on);
-    EXPECT_TRUE(session_.abort(time_s_).done);
+    EXPECT_TRUE(session_.abort().done);
     run(0.04);
     EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
     EXPECT_FALSE(session_.streams());
     EXPECT_FALSE(word_.offboard);
     EXPECT_FALSE(session_.setpoint().pump_on);
-    EXPECT_FALSE(session_.abort(time_s_).done);
+    EXPECT_FALSE(session_.abort().done);
     EXPECT_TRUE(session_.perch(time_s_).done);
     run(0.1);
     EXPECT_EQ(session_.phase(), SessionPhase::flying);
@@ -157,7 +171,7 @@ TEST_F(Session, AbortedOnTheCupItComesToRestAndSetPointsGoOn) {
     run_until(PerchingState::holding, 1.0);
     pressure_Pa_ = 70000.0;
     run_until(PerchingState::pitching_up, 2.0);
-    EXPECT_TRUE(session_.abort(time_s_).done);
+    EXPECT_TRUE(session_.abort().done);
     for (int k = 0; k < 500; ++k) {
         run(0.02);
         pitch_rad_ = radians(66.0);
@@ -264,5 +278,67 @@ TEST_F(Session, ATickThatComesTooLateHandsBack) {
     EXPECT_THAT(session_.reason(), HasSubstr("too late"));
 }
 
+// --- ready, flown by its set-points, not begun yet ----------------------------------------------
+
+class StandsReady : public Session {
+protected:
+    StandsReady() {
+        run(0.5);
+        word_.offboard = true;
+        run(0.5);
+        EXPECT_EQ(session_.phase(), SessionPhase::ready);
+    }
+};
+
+TEST_F(StandsReady, AnOperatorsModeIsNotTakenBack) {
+    word_.offboard = false;
+    run(0.5);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_THAT(session_.reason(), HasSubstr("another mode was chosen"));
+    EXPECT_FALSE(word_.offboard);
+}
+
+TEST_F(StandsReady, DoesNotBeginWithoutAnInput) {
+    force_works_ = false;
+    run(2.0);
+    EXPECT_EQ(session_.phase(), SessionPhase::ready) << "set-points must not stop";
+    EXPECT_THAT(session_.perch(time_s_).message, HasSubstr("not ready: no force"));
+    force_works_ = true;
+    run(0.1);
+    EXPECT_EQ(session_.phase(), SessionPhase::ready);
+    ASSERT_TRUE(session_.perch(time_s_).done);
+    run(0.1);
+    EXPECT_EQ(session_.phase(), SessionPhase::flying);
+}
+
+TEST_F(StandsReady, ALateTickHandsBack) {
+    time_s_ += 0.4;  // late_limit_s is 0.3
+    run(0.02);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_THAT(session_.reason(), HasSubstr("too late"));
+}
+
+TEST_F(StandsReady, WithoutAPoseItHolds) {
+    alive_ = false;
+    run(0.4);
+    EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
+    EXPECT_EQ(session_.left_by(), Action::hold);
+    EXPECT_THAT(session_.reason(), HasSubstr("pose stale"));
+}
+
+TEST(MechanismPace, SaysItAtOnceAndAgain) {
+    MechanismPace pace;
+    const mavlink::MechanismCommand off{};
+    const mavlink::MechanismCommand on{.pump_on = true};
+    EXPECT_TRUE(pace.due(off, 10.0, 5.0));
+    EXPECT_FALSE(pace.due(off, 10.0, 5.05));
+    EXPECT_TRUE(pace.due(off, 10.0, 5.1));
+    EXPECT_EQ(pace.repeats(), 1);
+    EXPECT_TRUE(pace.due(on, 10.0, 5.12));
+    EXPECT_EQ(pace.repeats(), 0);
+    EXPECT_EQ(pace.asked_s(), 5.12);
+    EXPECT_TRUE(pace.due(on, 10.0, 0.0)) << "a simulation that began anew";
+}
+
 }  // namespace
-}  // namespace limpet::ros
+}  // namespace limpet
