@@ -12,7 +12,7 @@
 
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/gnuplot.hpp"
+#include "limpet/draw/gnuplot.hpp"
 
 namespace limpet {
 namespace {

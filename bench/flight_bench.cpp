@@ -22,7 +22,7 @@
 namespace limpet {
 namespace {
 
-const std::shared_ptr<const SimulationModel>& model() {
+const std::shared_ptr<const FlightModel>& model() {
     static const auto shared = build_model(load_scenario("perch_concrete"));
     return shared;
 }
@@ -37,13 +37,13 @@ struct Tape {
 const Tape& tape() {
     static const Tape shared = [] {
         MujocoPlant plant(model()->plant);
-        SimulationState state = start(*model(), plant);
+        FlightState state = start(*model(), plant);
         Tape recorded;
         recorded.start = plant.save();
         TapePlant writer(plant);
-        EventList events;
+        TickReport report;
         while (!state.ending) {
-            step(*model(), state, writer, events);
+            step(*model(), state, writer, report);
         }
         recorded.steps = writer.steps();
         recorded.end = plant.save();

@@ -25,7 +25,7 @@ FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     const auto plant = std::make_shared<const GazeboModel>(
         std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
     flight_.conduct.stop = &interrupted_;
-    model_ = build_model(flight_.scenario, [&plant](const std::string&) { return plant; });
+    model_ = build_model(flight_.scenario, plant);
 }
 
 void FlightHost::update() {

@@ -50,7 +50,7 @@ private:
     void run(Coroutine::push_type& to_gazebo);
 
     HostedFlight flight_;
-    std::shared_ptr<const SimulationModel> model_;
+    std::shared_ptr<const FlightModel> model_;
     Coroutine::push_type* to_gazebo_ = nullptr;
     std::atomic<bool> interrupted_{false};
     std::optional<FlightResult> result_;

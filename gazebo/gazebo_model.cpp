@@ -79,18 +79,20 @@ void check_mass(const physics::Model& model, const Airframe& airframe) {
     require_same("the vehicle's mass", mass_kg, airframe.mass_kg, "kg");
 }
 
-/// The face that rays see must be the plane on which the cup seals.
+/// The face that rays see must be the one on which the cup seals.
 void check_wall(physics::RayShape& ray, const Scenario& scenario) {
     if (!scenario.wall.present) {
         return;
     }
     constexpr double kBefore_m = 0.05;
-    const WallPlane& wall = scenario.wall.plane;
-    const Vector3 into_W = wall.R_WT.col(0);
+    const WallGeometry& wall = scenario.wall.geometry;
     for (const double y : {-0.9, 0.0, 0.9}) {
         for (const double z : {-0.9, 0.0, 0.9}) {
-            const Vector3 p_W_m = wall.p_WT_m + wall.R_WT.col(1) * (y * wall.half_width_m) +
-                                  wall.R_WT.col(2) * (z * wall.half_height_m);
+            const Vector3 beside_W_m = wall.p_WT_m + wall.R_WT.col(1) * (y * wall.half_width_m) +
+                                       wall.R_WT.col(2) * (z * wall.half_height_m);
+            const TangentFrame spot = tangent_frame(wall, beside_W_m);
+            const Vector3 into_W = spot.into_W();
+            const Vector3 p_W_m = beside_W_m + spot.gap_m * into_W;
             ray.SetPoints(turn(Vector3(p_W_m - kBefore_m * into_W)),
                           turn(Vector3(p_W_m + kBefore_m * into_W)));
             double distance_m = 0.0;

@@ -33,7 +33,7 @@ gazebo::physics::LinkPtr find_link(const gazebo::physics::Model& model, const st
                                  shown(name), hint(name, {names.begin(), names.end()})));
 }
 
-WallPlane plane_of(const Pose3d& X_WT) {
+WallGeometry wall_at(const Pose3d& X_WT) {
     return {.p_WT_m = turn(X_WT.Pos()), .R_WT = turn(X_WT.Rot()).toRotationMatrix()};
 }
 
@@ -108,10 +108,10 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
     const auto X_WT = spot_ ? spot_->pose(*model_->GetWorld()) : std::nullopt;
     if (!X_WT) {
         spot_.reset();
-        cup_.wall = WallPlane{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
+        cup_.wall = WallGeometry{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
         return;
     }
-    cup_.wall = plane_of(*X_WT);
+    cup_.wall = wall_at(*X_WT);
 }
 
 void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {

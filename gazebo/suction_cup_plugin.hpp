@@ -24,7 +24,7 @@ namespace limpet {
 ///   lip_pose    centre of the lip in that link, x out of its mouth:
 ///               x y z roll pitch yaw [m, rad]                                     0 0 0 0 0 0
 ///   suction     section: rows of `limpet params suction` (radius_m,
-///               attachment_pressure_Pa, valve_fitted, pneumatic, ...)             theirs
+///               attachment_pressure_Pa, valve_fitted, pressure_model, ...)        theirs
 ///   surface     name in surfaces.yaml, or a section as in a scenario:
 ///               base, and rows of `limpet params wall.surface`                    porous concrete
 ///   target      model="NAME" collision="NAME"? surface="NAME"?: what may be held, and what it

@@ -4,6 +4,7 @@
 #include "gazebo/sdf_reader.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
+#include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -94,12 +95,7 @@ SuctionCupSettings suction_cup_settings(const YamlNode& tree) {
     if (const YamlNode* pose = tree.find("lip_pose")) {
         settings.X_LC = read_pose(*pose);
     }
-    auto rows = bind(cup_table(), settings.cup);
-    for (const auto& more :
-         {bind(pneumatic_table(), settings.cup.pneumatics), bind(lip_table(), settings.cup.lip)}) {
-        rows.insert(rows.end(), more.begin(), more.end());
-    }
-    read_rows(tree.find("suction"), rows);
+    read_suction(tree.find("suction"), settings.cup);
     if (const YamlNode* surface = tree.find("surface")) {
         settings.surface = surface_from(*surface, data_root());
     }

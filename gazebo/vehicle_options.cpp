@@ -46,11 +46,11 @@ Choice choose(const YamlNode& section, const char* key, const std::pair<const ch
 }
 
 /// @param media  that serve, with their forms for people
-TransportAddress address(const YamlNode& section, const char* key, const char* by_default,
+TransportAddress address(const YamlNode& section, const char* key, const TransportAddress& usual,
                          std::initializer_list<Medium> media, const char* forms) {
     const YamlNode* node = section.find(key);
     if (node == nullptr) {
-        return parse_address(by_default);
+        return usual;
     }
     const std::string given = read_text(*node);
     try {
@@ -66,8 +66,7 @@ TransportAddress address(const YamlNode& section, const char* key, const char* b
 
 /// A board on a serial wire has its own clock, which is real time.
 double speed_of(const YamlNode& section, const VehicleOptions& options) {
-    const bool board =
-        options.autopilot == VehicleOptions::Autopilot::px4 && options.hil.medium == Medium::serial;
+    const bool board = options.autopilot == VehicleOptions::Autopilot::px4 && options.px4.serial();
     const double speed = number(section, "speed", 0.0, kFastest, board ? 1.0 : options.speed);
     const YamlNode* node = section.find("speed");
     if (node != nullptr && board && speed != 1.0) {
@@ -112,11 +111,11 @@ VehicleOptions read_vehicle_options(const YamlNode& parameters,
     options.scenario = scenario_of(parameters);
     options.autopilot = choose<Autopilot>(parameters, "autopilot", {"builtin", Autopilot::builtin},
                                           {"px4", Autopilot::px4});
-    options.hil = address(parameters, "hil", "tcp:127.0.0.1:4560", {Medium::tcp, Medium::serial},
-                          "tcp:HOST:PORT or serial:DEVICE:BAUD");
-    options.offboard =
-        address(parameters, "offboard", "udp:127.0.0.1:14540", {Medium::udp}, "udp:HOST:PORT");
-    options.wait_s = number(parameters, "wait_s", 0.1, 86400.0, options.wait_s);
+    Px4Addresses& px4 = options.px4;
+    px4.hil = address(parameters, "hil", px4.hil, {Medium::tcp, Medium::serial},
+                      "tcp:HOST:PORT or serial:DEVICE:BAUD");
+    px4.offboard = address(parameters, "offboard", px4.offboard, {Medium::udp}, "udp:HOST:PORT");
+    px4.wait_s = number(parameters, "wait_s", 0.1, 86400.0, px4.wait_s);
     options.recording = text(parameters, "recording");
     options.result = text(parameters, "result");
     options.when_over = choose<WhenOver>(parameters, "when_over", {"pause", WhenOver::pause},

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "limpet/mavlink/address.hpp"
+#include "limpet/autopilot/px4_wires.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
@@ -22,9 +22,7 @@ struct VehicleOptions {
     };
     Scenario scenario;
     Autopilot autopilot = Autopilot::builtin;
-    TransportAddress hil;       ///< of px4
-    TransportAddress offboard;  ///< of px4, unless `hil` is serial
-    double wait_s = 60.0;       ///< for a PX4
+    Px4Addresses px4;
     std::filesystem::path recording;
     std::filesystem::path result;
     double speed = 0.0;

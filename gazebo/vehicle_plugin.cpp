@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -96,7 +97,12 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
     flight.watch.on_event = [](const Event& event) { say(event_line(event)); };
     prepare(model, parameters, flight);
     if (options_.autopilot == VehicleOptions::Autopilot::px4) {
-        px4_ = std::make_unique<Px4Wires>(options_, say);
+        const Px4WireWatch watch{
+            .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },
+            .on_text = [](const std::string& text) { say("          PX4: " + text); },
+            .wait_key = "wait_s"};
+        px4_ = std::make_unique<Px4Wires>(
+            options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch);
         flight.conduct.outside.autopilot = &px4_->autopilot();
     }
     host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "gazebo/flight_host.hpp"
-#include "gazebo/px4_wires.hpp"
 #include "gazebo/vehicle_options.hpp"
 
 namespace limpet {

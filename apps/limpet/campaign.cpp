@@ -8,13 +8,13 @@
 #include <string>
 #include <thread>
 
+#include "command_line.hpp"
 #include "limpet/campaign/folder_lock.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -68,15 +68,14 @@ CampaignWatch watch(Terminal& terminal) {
             .stop = stop_on_signals()};
 }
 
-void conclude(const Progress& progress, Results& results, const CampaignOptions& options,
-              const fs::path& folder, Terminal& terminal, ExitCode& code) {
+ExitCode conclude(const Progress& progress, Results& results, const CampaignOptions& options,
+                  const fs::path& folder, Terminal& terminal) {
     if (progress.finished < progress.runs) {
         fmt::print(stderr,
                    "limpet: stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
                    "--out {} --resume\n",
                    progress.finished, progress.runs, options.file, folder.string());
-        code = ExitCode::interrupted;
-        return;
+        return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
                               progress.elapsed_s, progress.rate_1_s()));
@@ -89,11 +88,12 @@ void conclude(const Progress& progress, Results& results, const CampaignOptions&
     if (const auto faults = progress.outcomes.find(kFault); faults != progress.outcomes.end()) {
         fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
                    faults->second, file);
-        code = ExitCode::our_fault;
+        return ExitCode::our_fault;
     }
+    return ExitCode::ok;
 }
 
-void fly_campaign(const CampaignOptions& options, ExitCode& code) {
+ExitCode fly_campaign(const CampaignOptions& options) {
     const Campaign campaign = load_campaign(options.file);
     const fs::path folder =
         make_folder(options.out.empty() ? fs::path("out") / campaign.name : fs::path(options.out));
@@ -107,29 +107,35 @@ void fly_campaign(const CampaignOptions& options, ExitCode& code) {
                               options.jobs == 1 ? "" : "s",
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
     const Progress progress = run_campaign(results, options.jobs, watch(terminal));
-    conclude(progress, results, options, folder, terminal, code);
+    return conclude(progress, results, options, folder, terminal);
 }
 
 }  // namespace
 
-void add_campaign(CLI::App& app, ExitCode& code) {
+Verb campaign_verb() {
     auto options = std::make_shared<CampaignOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "campaign", "Fly a scenario many times over grids and distributions of its keys");
-    verb->add_option("campaign", options->file, "name in campaigns/, or a YAML file")
-        ->required()
-        ->type_name("FILE");
-    verb->add_option("--jobs,-j", options->jobs, "threads (default: one a processor)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
-    verb->add_option("--out", options->out, "folder (default: out/NAME)")->type_name("DIR");
-    verb->add_flag("--resume", options->resume, "go on with the results in the folder, if any");
-    verb->add_flag("--quiet,-q", options->quiet, "print nothing but errors");
-    verb->footer(
-        "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
-        "Killed "
-        "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly (130).\n");
-    verb->callback([options, &code] { fly_campaign(*options, code); });
+    return {
+        .name = "campaign",
+        .about = "Fly a scenario many times over grids and distributions of its keys",
+        .options = {{"campaign",
+                     &options->file,
+                     "name in campaigns/, or a YAML file",
+                     "FILE",
+                     {.required = true}},
+                    {"--jobs,-j",
+                     &options->jobs,
+                     "threads (default: one a processor)",
+                     "N",
+                     {.range = {{1, 1024}}}},
+                    {"--out", &options->out, "folder (default: out/NAME)", "DIR"},
+                    {"--resume", &options->resume, "go on with the results in the folder, if any"},
+                    {"--quiet,-q", &options->quiet, "print nothing but errors"}},
+        .footer =
+            "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
+            "Killed "
+            "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly "
+            "(130).\n",
+        .run = [options](const Given&) { return fly_campaign(*options); }};
 }
 
 }  // namespace limpet::app

@@ -4,13 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -51,17 +51,21 @@ void check_file(const std::string& file) {
 
 }  // namespace
 
-void add_check(CLI::App& app) {
+Verb check_verb() {
     auto file = std::make_shared<std::string>();
-    CLI::App* verb = app.add_subcommand(
-        "check", "Check a scenario, vehicle, campaign, surfaces.yaml or recording");
-    verb->add_option(
-            "file", *file,
-            "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\nsurfaces.yaml, *.mcap")
-        ->required()
-        ->type_name("FILE");
-    verb->footer("Exits with 0 when all is good, 2 when not.\n");
-    verb->callback([file] { check_file(*file); });
+    return {.name = "check",
+            .about = "Check a scenario, vehicle, campaign, surfaces.yaml or recording",
+            .options = {{"file",
+                         file.get(),
+                         "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\n"
+                         "surfaces.yaml, *.mcap",
+                         "FILE",
+                         {.required = true}}},
+            .footer = "Exits with 0 when all is good, 2 when not.\n",
+            .run = [file](const Given&) {
+                check_file(*file);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

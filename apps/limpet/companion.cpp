@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
@@ -17,7 +18,6 @@
 #include "output.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -107,7 +107,7 @@ ExitCode code_of(const CompanionOptions& options, const CompanionResult& result)
     return ExitCode::ok;
 }
 
-void companion(const CompanionOptions& options, ExitCode& code) {
+ExitCode companion(const CompanionOptions& options) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
     }
@@ -120,7 +120,7 @@ void companion(const CompanionOptions& options, ExitCode& code) {
             (void)mavlink::read_signing_key(config.signing_key_file);
         }
         terminal.line("  good; nothing was opened");
-        return;
+        return ExitCode::ok;
     }
     std::signal(SIGPIPE, SIG_IGN);
     const std::atomic<bool>* stop = stop_on_signals();
@@ -133,40 +133,41 @@ void companion(const CompanionOptions& options, ExitCode& code) {
     const CompanionResult result =
         run(config, wires, steady_clock(options.speed), conduct, watch(terminal));
     conclude(result, conduct.recording, terminal);
-    code = code_of(options, result);
+    return code_of(options, result);
 }
 
 }  // namespace
 
-void add_companion(CLI::App& app, ExitCode& code) {
+Verb companion_verb() {
     auto options = std::make_shared<CompanionOptions>();
-    CLI::App* verb =
-        app.add_subcommand("companion", "Guidance alone, beside a real autopilot, over wires");
-    verb->add_option("config", options->config, "companions/*.yaml: a name, or a file")
-        ->required()
-        ->type_name("CONFIG");
-    verb->add_flag("--check", options->check, "say what it would do, open nothing");
-    verb->add_flag("--dry-run", options->dry_run,
-                   "hear all, command nothing, say what it would do: carry the vehicle\nby hand");
-    verb->add_option("--set", options->overrides,
-                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    verb->add_option("--out", options->out, "folder for the recording (default out/companion)")
-        ->type_name("DIR");
-    verb->add_option("--expect", options->expect, "exit with 1 unless the mission ends so")
-        ->type_name("OUTCOME");
-    verb->add_option("--speed", options->speed,
-                     "its clock runs so many times real time: beside a simulation only")
-        ->type_name("N");
-    verb->add_flag("--no-record", options->no_record, "write nothing");
-    verb->footer(
-        "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes to\n"
-        "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
-        "Exit codes: 0 the mission came to its end, 1 control was handed back or another outcome\n"
-        "than --expect, 2 bad input or something absent, 130 interrupted.\n");
-    verb->callback([options, &code] { companion(*options, code); });
+    return {
+        .name = "companion",
+        .about = "Guidance alone, beside a real autopilot, over wires",
+        .options = {{"config",
+                     &options->config,
+                     "companions/*.yaml: a name, or a file",
+                     "CONFIG",
+                     {.required = true}},
+                    {"--check", &options->check, "say what it would do, open nothing"},
+                    {"--dry-run", &options->dry_run,
+                     "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
+                    overrides_option(options->overrides,
+                                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
+                    {"--out", &options->out, "folder for the recording (default out/companion)",
+                     "DIR"},
+                    {"--expect", &options->expect, "exit with 1 unless the mission ends so",
+                     "OUTCOME"},
+                    {"--speed", &options->speed,
+                     "its clock runs so many times real time: beside a simulation only", "N"},
+                    {"--no-record", &options->no_record, "write nothing"}},
+        .footer =
+            "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes "
+            "to\n"
+            "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
+            "Exit codes: 0 the mission came to its end, 1 control was handed back or another "
+            "outcome\n"
+            "than --expect, 2 bad input or something absent, 130 interrupted.\n",
+        .run = [options](const Given&) { return companion(*options); }};
 }
 
 }  // namespace limpet::app

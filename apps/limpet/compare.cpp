@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/compare.hpp"
+#include "limpet/compare/compare.hpp"
 
 #include <fmt/core.h>
 
@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/compare_figures.hpp"
-#include "limpet/report/compare_text.hpp"
+#include "limpet/compare/figures.hpp"
+#include "limpet/compare/text.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -128,35 +128,47 @@ ExitCode compare_flights(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, ExitCode& code) {
+Verb compare_verb() {
     auto options = std::make_shared<CompareOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "compare", "Lay flights over each other and tell how they differ from the first");
-    verb->add_option("recordings", options->recordings, "the reference, then the others (.mcap)")
-        ->required()
-        ->expected(2, 16)
-        ->type_name("RECORDING");
-    verb->add_option("--align", options->align,
-                     "events: each stretch at its own event; start; or the name of one event")
-        ->type_name("HOW")
-        ->capture_default_str();
-    verb->add_option("--label", options->labels, "what a flight is called, in the order given")
-        ->type_name("NAME")
-        ->allow_extra_args(false);
-    verb->add_option("--limit", options->limits,
+    return {
+        .name = "compare",
+        .about = "Lay flights over each other and tell how they differ from the first",
+        .options = {{"recordings",
+                     &options->recordings,
+                     "the reference, then the others (.mcap)",
+                     "RECORDING",
+                     {.required = true, .values = {{2, 16}}}},
+                    {"--align",
+                     &options->align,
+                     "events: each stretch at its own event; start; or the name of one event",
+                     "HOW",
+                     {.default_told = true}},
+                    {"--label",
+                     &options->labels,
+                     "what a flight is called, in the order given",
+                     "NAME",
+                     {.value_each_time = true}},
+                    {"--limit",
+                     &options->limits,
                      "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
-                     "contact_pressure_hPa")
-        ->type_name("NAME=VALUE")
-        ->allow_extra_args(false);
-    verb->add_option("--out", options->out, "folder for figures and compare.json")
-        ->type_name("DIR");
-    CLI::Option* json = verb->add_flag("--json", options->json, "one JSON object");
-    verb->add_flag("--markdown", options->markdown, "a table, a column a flight")->excludes(json);
-    verb->footer(
-        "Values are compared at the reference's samples, the other flight's read between its own;\n"
-        "never over a gap. What one flight has longer between two events is left out, and said.\n"
-        "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or damaged.\n");
-    verb->callback([options, &code] { code = compare_flights(*options); });
+                     "contact_pressure_hPa",
+                     "NAME=VALUE",
+                     {.value_each_time = true}},
+                    {"--out", &options->out, "folder for figures and compare.json", "DIR"},
+                    {"--json", &options->json, "one JSON object"},
+                    {"--markdown",
+                     &options->markdown,
+                     "a table, a column a flight",
+                     nullptr,
+                     {.not_with = "--json"}}},
+        .footer =
+            "Values are compared at the reference's samples, the other flight's read between its "
+            "own;\n"
+            "never over a gap. What one flight has longer between two events is left out, and "
+            "said.\n"
+            "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or "
+            "damaged.\n",
+        .run = [options](const Given&) { return compare_flights(*options); }};
 }
 
 }  // namespace limpet::app

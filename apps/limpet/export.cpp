@@ -8,14 +8,13 @@
 #include <optional>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/worlds.hpp"
 #include "limpet/vehicle/model_writer.hpp"
-#include "options.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -168,60 +167,65 @@ std::string model_text(const ExportOptions& options) {
                                      : mjcf_text(options, subject, root);
 }
 
-void add_world_options(CLI::App& verb, ExportOptions& options) {
-    verb.add_flag("--sensors", options.sensors,
-                  "world only: Gazebo's own LiDARs, IMU, contacts and slider force");
-    verb.add_flag("--ros", options.ros,
-                  "world of a scenario only: flown over ROS topics (ros/README.md)");
-    verb.add_option("--camera", options.camera,
-                    "world only: a camera saves its frames in this folder")
-        ->type_name("FOLDER");
-    verb.add_option("--view", options.view,
-                    "of the camera: overview, quarter or side (default: overview)")
-        ->type_name("VIEW")
-        ->check(CLI::IsMember({"overview", "quarter", "side"}));
-    verb.add_option("--camera-rate", options.camera_rate_Hz, "frames a second (default: 10)")
-        ->type_name("HZ")
-        ->check(between(0.1, 1000.0));
+void check_together(const Given& given, const ExportOptions& options) {
+    const bool world = options.format == "world";
+    only_with(given, world, {"--sensors", "--ros", "--camera"}, "--format world");
+    only_with(given, world || options.format == "mjcf", {"--wall"}, "--format mjcf or world");
+    only_with(given, !options.camera.empty(), {"--view", "--camera-rate"}, "--camera");
 }
 
 }  // namespace
 
-void add_export(CLI::App& app) {
+Verb export_verb() {
     auto options = std::make_shared<ExportOptions>();
-    CLI::App* verb =
-        app.add_subcommand("export", "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo");
-    verb->add_option("name", options->wanted,
+    return {
+        .name = "export",
+        .about = "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo",
+        .options = {{"name",
+                     &options->wanted,
                      "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
-                     "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface")
-        ->required()
-        ->type_name("VEHICLE|SCENARIO");
-    verb->add_option("--format", options->format, "mjcf, sdf, urdf or world (default: mjcf)")
-        ->type_name("FORMAT")
-        ->check(CLI::IsMember({"mjcf", "sdf", "urdf", "world"}));
-    verb->add_option("--wall", options->wall, "mjcf and world of a vehicle: a wall of this surface")
-        ->type_name("SURFACE");
-    verb->add_option("--set", options->overrides, "turn one number of a scenario, as for fly")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    add_world_options(*verb, *options);
-    verb->add_option("--out", options->out,
+                     "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface",
+                     "VEHICLE|SCENARIO",
+                     {.required = true}},
+                    {"--format",
+                     &options->format,
+                     "mjcf, sdf, urdf or world (default: mjcf)",
+                     "FORMAT",
+                     {.one_of = {"mjcf", "sdf", "urdf", "world"}}},
+                    {"--wall", &options->wall,
+                     "mjcf and world of a vehicle: a wall of this surface", "SURFACE"},
+                    overrides_option(options->overrides,
+                                     "turn one number of a scenario, as for fly"),
+                    {"--sensors", &options->sensors,
+                     "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
+                    {"--ros", &options->ros,
+                     "world of a scenario only: flown over ROS topics (ros/README.md)"},
+                    {"--camera", &options->camera,
+                     "world only: a camera saves its frames in this folder", "FOLDER"},
+                    {"--view",
+                     &options->view,
+                     "of the camera: overview, quarter or side (default: overview)",
+                     "VIEW",
+                     {.one_of = {"overview", "quarter", "side"}}},
+                    {"--camera-rate",
+                     &options->camera_rate_Hz,
+                     "frames a second (default: 10)",
+                     "HZ",
+                     {.range = {{0.1, 1000.0}}, .told = false}},
+                    {"--out", &options->out,
                      "file (default: standard output); a world's textures go in\nmaterials/ beside "
-                     "it: its folder belongs on GAZEBO_RESOURCE_PATH")
-        ->type_name("FILE");
-    verb->callback([options, verb] {
-        const bool world = options->format == "world";
-        only_with(*verb, world, {"--sensors", "--ros", "--camera"}, "--format world");
-        only_with(*verb, world || options->format == "mjcf", {"--wall"}, "--format mjcf or world");
-        only_with(*verb, !options->camera.empty(), {"--view", "--camera-rate"}, "--camera");
-        const std::string text = model_text(*options);
-        if (options->out.empty()) {
-            fmt::print("{}", text);
-        } else {
-            write_file(options->out, text);
-        }
-    });
+                     "it: its folder belongs on GAZEBO_RESOURCE_PATH",
+                     "FILE"}},
+        .run = [options](const Given& given) {
+            check_together(given, *options);
+            const std::string text = model_text(*options);
+            if (options->out.empty()) {
+                fmt::print("{}", text);
+            } else {
+                write_file(options->out, text);
+            }
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "flight_report.hpp"
 #include "ground_station.hpp"
 #include "limpet/core/errors.hpp"
@@ -16,12 +17,10 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
-#include "options.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -108,17 +107,17 @@ void keep(const LinkReport& link, Px4Link& px4, const FlyOptions& options,
     }
 }
 
-void check_together(const CLI::App& verb, const FlyOptions& options) {
+void check_together(const Given& given, const FlyOptions& options) {
     check(options.ground, options.autopilot == "builtin");
-    only_with(verb, options.autopilot == "px4", {"--hil", "--offboard", "--wait", "--record-wire"},
+    only_with(given, options.autopilot == "px4", {"--hil", "--offboard", "--wait", "--record-wire"},
               "--autopilot px4");
-    only_with(verb, !options.px4.serial(), {"--offboard"},
+    only_with(given, !options.px4.serial(), {"--offboard"},
               "--hil tcp:...; over serial all goes over the one wire");
-    only_with(verb, !options.no_record, {"--out", "--csv", "--record-wire"},
+    only_with(given, !options.no_record, {"--out", "--csv", "--record-wire"},
               "a recording, not with --no-record");
 }
 
-void fly_one(const FlyOptions& options, ExitCode& code) {
+ExitCode fly_one(const FlyOptions& options) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
     }
@@ -189,68 +188,74 @@ void fly_one(const FlyOptions& options, ExitCode& code) {
         }
     }
     if (*stop) {
-        code = ExitCode::interrupted;
         terminal.line("interrupted; the recording is whole up to here");
     }
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (!*stop && !options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
+    if (*stop) {
+        return ExitCode::interrupted;
+    }
+    if (!options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
-        code = ExitCode::other_outcome;
+        return ExitCode::other_outcome;
     }
+    return ExitCode::ok;
 }
 
 }  // namespace
 
-void add_fly(CLI::App& app, ExitCode& code) {
+Verb fly_verb() {
     auto options = std::make_shared<FlyOptions>();
-    CLI::App* verb = app.add_subcommand("fly", "Fly one scenario to its outcome");
-    verb->add_option("scenario", options->scenario, "name (limpet list scenarios) or YAML file")
-        ->required()
-        ->type_name("SCENARIO");
-    verb->add_option("--set", options->overrides,
-                     "turn one number: guidance.dock_speed_m_s=0.8, wall.surface=metal,\n"
-                     "vehicle.slider.stiffness_N_m=400, autopilot.MC_PITCHRATE_I=0\n(repeatable)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    verb->add_option("--seed", options->seed,
-                     "of every random number; the same seed, the same bytes")
-        ->type_name("N");
-    verb->add_option("--out", options->out, "folder for recording and figures (default out/NAME)")
-        ->type_name("DIR");
-    verb->add_option("--expect", options->expect,
-                     "exit with 1 unless the flight ends so: perched, released,\n"
-                     "failed_to_seal, release_aborted, crashed, timed_out")
-        ->type_name("OUTCOME");
-    verb->add_option("--autopilot", options->autopilot,
-                     "builtin, or px4: a real one in the loop (docs/px4.md)")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"builtin", "px4"}));
-    add_options(*verb, options->px4, true);
-    add_options(*verb, options->ground);
-    verb->add_option("--speed", options->px4.speed,
-                     "times real time, or max (default: max; 1 on a serial wire or before a\n"
-                     "ground station)")
-        ->type_name("FACTOR");
-    verb->add_flag("--json", options->json,
-                   "one JSON object on standard output, all else on standard error;\nno figures");
-    verb->add_flag("--quiet", options->quiet, "say nothing but errors; no figures");
-    verb->add_flag("--csv", options->csv, "write the recording as CSV as well");
-    verb->add_flag("--no-record", options->no_record, "write nothing");
-    verb->add_flag("--no-figures", options->no_figures, "write the recording only");
-    verb->footer(
-        "Examples:\n"
-        "  limpet fly perch_concrete --seed 7\n"
-        "  limpet fly perch_metal --set suction.valve_fitted=true --expect released --json\n"
-        "A flight that runs to any outcome exits with 0; judge it with --expect.\n");
-    verb->callback([options, verb, &code] {
-        options->seed_given = verb->count("--seed") > 0;
-        check_together(*verb, *options);
-        fly_one(*options, code);
-    });
+    return {
+        .name = "fly",
+        .about = "Fly one scenario to its outcome",
+        .options = joined(
+            {{{"scenario",
+               &options->scenario,
+               "name (limpet list scenarios) or YAML file",
+               "SCENARIO",
+               {.required = true}},
+              overrides_option(
+                  options->overrides,
+                  "turn one number: guidance.dock_speed_m_s=0.8, wall.surface=metal,\n"
+                  "vehicle.slider.stiffness_N_m=400, autopilot.MC_PITCHRATE_I=0\n(repeatable)"),
+              {"--seed", &options->seed, "of every random number; the same seed, the same bytes",
+               "N"},
+              {"--out", &options->out, "folder for recording and figures (default out/NAME)",
+               "DIR"},
+              {"--expect", &options->expect,
+               "exit with 1 unless the flight ends so: perched, released,\n"
+               "failed_to_seal, release_aborted, crashed, timed_out",
+               "OUTCOME"},
+              {"--autopilot",
+               &options->autopilot,
+               "builtin, or px4: a real one in the loop (docs/px4.md)",
+               "NAME",
+               {.one_of = {"builtin", "px4"}}}},
+             options_of(options->px4, true),
+             options_of(options->ground),
+             {{"--speed", &options->px4.speed,
+               "times real time, or max (default: max; 1 on a serial wire or before a\n"
+               "ground station)",
+               "FACTOR"},
+              {"--json", &options->json,
+               "one JSON object on standard output, all else on standard error;\nno figures"},
+              {"--quiet", &options->quiet, "say nothing but errors; no figures"},
+              {"--csv", &options->csv, "write the recording as CSV as well"},
+              {"--no-record", &options->no_record, "write nothing"},
+              {"--no-figures", &options->no_figures, "write the recording only"}}}),
+        .footer =
+            "Examples:\n"
+            "  limpet fly perch_concrete --seed 7\n"
+            "  limpet fly perch_metal --set suction.valve_fitted=true --expect released --json\n"
+            "A flight that runs to any outcome exits with 0; judge it with --expect.\n",
+        .run = [options](const Given& given) {
+            options->seed_given = given("--seed");
+            check_together(given, *options);
+            return fly_one(*options);
+        }};
 }
 
 }  // namespace limpet::app

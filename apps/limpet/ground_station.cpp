@@ -25,14 +25,7 @@ TransportAddress address(const GroundStationOptions& options) {
 mavlink::Link open(const GroundStationOptions& options) {
     mavlink::Link link(open_transport(address(options), Role::connect),
                        {.system = 1, .component = mavlink::kAutopilotComponent});
-    if (!options.signing_key.empty()) {
-        link.sign(
-            {.key = mavlink::read_signing_key(options.signing_key), .link_id = 0, .unix_us = [] {
-                 using namespace std::chrono;
-                 return static_cast<std::uint64_t>(
-                     duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-             }});
-    }
+    mavlink::sign(link, options.signing_key);
     return link;
 }
 
@@ -51,8 +44,8 @@ std::uint32_t software_version() {
     return version << 8U;
 }
 
-mavlink::TelemetrySetup setup(const SimulationModel& model) {
-    const Scenario& scenario = model.scenario;
+mavlink::TelemetrySetup setup(const FlightModel& model) {
+    const Scenario& scenario = *model.scenario;
     return {.battery_cells = scenario.airframe.battery.cells,
             .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
             .lidar_maximum_m = scenario.sensors.lidar_range_max_m,
@@ -61,21 +54,20 @@ mavlink::TelemetrySetup setup(const SimulationModel& model) {
 
 }  // namespace
 
-void add_options(CLI::App& verb, GroundStationOptions& options) {
-    verb.add_option_function<std::string>(
-            "--ground-station",
-            [&options](const std::string& address) {
-                options.wanted = true;
-                options.address = address.empty() ? kDefaultAddress : address;
-            },
-            "let a ground station watch and set the autopilot's parameters;\n"
-            "where it listens (default udp:127.0.0.1:14550, QGroundControl's)")
-        ->type_name("ADDRESS")
-        ->expected(0, 1);
-    verb.add_option("--signing-key", options.signing_key,
-                    "sign the ground station's link and refuse what it does not sign;\n"
-                    "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)")
-        ->type_name("FILE");
+OptionList options_of(GroundStationOptions& options) {
+    return {{"--ground-station",
+             [&options](const std::string& address) {
+                 options.wanted = true;
+                 options.address = address.empty() ? kDefaultAddress : address;
+             },
+             "let a ground station watch and set the autopilot's parameters;\n"
+             "where it listens (default udp:127.0.0.1:14550, QGroundControl's)",
+             "ADDRESS",
+             {.values = {{0, 1}}}},
+            {"--signing-key", &options.signing_key,
+             "sign the ground station's link and refuse what it does not sign;\n"
+             "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)",
+             "FILE"}};
 }
 
 void check(const GroundStationOptions& options, bool builtin) {
@@ -92,7 +84,7 @@ void check(const GroundStationOptions& options, bool builtin) {
     }
 }
 
-GroundStation::GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+GroundStation::GroundStation(const GroundStationOptions& options, const FlightModel& model,
                              Terminal& terminal)
     : terminal_(terminal),
       wanted_(model.autopilot.parameters),
@@ -130,7 +122,7 @@ void GroundStation::tick(Flight& flight, const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         telemetry_.event(events.events[k]);
     }
-    const SimulationState& state = flight.state();
+    const FlightState& state = flight.state();
     if (!due(state.tick, kUpdates_Hz)) {
         return;
     }

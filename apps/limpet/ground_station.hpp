@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/mavlink/telemetry.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "terminal.hpp"
@@ -16,7 +16,7 @@ struct GroundStationOptions {
     std::string address = "udp:127.0.0.1:14550";
     std::string signing_key;  ///< file; empty: nothing is signed
 };
-void add_options(CLI::App& verb, GroundStationOptions& options);
+[[nodiscard]] OptionList options_of(GroundStationOptions& options);
 /// @param builtin  the built-in autopilot flies
 /// @throws InputError when the options do not go together
 void check(const GroundStationOptions& options, bool builtin);
@@ -25,7 +25,7 @@ void check(const GroundStationOptions& options, bool builtin);
 class GroundStation {
 public:
     /// @throws InputError for an address or a key that cannot be used
-    GroundStation(const GroundStationOptions& options, const SimulationModel& model,
+    GroundStation(const GroundStationOptions& options, const FlightModel& model,
                   Terminal& terminal);
     GroundStation(const GroundStation&) = delete;
     GroundStation& operator=(const GroundStation&) = delete;

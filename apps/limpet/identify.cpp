@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/chart.hpp"
+#include "limpet/draw/chart.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/suction/identification.hpp"
 #include "limpet/suction/pressure_log.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -27,7 +27,7 @@ struct IdentifyOptions {
     std::string log;
     std::string out;
     bool json = false;
-    double atmosphere_hPa = kAtmosphere_Pa / 100.0;
+    double atmosphere_hPa = hectopascals(kAtmosphere_Pa);
     std::optional<double> pump_on_s;
     std::optional<double> pump_off_s;
     std::optional<double> from_s;
@@ -81,10 +81,10 @@ std::vector<Row> rows_of(const PressureFit& fit, const std::optional<Surface>& s
         offset->value -= kAtmosphere_Pa;
     }
     return {
-        {"P_atm", "atmosphere_Pa", "hPa", 0.01, fit.atmosphere_Pa},
-        {"  - 1013.25", "atmosphere_offset_Pa", "hPa", 0.01, offset},
-        {"P_vac", "vacuum_pressure_Pa", "hPa", 0.01, fit.vacuum_Pa,
-         of_table(&S::vacuum_pressure_Pa, 0.01)},
+        {"P_atm", "atmosphere_Pa", "hPa", hectopascals(1.0), fit.atmosphere_Pa},
+        {"  - 1013.25", "atmosphere_offset_Pa", "hPa", hectopascals(1.0), offset},
+        {"P_vac", "vacuum_pressure_Pa", "hPa", hectopascals(1.0), fit.vacuum_Pa,
+         of_table(&S::vacuum_pressure_Pa, hectopascals(1.0))},
         {"tau_1", "sealing_time_constant_s", "s", 1.0, fit.sealing_time_s,
          of_table(&S::sealing_time_constant_s, 1.0)},
         {"tau_2", "unsealing_time_constant_s", "s", 1.0, fit.unsealing_time_s,
@@ -118,12 +118,12 @@ std::string text_of(const PressureFit& fit, const std::vector<Row>& rows,
         text += row.table_two ? fmt::format("{:>6.4g}\n", *row.table_two) : "\n";
     }
     if (fit.ripple_Hz) {
-        text +=
-            fmt::format("{:<16}{:>12.4g}              hPa\n", "  amplitude", fit.ripple_Pa / 100.0);
+        text += fmt::format("{:<16}{:>12.4g}              hPa\n", "  amplitude",
+                            hectopascals(fit.ripple_Pa));
     }
     text +=
         fmt::format("{:<16}{:>12.4g}              hPa, of {} samples, correlated over {:.2g} s\n",
-                    "residual", fit.residual_Pa / 100.0, fit.samples, fit.memory_s);
+                    "residual", hectopascals(fit.residual_Pa), fit.samples, fit.memory_s);
     for (const std::string& note : fit.notes) {
         text += "note            " + note + "\n";
     }
@@ -164,10 +164,10 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
     for (std::size_t i = 0; i < trace.t_s.size(); i += stride) {
         const double curve_Pa = point_of(fit.curve, trace.t_s[i]).pressure_Pa;
         data.x.push_back(trace.t_s[i]);
-        data.y.push_back(trace.pressure_Pa[i] / 100.0);
+        data.y.push_back(hectopascals(trace.pressure_Pa[i]));
         if (i >= fit.first_sample && i < fit.first_sample + fit.samples) {
             rest.x.push_back(trace.t_s[i]);
-            rest.y.push_back((trace.pressure_Pa[i] - curve_Pa) / 100.0);
+            rest.y.push_back(hectopascals(trace.pressure_Pa[i] - curve_Pa));
         }
     }
     ChartSeries curve{.name = "eqs. (5), (6)", .mark = Mark::line};
@@ -177,7 +177,7 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
     for (int k = 0; k <= kPoints; ++k) {
         const double t_s = first_s + (last_s - first_s) * k / kPoints;
         curve.x.push_back(t_s);
-        curve.y.push_back(mean_pressure_Pa(fit.curve, t_s) / 100.0);
+        curve.y.push_back(hectopascals(mean_pressure_Pa(fit.curve, t_s)));
     }
     std::vector<ChartLine> moments;
     if (fit.sealing_begins_s) {
@@ -219,11 +219,12 @@ void identify(const IdentifyOptions& options) {
     const PressureTrace trace = read_pressure_log(fs::path(options.log));
     PressureFit fit;
     try {
-        fit = identify_pressure(trace, {.pump_on_s = options.pump_on_s,
-                                        .pump_off_s = options.pump_off_s,
-                                        .from_s = options.from_s,
-                                        .to_s = options.to_s,
-                                        .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
+        fit =
+            identify_pressure(trace, {.pump_on_s = options.pump_on_s,
+                                      .pump_off_s = options.pump_off_s,
+                                      .from_s = options.from_s,
+                                      .to_s = options.to_s,
+                                      .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
     } catch (const InputError& error) {
         throw InputError(options.log + ": " + error.what());
     }
@@ -253,35 +254,39 @@ void identify(const IdentifyOptions& options) {
 
 }  // namespace
 
-void add_identify(CLI::App& app) {
+Verb identify_verb() {
     auto options = std::make_shared<IdentifyOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure");
-    verb->add_option("log", options->log, "CSV with columns t_s and pressure_Pa among any others")
-        ->required()
-        ->type_name("CSV");
-    verb->add_option("--pump-on", options->pump_on_s, "when sealing begins (default: found)")
-        ->type_name("S");
-    verb->add_option("--pump-off", options->pump_off_s, "when unsealing begins (default: found)")
-        ->type_name("S");
-    verb->add_option("--from", options->from_s, "leave out what is before")->type_name("S");
-    verb->add_option("--to", options->to_s, "leave out what is after, as where the cup lets go")
-        ->type_name("S");
-    verb->add_option("--atmosphere", options->atmosphere_hPa,
-                     "where the log does not show it (default: 1013.25)")
-        ->type_name("HPA")
-        ->check(CLI::Range(10.0, 1200.0));
-    verb->add_option("--out", options->out, "folder of the figure (default: out/identify)")
-        ->type_name("DIR");
-    verb->add_flag("--json", options->json, "one JSON object, in SI; the figure only with --out");
-    verb->footer(
-        "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
-        "recording:\n"
-        "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
-        "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals are "
-        "for\n"
-        "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");
-    verb->callback([options] { identify(*options); });
+    return {
+        .name = "identify",
+        .about = "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure",
+        .options =
+            {{"log",
+              &options->log,
+              "CSV with columns t_s and pressure_Pa among any others",
+              "CSV",
+              {.required = true}},
+             {"--pump-on", &options->pump_on_s, "when sealing begins (default: found)", "S"},
+             {"--pump-off", &options->pump_off_s, "when unsealing begins (default: found)", "S"},
+             {"--from", &options->from_s, "leave out what is before", "S"},
+             {"--to", &options->to_s, "leave out what is after, as where the cup lets go", "S"},
+             {"--atmosphere",
+              &options->atmosphere_hPa,
+              "where the log does not show it (default: 1013.25)",
+              "HPA",
+              {.range = {{10.0, 1200.0}}}},
+             {"--out", &options->out, "folder of the figure (default: out/identify)", "DIR"},
+             {"--json", &options->json, "one JSON object, in SI; the figure only with --out"}},
+        .footer =
+            "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
+            "recording:\n"
+            "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
+            "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "
+            "are for\n"
+            "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n",
+        .run = [options](const Given&) {
+            identify(*options);
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "limpet/report/chart.hpp"
+#include "limpet/draw/chart.hpp"
 
 namespace limpet::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -36,14 +36,20 @@ void print(const std::string& kind) {
 
 }  // namespace
 
-void add_list(CLI::App& app) {
+Verb list_verb() {
     auto kind = std::make_shared<std::string>();
-    CLI::App* verb = app.add_subcommand("list", "List scenarios, campaigns, surfaces or vehicles");
-    verb->add_option("kind", *kind, "scenarios, campaigns, surfaces or vehicles")
-        ->required()
-        ->type_name("KIND")
-        ->check(CLI::IsMember({"scenarios", "campaigns", "surfaces", "vehicles"}));
-    verb->callback([kind] { print(*kind); });
+    return {.name = "list",
+            .about = "List scenarios, campaigns, surfaces or vehicles",
+            .options = {{"kind",
+                         kind.get(),
+                         "scenarios, campaigns, surfaces or vehicles",
+                         "KIND",
+                         {.required = true,
+                          .one_of = {"scenarios", "campaigns", "surfaces", "vehicles"}}}},
+            .run = [kind](const Given&) {
+                print(*kind);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

@@ -30,45 +30,6 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 1 another outcome than --expect or control handed back, 2 bad input,\n"
     "70 a fault of ours, 130 interrupted.\n";
 
-void add_verbs(CLI::App& app, ExitCode& code) {
-    using namespace limpet::app;
-    app.require_subcommand(1);
-    add_fly(app, code);
-    add_sim_io(app, code);
-    add_campaign(app, code);
-    add_companion(app, code);
-    add_replay(app);
-    add_summary(app);
-    add_reproduce(app, code);
-    add_identify(app);
-    add_check(app);
-    add_list(app);
-    add_params(app);
-    add_px4_params(app);
-    add_plot(app);
-    add_film(app);
-    add_csv(app);
-    add_compare(app, code);
-    add_export(app);
-    add_rotor(app);
-    add_stand_in(app);
-}
-
-/// The first word must be a verb; said before the parser only misses one.
-void require_verb(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') {
-        return;
-    }
-    std::string verbs;
-    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-        if (verb->get_name() == argv[1]) {
-            return;
-        }
-        verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
-    }
-    throw limpet::InputError("\"" + std::string(argv[1]) + "\": no such verb; there are " + verbs);
-}
-
 /// One line on standard error, so that scripts and people find it.
 int fail(ExitCode code, const std::string& message) {
     fmt::print(stderr, "limpet: {}\n", message);
@@ -79,22 +40,18 @@ int fail(ExitCode code, const std::string& message) {
 
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
-    CLI::App app{kAbout, "limpet"};
-    app.footer(kFooter);
-    app.set_version_flag("--version", "limpet " + std::string(limpet::kVersion));
-    ExitCode code = ExitCode::ok;
     try {
-        add_verbs(app, code);
-        require_verb(app, argc, argv);
-        app.parse(argc, argv);
+        const ExitCode code =
+            limpet::app::run({.name = "limpet",
+                              .about = kAbout,
+                              .footer = kFooter,
+                              .version = "limpet " + std::string(limpet::kVersion),
+                              .verbs = limpet::app::all_verbs()},
+                             argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
             throw limpet::InputError("standard output cannot be written");
         }
         return static_cast<int>(code);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        return fail(ExitCode::bad_input, std::string(error.what()) + " (limpet --help)");
     } catch (const limpet::Interrupted& error) {
         return fail(ExitCode::interrupted, error.what());
     } catch (const limpet::InputError& error) {

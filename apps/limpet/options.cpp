@@ -29,18 +29,6 @@ Form form_of(Medium medium) {
 
 }  // namespace
 
-CLI::Validator between(double least, double most) {
-    return CLI::Validator(
-        [least, most](std::string& text) {
-            double value = 0.0;
-            const bool number = CLI::detail::lexical_cast(text, value);
-            return number && value >= least && value <= most  // false for NaN
-                       ? std::string()
-                       : fmt::format("must be {:g} to {:g}, not '{}'", least, most, text);
-        },
-        "");
-}
-
 TransportAddress address_of(const std::string& option, const std::string& text,
                             std::initializer_list<Medium> media) {
     std::string forms;
@@ -56,15 +44,6 @@ TransportAddress address_of(const std::string& option, const std::string& text,
         forms += (forms.empty() ? "" : " or ") + std::string(form.text);
     }
     throw InputError(fmt::format("{} '{}': must be {}", option, text, forms));
-}
-
-void only_with(const CLI::App& verb, bool used, std::initializer_list<const char*> options,
-               const std::string& with) {
-    for (const char* option : options) {
-        if (!used && verb.count(option) > 0) {
-            throw InputError(fmt::format("{} is of use only with {}", option, with));
-        }
-    }
 }
 
 }  // namespace limpet::app

@@ -102,29 +102,28 @@ OutsideWireOptions resolved(OutsideWireOptions options) {
     return options;
 }
 
-void add_options(CLI::App& verb, OutsideWireOptions& options) {
-    verb.add_option("companion", options.companion,
-                    "the companion's name or YAML file: all its wires, from outside;\n"
-                    "serial ports become pseudo-terminals of those names")
-        ->type_name("COMPANION");
-    verb.add_option("--sensors", options.sensors,
-                    "where the companion listens for MAVLink sensors and speaks to pump and\n"
-                    "valve (default udp:127.0.0.1:14600)")
-        ->type_name("ADDRESS");
-    verb.add_option("--motion-capture", options.motion_capture,
-                    "mavlink (ODOMETRY on the sensors' wire, default), or NatNet as Motive:\n"
-                    "udp-multicast:239.255.42.99:1511@127.0.0.1, unicast udp:127.0.0.1:1510")
-        ->type_name("WIRE");
-    verb.add_option("--natnet", options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1")
-        ->type_name("VERSION");
-    verb.add_option("--lidar-left", options.lidar_left,
-                    "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
-                    "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)")
-        ->type_name("DEVICE");
-    verb.add_option("--lidar-right", options.lidar_right, "likewise")->type_name("DEVICE");
-    verb.add_option("--mechanism", options.mechanism,
-                    "pump, valve, force and pressure as lines on such a device")
-        ->type_name("DEVICE");
+OptionList options_of(OutsideWireOptions& options) {
+    return {
+        {"companion", &options.companion,
+         "the companion's name or YAML file: all its wires, from outside;\n"
+         "serial ports become pseudo-terminals of those names",
+         "COMPANION"},
+        {"--sensors", &options.sensors,
+         "where the companion listens for MAVLink sensors and speaks to pump and\n"
+         "valve (default udp:127.0.0.1:14600)",
+         "ADDRESS"},
+        {"--motion-capture", &options.motion_capture,
+         "mavlink (ODOMETRY on the sensors' wire, default), or NatNet as Motive:\n"
+         "udp-multicast:239.255.42.99:1511@127.0.0.1, unicast udp:127.0.0.1:1510",
+         "WIRE"},
+        {"--natnet", &options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1", "VERSION"},
+        {"--lidar-left", &options.lidar_left,
+         "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
+         "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)",
+         "DEVICE"},
+        {"--lidar-right", &options.lidar_right, "likewise", "DEVICE"},
+        {"--mechanism", &options.mechanism,
+         "pump, valve, force and pressure as lines on such a device", "DEVICE"}};
 }
 
 OutsideWires open_wires(const OutsideWireOptions& options) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/simulation/remote_guidance.hpp"
 
@@ -23,7 +23,7 @@ struct OutsideWireOptions {
     int rigid_body = 1;
     int system = 1;
 };
-void add_options(CLI::App& verb, OutsideWireOptions& options);
+[[nodiscard]] OptionList options_of(OutsideWireOptions& options);
 /// Fills in what the companion's file says, the other way round: where it opens a serial port there
 /// a pseudo-terminal of that name is made, where it listens this end speaks.
 /// @throws InputError as load_companion

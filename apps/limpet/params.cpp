@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/companion/parameters.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -40,6 +40,26 @@ std::string default_of(const ParameterInfo& row) {
 
 std::string range(const ParameterInfo& row) {
     return row.is_switch ? "true, false" : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
+}
+
+/// Keys that take a name, after those that take a number.
+void print_choices(const std::string& room, bool markdown) {
+    for (const Choice& choice : choices_of(room)) {
+        const std::string title = choice.section + "." + choice.key;
+        if (markdown) {
+            fmt::print("\n## {}\n\n| name | what |\n|---|---|\n", title);
+        } else {
+            fmt::print("\n{}:\n", title);
+        }
+        for (const CatalogueEntry& entry : choice.names) {
+            const char* note = &entry == &choice.names.front() ? " (default)" : "";
+            if (markdown) {
+                fmt::print("| `{}`{} | {} |\n", entry.name, note, entry.description);
+            } else {
+                fmt::print("  {}{}  {}\n", entry.name, note, entry.description);
+            }
+        }
+    }
 }
 
 void print_text(const std::vector<ParameterInfo>& rows) {
@@ -79,22 +99,26 @@ void print_markdown(const std::vector<ParameterInfo>& rows) {
 
 }  // namespace
 
-void add_params(CLI::App& app) {
+Verb params_verb() {
     auto options = std::make_shared<ParamsOptions>();
-    CLI::App* verb =
-        app.add_subcommand("params", "Print every number that can be set: default, range, source");
-    verb->add_option("room", options->room,
-                     "one room or section only: guidance, autopilot, sensors, suction,\n"
-                     "vehicle, companion, ...")
-        ->type_name("ROOM");
-    verb->add_option("--format", options->format, "text or markdown")
-        ->type_name("FORMAT")
-        ->check(CLI::IsMember({"text", "markdown"}));
-    verb->footer("Columns: name, default, unit, allowed range, what it does, [source].\n");
-    verb->callback([options] {
-        const auto rows = rows_of(options->room);
-        options->format == "text" ? print_text(rows) : print_markdown(rows);
-    });
+    return {.name = "params",
+            .about = "Print every number that can be set: default, range, source",
+            .options = {{"room", &options->room,
+                         "one room or section only: guidance, autopilot, sensors, suction,\n"
+                         "vehicle, companion, ...",
+                         "ROOM"},
+                        {"--format",
+                         &options->format,
+                         "text or markdown",
+                         "FORMAT",
+                         {.one_of = {"text", "markdown"}}}},
+            .footer = "Columns: name, default, unit, allowed range, what it does, [source].\n",
+            .run = [options](const Given&) {
+                const auto rows = rows_of(options->room);
+                options->format == "text" ? print_text(rows) : print_markdown(rows);
+                print_choices(options->room, options->format == "markdown");
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -54,47 +54,54 @@ void draw(const PictureOptions& options, const Draw& work) {
     }
 }
 
-void add_verb(CLI::App& app, const std::string& name, const std::string& about, Draw work) {
+Verb picture_verb(const std::string& name, const std::string& about, Draw work) {
     auto options = std::make_shared<PictureOptions>();
-    CLI::App* verb = app.add_subcommand(name, about);
-    verb->add_option("recording", options->recording, "an .mcap file, also one that was cut short")
-        ->required()
-        ->type_name("RECORDING");
-    verb->add_option("--out", options->out, "folder (default: that of the recording)")
-        ->type_name("DIR");
-    verb->footer(
-        "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
-        "what is missing is said on standard error and the exit code is 2.\n");
-    verb->callback([options, work = std::move(work)] { draw(*options, work); });
+    return {.name = name,
+            .about = about,
+            .options = {{"recording",
+                         &options->recording,
+                         "an .mcap file, also one that was cut short",
+                         "RECORDING",
+                         {.required = true}},
+                        {"--out", &options->out, "folder (default: that of the recording)", "DIR"}},
+            .footer =
+                "Prints the files that it wrote. A damaged recording is used as far as it is "
+                "whole;\n"
+                "what is missing is said on standard error and the exit code is 2.\n",
+            .run = [options, work = std::move(work)](const Given&) {
+                draw(*options, work);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace
 
-void add_plot(CLI::App& app) {
-    add_verb(app, "plot", "Draw pressure, pitch, force, thrust and distance against time",
-             [](const Recording& recording, const std::filesystem::path& folder) {
-                 return plot(recording, folder);
-             });
+Verb plot_verb() {
+    return picture_verb("plot", "Draw pressure, pitch, force, thrust and distance against time",
+                        [](const Recording& recording, const std::filesystem::path& folder) {
+                            return plot(recording, folder);
+                        });
 }
 
-void add_film(CLI::App& app) {
-    add_verb(app, "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
-             [](const Recording& recording, const std::filesystem::path& folder) {
-                 return film(recording, folder);
-             });
+Verb film_verb() {
+    return picture_verb("film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
+                        [](const Recording& recording, const std::filesystem::path& folder) {
+                            return film(recording, folder);
+                        });
 }
 
-void add_csv(CLI::App& app) {
-    add_verb(app, "csv", "Write a recording as CSV, a file a topic, and the files attached to it",
-             [](const Recording& recording, const std::filesystem::path& folder) {
-                 Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
-                 for (const mcap::Attachment& attachment : recording.attachments) {
-                     const auto path = folder / "csv" / attachment.name;
-                     write_file(path, attachment.text);
-                     written.files.push_back(path);
-                 }
-                 return written;
-             });
+Verb csv_verb() {
+    return picture_verb(
+        "csv", "Write a recording as CSV, a file a topic, and the files attached to it",
+        [](const Recording& recording, const std::filesystem::path& folder) {
+            Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
+            for (const mcap::Attachment& attachment : recording.attachments) {
+                const auto path = folder / "csv" / attachment.name;
+                write_file(path, attachment.text);
+                written.files.push_back(path);
+            }
+            return written;
+        });
 }
 
 }  // namespace limpet::app

@@ -3,33 +3,19 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "options.hpp"
 
 namespace limpet::app {
 namespace {
 
-/// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
-constexpr std::uint8_t kSimulatorSystem = 255;
-
-TransportAddress hil_address(const Px4LinkOptions& options) {
-    return address_of("--hil", options.hil, {Medium::tcp, Medium::serial});
-}
-
-TransportAddress offboard_address(const Px4LinkOptions& options) {
-    return address_of("--offboard", options.offboard, {Medium::udp});
-}
-
-std::unique_ptr<mavlink::Link> open(const TransportAddress& address, WireLog* log = nullptr) {
-    auto wire = open_transport(address, Role::listen);
-    return std::make_unique<mavlink::Link>(
-        log != nullptr ? tapped(std::move(wire), *log) : std::move(wire),
-        mavlink::Sender{.system = kSimulatorSystem, .component = mavlink::kCompanionComponent});
+Px4Addresses addresses_of(const Px4LinkOptions& options) {
+    return {.hil = address_of("--hil", options.hil, {Medium::tcp, Medium::serial}),
+            .offboard = address_of("--offboard", options.offboard, {Medium::udp}),
+            .wait_s = options.wait_s};
 }
 
 /// How to start what is waited for, to be copied.
@@ -53,42 +39,27 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
                   unless_default("--peer", options.offboard, by_default.offboard));
 }
 
-void wait_for_peer(mavlink::Link& link, double wait_s, Terminal& terminal,
-                   const std::atomic<bool>* stop) {
-    using Clock = std::chrono::steady_clock;
-    const std::string where = link.transport().describe();
-    const Clock::time_point begin = Clock::now();
-    while (!link.wait_for_peer(std::chrono::milliseconds(100))) {
-        const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
-        terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, wait_s));
-        if (stop != nullptr && *stop) {
-            throw Interrupted("interrupted while waiting for PX4");
-        }
-        if (waited_s > wait_s) {
-            throw InputError(
-                fmt::format("no PX4 came to {} within {:g} s (--wait SECONDS)", where, wait_s));
-        }
-    }
-}
-
 }  // namespace
 
-void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies) {
-    verb.add_option("--hil", options.hil,
-                    "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
-                    "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)")
-        ->type_name("ADDRESS");
+OptionList options_of(Px4LinkOptions& options, bool flies) {
+    OptionList list = {{"--hil", &options.hil,
+                        "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
+                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)",
+                        "ADDRESS"}};
     if (flies) {
-        verb.add_option("--offboard", options.offboard,
+        list.push_back({"--offboard", &options.offboard,
                         "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
-                        "serial all goes over the one wire)")
-            ->type_name("ADDRESS");
+                        "serial all goes over the one wire)",
+                        "ADDRESS"});
     }
-    verb.add_option("--wait", options.wait_s, "longest wait for PX4 [s] (default 60)")
-        ->type_name("SECONDS")
-        ->check(between(0.1, 86400.0));
-    verb.add_flag("--record-wire", options.record_wire,
-                  "write every byte of the simulator link as well, into wire.mcap");
+    list.push_back({"--wait",
+                    &options.wait_s,
+                    "longest wait for PX4 [s] (default 60)",
+                    "SECONDS",
+                    {.range = {{0.1, 86400.0}}, .told = false}});
+    list.push_back({"--record-wire", &options.record_wire,
+                    "write every byte of the simulator link as well, into wire.mcap"});
+    return list;
 }
 
 double speed_of(const std::string& text, double by_default) {
@@ -108,8 +79,7 @@ double speed_of(const std::string& text, double by_default) {
 }
 
 void check(const Px4LinkOptions& options, const Scenario& scenario) {
-    (void)hil_address(options);
-    (void)offboard_address(options);
+    (void)addresses_of(options);
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
@@ -120,43 +90,42 @@ void check(const Px4LinkOptions& options, const Scenario& scenario) {
     }
 }
 
-Px4Link::Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
+Px4Link::Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
-    const TransportAddress hil = hil_address(options);
-    if (!options.serial() && flies) {
-        offboard_ = open(offboard_address(options));
-    }
     if (options.record_wire) {
         wire_log_ = std::make_unique<WireLog>(folder / "wire.mcap");
     }
+    Px4WireWatch watch{
+        .on_open =
+            [&](const std::string& where) {
+                terminal.line("waiting for PX4 on " + where);
+                say_how(options, model.scenario->name, terminal);
+            },
+        .on_wait =
+            [&](double waited_s) {
+                terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, options.wait_s));
+            },
+        .on_text =
+            [&terminal](const std::string& text) {
+                terminal.line(terminal.dim("          PX4: " + text));
+            },
+        .wait_key = "--wait SECONDS"};
+    if (wire_log_) {
+        watch.tap = [this](auto wire) { return tapped(std::move(wire), *wire_log_); };
+    }
     try {
-        hil_ = open(hil, wire_log_.get());
-        terminal.line("waiting for PX4 on " + hil_->transport().describe());
-        say_how(options, model.scenario.name, terminal);
-        wait_for_peer(*hil_, options.wait_s, terminal, stop);
+        wires_.emplace(addresses_of(options), model.control_rate_Hz, flies, watch, stop);
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log
         std::filesystem::remove(folder / "wire.mcap.part", ignored);
         throw;
     }
-    Px4Options px4;
-    px4.hil.timing =
-        options.serial() ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
-    px4.hil.motion_capture = flies;
-    px4.hil.stop = stop;
-    px4.control_rate_Hz = model.control_rate_Hz;
-    px4.flies = flies;
-    px4.on_text = [&terminal](const std::string& text) {
-        terminal.line(terminal.dim("          PX4: " + text));
-    };
-    autopilot_ =
-        std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
 }
 
 Px4Link::~Px4Link() {
-    if (wire_log_ && autopilot_ && !wire_finished_) {
+    if (wire_log_ && wires_ && !wire_finished_) {
         try {
             wire_log_->finish();  // what led to no flight is what one wants to see
         } catch (const InputError&) {
@@ -176,10 +145,10 @@ std::filesystem::path Px4Link::finish_wire_log() {
 
 LinkReport Px4Link::report(const FlightPerformance& performance) const {
     LinkReport report;
-    report.hil = autopilot_->count();
-    report.wires.emplace_back("hil", *hil_);
-    if (offboard_) {
-        report.wires.emplace_back("offboard", *offboard_);
+    report.hil = wires_->autopilot().count();
+    report.wires.emplace_back("hil", wires_->hil());
+    if (wires_->offboard() != nullptr) {
+        report.wires.emplace_back("offboard", *wires_->offboard());
     }
     report.wall_s = performance.wall_s;
     report.waited_s = performance.waited_s;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
-#include "limpet/autopilot/px4.hpp"
+#include "command_line.hpp"
+#include "limpet/autopilot/px4_wires.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
 #include "link_report.hpp"
@@ -29,7 +30,7 @@ struct Px4LinkOptions {
 /// @throws InputError naming the option that cannot be, alone or beside the others
 void check(const Px4LinkOptions& options, const Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
-void add_options(CLI::App& verb, Px4LinkOptions& options, bool flies);
+[[nodiscard]] OptionList options_of(Px4LinkOptions& options, bool flies);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given
@@ -46,7 +47,7 @@ public:
     /// @throws InputError when a wire cannot be opened or nobody comes in time; nothing is then
     ///         left in the folder
     /// @throws Interrupted on `stop`
-    Px4Link(const Px4LinkOptions& options, const SimulationModel& model, bool flies,
+    Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
     /// Closes wire.mcap, when no flight came of it.
@@ -54,7 +55,7 @@ public:
     Px4Link(const Px4Link&) = delete;
     Px4Link& operator=(const Px4Link&) = delete;
 
-    [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
+    [[nodiscard]] Px4Autopilot& autopilot() { return wires_->autopilot(); }
     [[nodiscard]] double speed() const { return speed_; }
     /// After the flight: closes wire.mcap.
     /// @return it, or an empty path
@@ -64,9 +65,7 @@ public:
 
 private:
     std::unique_ptr<WireLog> wire_log_;
-    std::unique_ptr<mavlink::Link> hil_;
-    std::unique_ptr<mavlink::Link> offboard_;  ///< nullptr: all over one wire
-    std::unique_ptr<Px4Autopilot> autopilot_;
+    std::optional<Px4Wires> wires_;
     double speed_ = 0.0;
     bool wire_finished_ = false;
 };

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/autopilot/px4_airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -106,41 +106,46 @@ void write_both(const Px4Options& options) {
 
 }  // namespace
 
-void add_px4_params(CLI::App& app) {
+Verb px4_params_verb() {
     auto options = std::make_shared<Px4Options>();
-    CLI::App* verb = app.add_subcommand(
-        "px4-params", "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe");
-    verb->add_option("vehicle", options->wanted,
-                     "vehicle or scenario, by name or YAML file; a scenario brings its\n"
-                     "autopilot section along")
-        ->required()
-        ->type_name("VEHICLE");
-    verb->add_option("--set", options->overrides, "turn one number, as in limpet fly (repeatable)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    verb->add_option("--out", options->out, "folder for both files (default: here)")
-        ->type_name("DIR");
-    verb->add_option("--airframe-id", options->airframe_id,
-                     "PX4's number of this airframe, 22000 .. 22999 (default 22001)")
-        ->type_name("N");
-    verb->add_option_function<std::string>(
-            "--target", [options](const std::string& text) { options->target = kTargets.at(text); },
-            "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
-            "simulator; flight: the vehicle itself, with its companion on TELEM 2")
-        ->type_name("TARGET")
-        ->check(CLI::IsMember({"sitl", "hitl", "flight"}).description(""));
-    CLI::Option* mocap = verb->add_flag("--mocap", options->mocap,
-                                        "position by motion capture (default unless the\n"
-                                        "scenario's EKF2_EV_CTRL is 0)");
-    verb->add_flag("--gps", options->gps, "position by GPS and compass")->excludes(mocap);
-    verb->footer(
-        "Examples:\n"
-        "  limpet px4-params perching_uav --out out/px4\n"
-        "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
-        "Every line has its reason above it. --target flight leaves outputs, remote control and\n"
-        "the supply check as they are on the board.\n");
-    verb->callback([options] { write_both(*options); });
+    return {
+        .name = "px4-params",
+        .about = "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe",
+        .options =
+            {{"vehicle",
+              &options->wanted,
+              "vehicle or scenario, by name or YAML file; a scenario brings its\n"
+              "autopilot section along",
+              "VEHICLE",
+              {.required = true}},
+             overrides_option(options->overrides, "turn one number, as in limpet fly (repeatable)"),
+             {"--out", &options->out, "folder for both files (default: here)", "DIR"},
+             {"--airframe-id", &options->airframe_id,
+              "PX4's number of this airframe, 22000 .. 22999 (default 22001)", "N"},
+             {"--target",
+              [options](const std::string& text) { options->target = kTargets.at(text); },
+              "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
+              "simulator; flight: the vehicle itself, with its companion on TELEM 2",
+              "TARGET",
+              {.one_of = {"sitl", "hitl", "flight"}, .told = false}},
+             {"--mocap", &options->mocap,
+              "position by motion capture (default unless the\nscenario's EKF2_EV_CTRL is 0)"},
+             {"--gps",
+              &options->gps,
+              "position by GPS and compass",
+              nullptr,
+              {.not_with = "--mocap"}}},
+        .footer =
+            "Examples:\n"
+            "  limpet px4-params perching_uav --out out/px4\n"
+            "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
+            "Every line has its reason above it. --target flight leaves outputs, remote control "
+            "and\n"
+            "the supply check as they are on the board.\n",
+        .run = [options](const Given&) {
+            write_both(*options);
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

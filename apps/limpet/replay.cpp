@@ -5,13 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -62,22 +62,26 @@ void replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app) {
+Verb replay_verb() {
     auto options = std::make_shared<ReplayOptions>();
-    CLI::App* verb =
-        app.add_subcommand("replay", "Fly a run of a campaign again, with recording and figures");
-    verb->add_option("database", options->database, "results.sqlite, or the folder that holds it")
-        ->required()
-        ->type_name("DB");
-    verb->add_option("run", options->run, "number of the run, from 0")
-        ->required()
-        ->type_name("RUN");
-    verb->add_option("--out", options->out, "folder (default: run_RUN beside the database)")
-        ->type_name("DIR");
-    verb->footer(
-        "Needs the database alone. Exits with 70 when the flight does not end at the row's state "
-        "hash.\n");
-    verb->callback([options] { replay(*options); });
+    return {
+        .name = "replay",
+        .about = "Fly a run of a campaign again, with recording and figures",
+        .options = {{"database",
+                     &options->database,
+                     "results.sqlite, or the folder that holds it",
+                     "DB",
+                     {.required = true}},
+                    {"run", &options->run, "number of the run, from 0", "RUN", {.required = true}},
+                    {"--out", &options->out, "folder (default: run_RUN beside the database)",
+                     "DIR"}},
+        .footer =
+            "Needs the database alone. Exits with 70 when the flight does not end at the row's "
+            "state hash.\n",
+        .run = [options](const Given&) {
+            replay(*options);
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
+#include "command_line.hpp"
 #include "output.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -76,35 +76,38 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, ExitCode& code) {
+Verb reproduce_verb() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand(
-        "reproduce", "Fly the paper's experiments; its tables, figures, claims on one page");
     std::vector<std::string> names;
     std::string footer = "Parts:\n";
     for (const auto& [name, title] : part_titles()) {
         names.push_back(name);
         footer += fmt::format("  {:<12} {}\n", name, title);
     }
-    verb->add_option("--out", options->out, "folder (default: out/reproduce)")->type_name("DIR");
-    verb->add_option("--only", options->only, "one part, named below")
-        ->type_name("NAME")
-        ->check(CLI::IsMember(names));
-    verb->add_flag("--quick", options->quick, "fewer missions, coarser maps; under two minutes");
-    verb->add_option("--jobs,-j", options->jobs, "threads (default: one a processor)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
-    verb->footer(footer +
-                 "\nWrites index.html (opens offline), results.json, figures/, and the recordings\n"
-                 "and campaigns behind them.\n");
-    verb->callback([options, &code] {
-        try {
-            run(*options);
-        } catch (const Interrupted&) {
-            fmt::print(stderr, "limpet: stopped; no page was written\n");
-            code = ExitCode::interrupted;
-        }
-    });
+    return {
+        .name = "reproduce",
+        .about = "Fly the paper's experiments; its tables, figures, claims on one page",
+        .options = {{"--out", &options->out, "folder (default: out/reproduce)", "DIR"},
+                    {"--only", &options->only, "one part, named below", "NAME", {.one_of = names}},
+                    {"--quick", &options->quick, "fewer missions, coarser maps; under two minutes"},
+                    {"--jobs,-j",
+                     &options->jobs,
+                     "threads (default: one a processor)",
+                     "N",
+                     {.range = {{1, 1024}}}}},
+        .footer =
+            footer +
+            "\nWrites index.html (opens offline), results.json, figures/, and the recordings\n"
+            "and campaigns behind them.\n",
+        .run = [options](const Given&) {
+            try {
+                run(*options);
+            } catch (const Interrupted&) {
+                fmt::print(stderr, "limpet: stopped; no page was written\n");
+                return ExitCode::interrupted;
+            }
+            return ExitCode::ok;
+        }};
 }
 
 }  // namespace limpet::app

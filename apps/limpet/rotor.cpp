@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/vehicle/propeller_file.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -125,32 +125,36 @@ void print_json(const RotorOptions& options, const Finding& found) {
 
 }  // namespace
 
-void add_rotor(CLI::App& app) {
+Verb rotor_verb() {
     auto options = std::make_shared<RotorOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "rotor", "Work out a rotor's constants from a propeller's static measurement");
-    verb->add_option("file", options->file, "UIUC static file: columns RPM, CT, CP")
-        ->required()
-        ->type_name("FILE");
-    verb->add_option("--diameter", options->diameter,
-                     "of the propeller, with its unit: 12in, 305mm")
-        ->required()
-        ->type_name("LENGTH");
-    verb->add_option("--density", options->density_kg_m3, "of the air in the result, 1.225 kg/m3")
-        ->type_name("RHO");
-    verb->add_option("--rpm", options->speed_rpm,
-                     "take the coefficients at this speed, as at hover; else a fit over\n"
-                     "all rows, in which a row counts with the fourth power of its speed")
-        ->type_name("R");
-    verb->add_flag("--json", options->json, "one JSON object on standard output");
-    verb->footer(
-        "Example:\n"
-        "  limpet rotor apce_12x5.5_static.txt --diameter 12in --rpm 5350\n"
-        "Files: m-selig.ae.illinois.edu/props/propDB.html\n");
-    verb->callback([options] {
-        const Finding found = find(*options);
-        options->json ? print_json(*options, found) : print_text(*options, found);
-    });
+    return {.name = "rotor",
+            .about = "Work out a rotor's constants from a propeller's static measurement",
+            .options = {{"file",
+                         &options->file,
+                         "UIUC static file: columns RPM, CT, CP",
+                         "FILE",
+                         {.required = true}},
+                        {"--diameter",
+                         &options->diameter,
+                         "of the propeller, with its unit: 12in, 305mm",
+                         "LENGTH",
+                         {.required = true}},
+                        {"--density", &options->density_kg_m3,
+                         "of the air in the result, 1.225 kg/m3", "RHO"},
+                        {"--rpm", &options->speed_rpm,
+                         "take the coefficients at this speed, as at hover; else a fit over\n"
+                         "all rows, in which a row counts with the fourth power of its speed",
+                         "R"},
+                        {"--json", &options->json, "one JSON object on standard output"}},
+            .footer =
+                "Example:\n"
+                "  limpet rotor apce_12x5.5_static.txt --diameter 12in --rpm 5350\n"
+                "Files: m-selig.ae.illinois.edu/props/propDB.html\n",
+            .run = [options](const Given&) {
+                const Finding found = find(*options);
+                options->json ? print_json(*options, found) : print_text(*options, found);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

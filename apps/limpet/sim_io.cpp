@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
@@ -19,7 +20,6 @@
 #include "px4_link.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -119,7 +119,7 @@ FlightWatch watch(Terminal& terminal) {
                 }};
 }
 
-void sim_io(SimIoOptions options, ExitCode& code) {
+ExitCode sim_io(SimIoOptions options) {
     options.wires = resolved(std::move(options.wires));
     check(options);
     if (options.px4.speed.empty()) {
@@ -149,51 +149,52 @@ void sim_io(SimIoOptions options, ExitCode& code) {
     const FlightResult result = fly(model, folder / "flight.mcap", watch(terminal), 0, conduct);
     conclude(options, result, px4, guidance, terminal);
     if (*stop) {
-        code = ExitCode::interrupted;
         terminal.line("interrupted; the recording is whole up to here");
-    } else if (!options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
+        return ExitCode::interrupted;
+    }
+    if (!options.expect.empty() && expected_outcome(options.expect) != result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the flight ended {}: {}\n", options.expect,
                    to_string(result.outcome), result.reason);
-        code = ExitCode::other_outcome;
+        return ExitCode::other_outcome;
     }
+    return ExitCode::ok;
 }
 
 }  // namespace
 
-void add_sim_io(CLI::App& app, ExitCode& code) {
+Verb sim_io_verb() {
     auto options = std::make_shared<SimIoOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "sim-io", "Simulate what is around a companion computer: vehicle, sensors, HIL");
-    verb->add_option("scenario", options->scenario, "name (limpet list scenarios) or YAML file")
-        ->required()
-        ->type_name("SCENARIO");
-    verb->add_option("--set", options->overrides, "turn one number, as for fly (repeatable)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    verb->add_option("--out", options->out, "folder for the recording (default out/NAME)")
-        ->type_name("DIR");
-    verb->add_option("--expect", options->expect, "exit with 1 unless the flight ends so")
-        ->type_name("OUTCOME");
-    add_options(*verb, options->wires);
-    add_options(*verb, options->px4, false);
-    verb->add_option("--start-limit", options->start_limit_s,
-                     "longest wait for the take-off [s of simulated time] (default 300)")
-        ->type_name("SECONDS")
-        ->check(between(1.0, 86400.0));
-    verb->add_option("--speed", options->px4.speed,
-                     "times real time (default 1); the companion needs the same --speed")
-        ->type_name("FACTOR");
-    verb->add_flag("--json", options->json, "one JSON object on standard output; no figures");
-    verb->add_flag("--no-figures", options->no_figures, "write the recording only");
-    verb->footer(
-        "Three terminals, as in the paper's Fig. 5:\n"
-        "  limpet sim-io perch_concrete simulation\n"
-        "  limpet stand-in perch_concrete       or PX4: docs/px4.md\n"
-        "  limpet companion simulation\n"
-        "The vehicle stands until the companion takes off. The flight ends when the companion\n"
-        "says so, at a crash or at the scenario's time limit.\n");
-    verb->callback([options, &code] { sim_io(*options, code); });
+    return {
+        .name = "sim-io",
+        .about = "Simulate what is around a companion computer: vehicle, sensors, HIL",
+        .options = joined(
+            {{{"scenario",
+               &options->scenario,
+               "name (limpet list scenarios) or YAML file",
+               "SCENARIO",
+               {.required = true}},
+              overrides_option(options->overrides, "turn one number, as for fly (repeatable)"),
+              {"--out", &options->out, "folder for the recording (default out/NAME)", "DIR"},
+              {"--expect", &options->expect, "exit with 1 unless the flight ends so", "OUTCOME"}},
+             options_of(options->wires),
+             options_of(options->px4, false),
+             {{"--start-limit",
+               &options->start_limit_s,
+               "longest wait for the take-off [s of simulated time] (default 300)",
+               "SECONDS",
+               {.range = {{1.0, 86400.0}}, .told = false}},
+              {"--speed", &options->px4.speed,
+               "times real time (default 1); the companion needs the same --speed", "FACTOR"},
+              {"--json", &options->json, "one JSON object on standard output; no figures"},
+              {"--no-figures", &options->no_figures, "write the recording only"}}}),
+        .footer =
+            "Three terminals, as in the paper's Fig. 5:\n"
+            "  limpet sim-io perch_concrete simulation\n"
+            "  limpet stand-in perch_concrete       or PX4: docs/px4.md\n"
+            "  limpet companion simulation\n"
+            "The vehicle stands until the companion takes off. The flight ends when the companion\n"
+            "says so, at a crash or at the scenario's time limit.\n",
+        .run = [options](const Given&) { return sim_io(*options); }};
 }
 
 }  // namespace limpet::app

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
 #include "options.hpp"
 #include "signals.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -89,30 +89,34 @@ void serve(const Options& options) {
 
 }  // namespace
 
-void add_stand_in(CLI::App& app) {
+Verb stand_in_verb() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand(
-        "stand-in", "The built-in autopilot behind PX4's wire, in place of a PX4");
-    verb->add_option("what", options->what, "scenario (name or file) or vehicle (name) to fly")
-        ->required()
-        ->type_name("SCENARIO");
-    verb->add_option("--hil", options->hil,
-                     "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
-                     "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)")
-        ->type_name("ADDRESS");
-    verb->add_option("--onboard", options->onboard,
-                     "where its onboard link listens (default udp:127.0.0.1:14580)")
-        ->type_name("ADDRESS");
-    verb->add_option("--peer", options->peer,
-                     "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)")
-        ->type_name("ADDRESS");
-    verb->add_option("--param", options->parameters,
-                     "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given")
-        ->type_name("NAME=VALUE");
-    verb->footer(
-        "In another terminal: limpet fly SCENARIO --autopilot px4\n"
-        "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n");
-    verb->callback([options] { serve(*options); });
+    return {.name = "stand-in",
+            .about = "The built-in autopilot behind PX4's wire, in place of a PX4",
+            .options = {{"what",
+                         &options->what,
+                         "scenario (name or file) or vehicle (name) to fly",
+                         "SCENARIO",
+                         {.required = true}},
+                        {"--hil", &options->hil,
+                         "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
+                         "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)",
+                         "ADDRESS"},
+                        {"--onboard", &options->onboard,
+                         "where its onboard link listens (default udp:127.0.0.1:14580)", "ADDRESS"},
+                        {"--peer", &options->peer,
+                         "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)",
+                         "ADDRESS"},
+                        {"--param", &options->parameters,
+                         "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given",
+                         "NAME=VALUE"}},
+            .footer =
+                "In another terminal: limpet fly SCENARIO --autopilot px4\n"
+                "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n",
+            .run = [options](const Given&) {
+                serve(*options);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
+#include "command_line.hpp"
 #include "output.hpp"
-#include "verbs.hpp"
 
 namespace limpet::app {
 namespace {
@@ -40,20 +40,25 @@ void summarise_campaign(const SummaryOptions& options) {
 
 }  // namespace
 
-void add_summary(CLI::App& app) {
+Verb summary_verb() {
     auto options = std::make_shared<SummaryOptions>();
-    CLI::App* verb = app.add_subcommand(
-        "summary", "Print and draw what a campaign found: probabilities, failures, fits");
-    verb->add_option("database", options->database, "results.sqlite, or the folder that holds it")
-        ->required()
-        ->type_name("DB");
-    verb->add_option("--out", options->out, "folder of the figures (default: that of the database)")
-        ->type_name("DIR");
-    verb->add_flag("--json", options->json, "one JSON object; figures only with --out");
-    verb->footer(
-        "Works while the campaign is still flying. Draws summary.png and summary.svg. Intervals "
-        "are\nWilson's, 95 %.\n");
-    verb->callback([options] { summarise_campaign(*options); });
+    return {.name = "summary",
+            .about = "Print and draw what a campaign found: probabilities, failures, fits",
+            .options = {{"database",
+                         &options->database,
+                         "results.sqlite, or the folder that holds it",
+                         "DB",
+                         {.required = true}},
+                        {"--out", &options->out,
+                         "folder of the figures (default: that of the database)", "DIR"},
+                        {"--json", &options->json, "one JSON object; figures only with --out"}},
+            .footer =
+                "Works while the campaign is still flying. Draws summary.png and summary.svg. "
+                "Intervals are\nWilson's, 95 %.\n",
+            .run = [options](const Given&) {
+                summarise_campaign(*options);
+                return ExitCode::ok;
+            }};
 }
 
 }  // namespace limpet::app

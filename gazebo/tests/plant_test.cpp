@@ -233,7 +233,7 @@ TEST_F(WorldsThatDiffer, InTheEngineAreRefused) {
 }
 
 TEST_F(WorldsThatDiffer, InTheWallsPlaceAreRefused) {
-    scenario.wall.plane.p_WT_m.x() += 0.01;
+    scenario.wall.geometry.p_WT_m.x() += 0.01;
     GazeboWorld text = world_of(load_scenario("perch_concrete"), scenario.name, {});
     text.vehicles.front().plugin.reset();
     try {

@@ -157,7 +157,7 @@ protected:
                             frame.lidar_z_m);
         const Vector3 origin_W_m = truth.base.p_WF_m + truth.base.q_WF * p_B_m;
         const Vector3 along_W = truth.base.q_WF * Vector3::UnitX();
-        const WallPlane& wall = flight.scenario.wall.plane;
+        const WallGeometry& wall = flight.scenario.wall.geometry;
         const Vector3 into_W = wall.R_WT.col(0);
         return into_W.dot(wall.p_WT_m - origin_W_m) / into_W.dot(along_W);
     }

@@ -70,7 +70,7 @@ void bring_covariance_up(const AutopilotParameters& p, EstimatorState& state) {
 
 void take_imu(const AutopilotParameters& p, EstimatorState& state, const Sample<ImuReading>& imu) {
     const ImuReading& value = imu.value;
-    if (!(imu.time_s > state.time_s) || !value.specific_force_B_m_s2.allFinite() ||
+    if (!imu.newer_than(state.time_s) || !value.specific_force_B_m_s2.allFinite() ||
         !value.rate_B_rad_s.allFinite()) {
         return;
     }
@@ -100,13 +100,14 @@ void apply(EstimatorState& state, const ErrorVector& correction) {
 }
 
 /// Calls `aid(fusion, instant)` for a sample that is new, finite and not older than the history.
-template <class Aid>
-void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s, double stamp_s,
-          bool finite, Aid aid) {
-    if (!(stamp_s > seen_s)) {
+/// @param stamp_s  of the measurement, as far as is known
+template <class T, class Aid>
+void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
+          const Sample<T>& sample, double stamp_s, bool finite, Aid aid) {
+    if (!sample.newer_than(seen_s)) {
         return;
     }
-    seen_s = stamp_s;
+    seen_s = sample.time_s;
     const double age_s = std::max(0.0, state.time_s - stamp_s);
     const std::optional<Instant> at = instant(state.navigation, state.history, age_s);
     if (!finite || !at) {
@@ -123,44 +124,46 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
     const double stamp_s = sample.time_s - kMillisecond_s * p.EKF2_EV_DELAY;
     const PoseReading& pose = sample.value;
     const bool finite = pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite();
-    take(p, state, state.motion_capture_s, stamp_s, finite, [&](Fusion& fusion, const Instant& at) {
-        if (has(p.EKF2_EV_CTRL, kHorizontal | kHeight)) {
-            fuse(fusion, state.motion_capture_position,
-                 measure_position(at, pose.p_WB_m, Vector3::Constant(p.EKF2_EVP_NOISE),
-                                  position_axes(p.EKF2_EV_CTRL)),
-                 stamp_s, p.EKF2_EVP_GATE, kPosition);
-        }
-        if (has(p.EKF2_EV_CTRL, kVisionAttitude)) {
-            fuse(fusion, state.motion_capture_attitude,
-                 measure_attitude(at, pose.q_WB, p.EKF2_EVA_NOISE), stamp_s, p.EKF2_HDG_GATE,
-                 kAttitude);
-        }
-    });
+    take(p, state, state.motion_capture_s, sample, stamp_s, finite,
+         [&](Fusion& fusion, const Instant& at) {
+             if (has(p.EKF2_EV_CTRL, kHorizontal | kHeight)) {
+                 fuse(fusion, state.motion_capture_position,
+                      measure_position(at, pose.p_WB_m, Vector3::Constant(p.EKF2_EVP_NOISE),
+                                       position_axes(p.EKF2_EV_CTRL)),
+                      stamp_s, p.EKF2_EVP_GATE, kPosition);
+             }
+             if (has(p.EKF2_EV_CTRL, kVisionAttitude)) {
+                 fuse(fusion, state.motion_capture_attitude,
+                      measure_attitude(at, pose.q_WB, p.EKF2_EVA_NOISE), stamp_s, p.EKF2_HDG_GATE,
+                      kAttitude);
+             }
+         });
 }
 
 void take_gps(const AutopilotParameters& p, EstimatorState& state,
               const Sample<GpsReading>& sample) {
     const GpsReading& gps = sample.value;
     const bool finite = gps.p_WB_m.allFinite() && gps.v_WB_m_s.allFinite();
-    take(p, state, state.gps_s, sample.time_s, finite, [&](Fusion& fusion, const Instant& at) {
-        if (has(p.EKF2_GPS_CTRL, kHorizontal | kHeight)) {
-            fuse(fusion, state.gps_position,
-                 measure_position(at, gps.p_WB_m, gps_noise(p.EKF2_GPS_P_NOISE),
-                                  position_axes(p.EKF2_GPS_CTRL)),
-                 sample.time_s, p.EKF2_GPS_P_GATE, kPosition);
-        }
-        if (has(p.EKF2_GPS_CTRL, kGpsVelocity)) {
-            fuse(fusion, state.gps_velocity,
-                 measure_velocity(at, gps.v_WB_m_s, gps_noise(p.EKF2_GPS_V_NOISE)), sample.time_s,
-                 p.EKF2_GPS_V_GATE, kVelocity);
-        }
-    });
+    take(p, state, state.gps_s, sample, sample.time_s, finite,
+         [&](Fusion& fusion, const Instant& at) {
+             if (has(p.EKF2_GPS_CTRL, kHorizontal | kHeight)) {
+                 fuse(fusion, state.gps_position,
+                      measure_position(at, gps.p_WB_m, gps_noise(p.EKF2_GPS_P_NOISE),
+                                       position_axes(p.EKF2_GPS_CTRL)),
+                      sample.time_s, p.EKF2_GPS_P_GATE, kPosition);
+             }
+             if (has(p.EKF2_GPS_CTRL, kGpsVelocity)) {
+                 fuse(fusion, state.gps_velocity,
+                      measure_velocity(at, gps.v_WB_m_s, gps_noise(p.EKF2_GPS_V_NOISE)),
+                      sample.time_s, p.EKF2_GPS_V_GATE, kVelocity);
+             }
+         });
 }
 
 void take_barometer(const AutopilotParameters& p, EstimatorState& state,
                     const Sample<BarometerReading>& sample) {
     const Vector3 p_WB_m(0.0, 0.0, -sample.value.altitude_m);
-    take(p, state, state.barometer_s, sample.time_s, p_WB_m.allFinite(),
+    take(p, state, state.barometer_s, sample, sample.time_s, p_WB_m.allFinite(),
          [&](Fusion& fusion, const Instant& at) {
              fuse(fusion, state.barometer,
                   measure_position(at, p_WB_m, Vector3::Constant(p.EKF2_BARO_NOISE),
@@ -174,7 +177,7 @@ void take_magnetometer(const AutopilotParameters& p, EstimatorState& state,
     const Vector3& field_B_gauss = sample.value.field_B_gauss;
     const Vector3 field_W_gauss(p.mag_field_north_gauss, p.mag_field_east_gauss,
                                 p.mag_field_down_gauss);
-    take(p, state, state.magnetometer_s, sample.time_s, field_B_gauss.allFinite(),
+    take(p, state, state.magnetometer_s, sample, sample.time_s, field_B_gauss.allFinite(),
          [&](Fusion& fusion, const Instant& at) {
              fuse(fusion, state.magnetometer,
                   measure_field(at, field_B_gauss, field_W_gauss, p.EKF2_MAG_NOISE), sample.time_s,

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/plant_cache.hpp"
 
+#include <algorithm>
+
 namespace limpet {
 
-std::shared_ptr<const MujocoModel> PlantCache::get(const std::string& mjcf) {
+std::shared_ptr<const PlantModel> PlantCache::get(const Scenario& scenario) {
+    const Scene scene = scene_of(scenario);
     const std::lock_guard lock(mutex_);
-    if (const auto found = plants_.find(mjcf); found != plants_.end()) {
-        return found->second;
+    const auto found = std::find_if(plants_.begin(), plants_.end(), [&](const Entry& entry) {
+        return entry.engine == scenario.engine && entry.scene == scene &&
+               entry.airframe == scenario.airframe;
+    });
+    if (found != plants_.end()) {
+        return found->plant;
     }
     if (plants_.size() >= kMost) {
         plants_.clear();
     }
-    return plants_[mjcf] = std::make_shared<const MujocoModel>(mjcf);
+    plants_.push_back({scenario.engine, scenario.airframe, scene,
+                       scenario.engine->make(scenario.airframe, scene)});
+    return plants_.back().plant;
 }
 
 }  // namespace limpet

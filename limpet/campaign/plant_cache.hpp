@@ -3,23 +3,29 @@
 
 #include <memory>
 #include <mutex>
-#include <string>
-#include <unordered_map>
+#include <vector>
 
-#include "limpet/plant/mujoco_model.hpp"
+#include "limpet/scenario/scenario.hpp"
 
 namespace limpet {
 
-/// Compiled plants by their text, shared by all workers: a campaign that varies neither vehicle nor
-/// wall compiles once. Few are kept, so that one that varies a mass does not keep a plant a run.
+/// Plants by what they are made of, shared by all workers: a campaign that varies neither vehicle
+/// nor wall compiles once. Few are kept, so that one that varies a mass does not keep a plant a
+/// run.
 class PlantCache {
 public:
-    [[nodiscard]] std::shared_ptr<const MujocoModel> get(const std::string& mjcf);
+    [[nodiscard]] std::shared_ptr<const PlantModel> get(const Scenario& scenario);
 
 private:
+    struct Entry {
+        const Engine* engine;
+        Airframe airframe;
+        Scene scene;
+        std::shared_ptr<const PlantModel> plant;
+    };
     static constexpr std::size_t kMost = 32;
     std::mutex mutex_;  ///< also over MuJoCo's compiler, which keeps globals
-    std::unordered_map<std::string, std::shared_ptr<const MujocoModel>> plants_;
+    std::vector<Entry> plants_;
 };
 
 }  // namespace limpet

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "limpet/campaign/summary.hpp"
-#include "limpet/report/chart.hpp"
-#include "limpet/report/colours.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/draw/chart.hpp"
+#include "limpet/draw/colours.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet {
 namespace {

@@ -139,11 +139,11 @@ private:
 };
 
 /// @throws InputError naming the run
-std::shared_ptr<const SimulationModel> model_of(const Campaign& campaign, const RunRow& row,
-                                                PlantCache& plants) {
+std::shared_ptr<const FlightModel> model_of(const Campaign& campaign, const RunRow& row,
+                                            PlantCache& plants) {
     try {
-        return build_model(scenario_of(campaign, row.sample),
-                           [&plants](const std::string& mjcf) { return plants.get(mjcf); });
+        const Scenario scenario = scenario_of(campaign, row.sample);
+        return build_model(scenario, plants.get(scenario));
     } catch (const InputError& error) {
         throw InputError(fmt::format("run {}: {}", row.run, error.what()));
     }

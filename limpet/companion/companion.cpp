@@ -12,8 +12,8 @@
 
 // The loop, a line a station, in the order in which data flows; tick() is the picture:
 //
-//   wires -> readings -> estimate -> watchdog -> guidance -> autopilot's wire
-//     └----> poses to the autopilot                └-------> mechanism's wire
+//   wires -> readings, estimate -> session (watchdog, guidance) -> autopilot's wire
+//     └----> poses to the autopilot                   └----------> mechanism's wire
 
 namespace limpet {
 namespace {
@@ -31,18 +31,16 @@ mavlink::OffboardOptions options_of(const CompanionConfig& config) {
             .sets_origin = config.sets_origin};
 }
 
-}  // namespace
-
-std::string_view to_string(CompanionPhase phase) {
-    switch (phase) {
-        case CompanionPhase::waiting: return "waiting";
-        case CompanionPhase::ready: return "ready";
-        case CompanionPhase::flying: return "flying";
-        case CompanionPhase::leaving: return "leaving";
-        case CompanionPhase::over: return "over";
-    }
-    throw InternalError("phase out of range");
+/// Dry, the vehicle is carried: an autopilot that does as it is told stands in for the real one.
+SessionSetup setup_of(const CompanionConfig& config, bool dry_run) {
+    return {.task = config.task,
+            .guidance = config.guidance,
+            .limits = config.limits,
+            .rises = config.asks_for_mode && !dry_run,
+            .has_mechanism = config.task.perch && !dry_run};
 }
+
+}  // namespace
 
 Companion::Companion(const CompanionConfig& config, Wires& wires, CompanionLog* log, bool dry_run,
                      CompanionWatch watch)
@@ -54,7 +52,10 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, CompanionLog* 
       offboard_(options_of(config)),
       inputs_(config),
       mechanism_(config),
-      dry_([this](double time_s, const std::string& text) { say(time_s, text); }) {
+      dry_([this](double time_s, const std::string& text) { say(time_s, text); }),
+      session_(setup_of(config, dry_run),
+               {.on_event = [this](const Event& event) { report(event); },
+                .on_line = [this](double time_s, const std::string& text) { say(time_s, text); }}) {
     result_.events.reserve(256);
 }
 
@@ -77,21 +78,18 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
     result_.last_s = time_s;
     result_.late_ticks += late_s > 1.0 / config_.limits.guidance_rate_Hz ? 1 : 0;
     result_.latest_s = std::max(result_.latest_s, late_s);
-    const bool flies_us =
-        phase_ == CompanionPhase::flying || (phase_ == CompanionPhase::ready && steers());
-    late_ = late_ || (late_s > config_.limits.late_limit_s && flies_us);
-    interrupted_ = interrupted_ || interrupted;
-
+    if (over_) {
+        return;
+    }
+    if (interrupted) {
+        session_.interrupt();
+    }
     poll(time_s);
-    switch (phase_) {
-        case CompanionPhase::waiting: wait(time_s); break;
-        case CompanionPhase::ready: stand_ready(time_s); break;
-        case CompanionPhase::flying:
-            obey(judge(look(time_s), place()), time_s);
-            guide(time_s);
-            break;
-        case CompanionPhase::leaving: take_leave(time_s); break;
-        case CompanionPhase::over: return;
+    feed(time_s);
+    const bool was_leaving = phase() == SessionPhase::handed_back;
+    session_.tick(time_s);
+    if (phase() == SessionPhase::handed_back) {
+        conclude(was_leaving, time_s);
     }
     steer(time_s);
     actuate(time_s);
@@ -124,160 +122,75 @@ void Companion::forward_pose(double time_s) {
                                  std::chrono::milliseconds(5));
 }
 
-/// Position counts as lost when motion capture is: an estimator that goes on without it must not
-/// take off.
-Estimate Companion::believe(double time_s) const {
-    const bool pose_fresh = inputs_.pose_fresh(time_s);
+std::string Companion::mechanism_obstacle(double time_s) const {
+    constexpr double kAnswer_s = 1.0;
+    if (inputs_.mechanism_s() < 0.0 || time_s - inputs_.mechanism_s() > kAnswer_s) {
+        return "no answer of pump and valve";
+    }
+    return inputs_.mechanism_refuses() ? "pump and valve refuse" : "";
+}
+
+void Companion::feed(double time_s) {
+    constexpr std::uint8_t kInAir = 2;
+    const bool flies = phase() == SessionPhase::flying;
+    SessionInputs& in = session_.inputs();
+    in.readings = inputs_.readings();
+    const Estimate estimate = dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s);
+    if (estimate.valid) {
+        in.pose = {estimate.time_s, {.p_WB_m = estimate.p_WB_m, .q_WB = estimate.q_WB}};
+        in.velocity_W_m_s = {estimate.time_s, estimate.v_WB_m_s};
+        in.rate_B_rad_s = {estimate.time_s, estimate.w_WB_B_rad_s};
+    }
     if (dry_run_) {
-        return carried_.estimate(pose_fresh);
-    }
-    Estimate estimate = offboard_.estimate(time_s);
-    estimate.valid = estimate.valid && pose_fresh;
-    return estimate;
-}
-
-/// By its last heartbeat.
-bool Companion::steers() const {
-    return offboard_.report().offboard && offboard_.report().armed;
-}
-
-bool Companion::engaged(double time_s) const {
-    return offboard_.state(time_s) == mavlink::OffboardState::engaged;
-}
-
-/// It rests once its motors are known to be off: until then set-points must not stop.
-Place Companion::place() const {
-    const Place place = place_of(memory_);
-    const bool turning = !dry_run_ && offboard_.report().armed;
-    return place == Place::at_rest && turning ? Place::on_cup : place;
-}
-
-Signs Companion::look(double time_s) const {
-    Signs signs{
-        .interrupted = interrupted_, .late = late_, .pose_fresh = inputs_.pose_fresh(time_s)};
-    if (!dry_run_) {
-        signs.autopilot = offboard_.state(time_s);
-        signs.estimate_fresh = offboard_.estimate(time_s).valid;
-        signs.disarmed = arming_.seen && setpoint_.armed && !offboard_.report().armed;
-    }
-    return signs;
-}
-
-// --- the flight -------------------------------------------------------------------------------
-
-void Companion::obey(const Judgement& verdict, double time_s) {
-    const bool news = verdict.action != pending_.action || verdict.cause != pending_.cause;
-    pending_ = verdict;
-    switch (verdict.action) {
-        case Action::carry_on:
-            if (news) {
-                say(time_s, "all is well again");
-            }
-            return;
-        case Action::finish:
-            if (news) {
-                say(time_s, fmt::format("{}, {}: {}", to_string(verdict.cause), to_string(place()),
-                                        to_string(verdict.action)));
-            }
-            return;
-        case Action::hold:
-        case Action::let_go:
-            report(make_event(time_s, "companion", EventName::aborted, to_string(verdict.cause)));
-            leave(verdict.action,
-                  verdict.cause == Cause::interrupted ? CompanionEnd::interrupted
-                                                      : CompanionEnd::handed_back,
-                  fmt::format("{}, {}", to_string(verdict.cause), to_string(place())), time_s);
-            return;
-    }
-}
-
-void Companion::guide(double time_s) {
-    if (phase_ != CompanionPhase::flying) {
+        const bool armed = !flies || session_.setpoint().armed;
+        in.autopilot = {time_s, {.connected = true, .armed = armed, .offboard = true}};
         return;
     }
-    PerchingTask task = config_.task;
-    task.take_off = task.take_off && pending_.action == Action::carry_on;
-    events_.count = 0;
-    update(config_.guidance, task, memory_, inputs_.readings(), believe(time_s), time_s, events_);
-    for (std::size_t k = 0; k < events_.count; ++k) {
-        report(events_.events[k]);
-    }
-    setpoint_ = memory_.setpoint;
-    if (dry_run_) {
-        dry_.tell(time_s, memory_);
-    }
-    (void)watch_arming(arming_, setpoint_.armed && !dry_run_, offboard_.report().armed,
-                       config_.limits.arming_s, time_s);
-    if (memory_.ending) {
-        const bool alone = pending_.action == Action::carry_on;
-        result_.outcome = memory_.ending->outcome;
-        leave(setpoint_.armed ? Action::hold : Action::let_go,
-              alone ? CompanionEnd::mission_over
-                    : (pending_.cause == Cause::interrupted ? CompanionEnd::interrupted
-                                                            : CompanionEnd::handed_back),
-              alone ? std::string(memory_.ending->reason)
-                    : fmt::format("{}; {}", memory_.ending->reason, to_string(pending_.cause)),
-              time_s);
-    }
-}
-
-// --- after it ---------------------------------------------------------------------------------
-
-void Companion::leave(Action action, CompanionEnd end, std::string reason, double time_s) {
-    const bool flew = phase_ == CompanionPhase::flying;
-    const Place place = flew ? place_of(memory_) : Place::in_air;
-    const bool on_wall =
-        place == Place::at_rest || place == Place::on_cup || place == Place::pressed;
-    if (action == Action::hold || !on_wall) {
-        setpoint_.pump_on = false;
-        setpoint_.valve_open = false;
-    }
-    result_.end = end;
-    result_.reason = std::move(reason);
-    result_.attempts = flew ? memory_.attempt : 0;
-    leaving_by_ = action;
-    const bool flies = !dry_run_ && (flew || action == Action::hold);
-    phase_ = flies ? CompanionPhase::leaving : CompanionPhase::over;
-    phase_s_ = time_s;
-    if (flies) {
-        say(time_s,
-            fmt::format("{}{}", to_string(action), setpoint_.pump_on ? "; the pump stays on" : ""));
+    const mavlink::AutopilotReport& report = offboard_.report();
+    in.autopilot = {time_s,
+                    {.connected = offboard_.state(time_s) != mavlink::OffboardState::silent,
+                     .armed = report.armed,
+                     .offboard = report.offboard,
+                     .in_air = report.landed_state == kInAir}};
+    if (!flies) {  // for people: costs memory
+        in.mechanism = mechanism_obstacle(time_s);
+        in.waits_for = offboard_.obstacle(time_s);
     }
 }
 
 /// Until all who must have heard it have.
-void Companion::take_leave(double time_s) {
-    if (time_s - phase_s_ >= config_.limits.hand_back_s) {
-        phase_ = CompanionPhase::over;
-    }
+void Companion::conclude(bool was_leaving, double time_s) {
+    const bool tells = !dry_run_ && (session_.flew() || session_.left_by() == Action::hold);
+    over_ = !tells || (was_leaving && time_s - session_.since_s() >= config_.limits.hand_back_s);
+    result_.end = session_.end();
+    result_.outcome = session_.outcome();
+    result_.reason = session_.reason();
+    result_.attempts = session_.flew() ? memory().attempt : 0;
 }
 
 // --- to the wires -----------------------------------------------------------------------------
 
 void Companion::steer(double time_s) {
     if (dry_run_) {
-        return;
-    }
-    switch (phase_) {
-        case CompanionPhase::ready:
-        case CompanionPhase::flying: offboard_.update(*wires_.autopilot, setpoint_, time_s); return;
-        case CompanionPhase::leaving:
-            if (leaving_by_ == Action::hold) {
-                offboard_.hand_back(*wires_.autopilot, time_s);
-            }
-            offboard_.attend(*wires_.autopilot, time_s);
-            return;
-        case CompanionPhase::waiting: offboard_.attend(*wires_.autopilot, time_s); return;
-        case CompanionPhase::over: return;
+        if (phase() == SessionPhase::flying) {
+            dry_.tell(time_s, memory());
+        }
+    } else if (session_.streams()) {
+        offboard_.update(*wires_.autopilot, session_.setpoint(), time_s);
+    } else if (!over_) {
+        if (phase() == SessionPhase::handed_back && session_.left_by() == Action::hold) {
+            offboard_.hand_back(*wires_.autopilot, time_s);
+        }
+        offboard_.attend(*wires_.autopilot, time_s);
     }
 }
 
 void Companion::actuate(double time_s) {
-    if (dry_run_ || !drives_mechanism_ || phase_ == CompanionPhase::over) {
-        return;
+    const Setpoint& setpoint = session_.setpoint();
+    if (session_.drives_mechanism() && !over_) {
+        mechanism_.update(wires_, {.pump_on = setpoint.pump_on, .valve_open = setpoint.valve_open},
+                          time_s);
     }
-    mechanism_.update(wires_, {.pump_on = setpoint_.pump_on, .valve_open = setpoint_.valve_open},
-                      time_s);
 }
 
 /// To the sensors' wire: the state of guidance, and at last that the mission is over.
@@ -287,10 +200,10 @@ void Companion::tell(double time_s) {
         return;
     }
     told_s_ = time_s;
-    if (phase_ == CompanionPhase::flying) {
+    if (phase() == SessionPhase::flying) {
         const auto boot_ms = static_cast<std::uint32_t>(std::llround(time_s * 1e3));
-        send_sensors(mavlink::guidance_state(static_cast<int>(memory_.state), boot_ms));
-    } else if (phase_ == CompanionPhase::leaving) {
+        send_sensors(mavlink::guidance_state(static_cast<int>(memory().state), boot_ms));
+    } else if (phase() == SessionPhase::handed_back && !over_) {
         constexpr std::uint8_t kOnboardController = 18;
         constexpr std::uint8_t kNoAutopilot = 8;
         send_sensors(last_word());
@@ -318,8 +231,8 @@ void Companion::record(double time_s) {
     log(time_s, [&](CompanionLog& to) {
         to.readings(inputs_.readings());
         to.estimate(dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s));
-        if (phase_ == CompanionPhase::flying || phase_ == CompanionPhase::leaving) {
-            to.guidance(time_s, setpoint_, memory_);
+        if (!over_ && (phase() == SessionPhase::flying || phase() == SessionPhase::handed_back)) {
+            to.guidance(time_s, session_.setpoint(), memory());
         }
     });
 }
@@ -347,16 +260,7 @@ void Companion::say_changes(double time_s) {
         told_texts_ = offboard_.report().texts;
         say(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
     }
-    if (phase_ == CompanionPhase::ready) {
-        const std::string waits_for = offboard_.obstacle(time_s);
-        if (waits_for != told_obstacle_) {
-            told_obstacle_ = waits_for;
-            if (!waits_for.empty()) {
-                say(time_s, waits_for);
-            }
-        }
-    }
-    const bool deaf = !dry_run_ && drives_mechanism_ && phase_ == CompanionPhase::flying &&
+    const bool deaf = session_.drives_mechanism() && phase() == SessionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&
                       inputs_.mechanism_s() < mechanism_.asked_s();
     if (deaf && !told_deaf_) {

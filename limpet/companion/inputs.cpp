@@ -41,11 +41,6 @@ void drain(mavlink::Link& link, Hear&& hear) {
     }
 }
 
-void name(std::string& list, const char* what) {
-    list += list.empty() ? "no " : ", no ";
-    list += what;
-}
-
 }  // namespace
 
 void Inputs::hear_ranges(const mavlink::Frame& frame, double time_s) {
@@ -176,34 +171,6 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
     if (wires.mechanism) {
         hear_mechanism(*wires.mechanism, time_s);
     }
-}
-
-bool Inputs::pose_fresh(double time_s) const {
-    return readings_.motion_capture.fresh(time_s, config_.limits.pose_limit_s);
-}
-
-std::string Inputs::missing(double time_s) const {
-    std::string list;
-    if (!pose_fresh(time_s)) {
-        name(list, "motion-capture pose");
-    }
-    if (!config_.task.perch) {
-        return list;  // a hover needs no wall
-    }
-    const double limit_s = config_.guidance.sensor_limit_s;
-    if (!readings_.lidar_left.fresh(time_s, limit_s)) {
-        name(list, "left LiDAR");
-    }
-    if (!readings_.lidar_right.fresh(time_s, limit_s)) {
-        name(list, "right LiDAR");
-    }
-    if (!readings_.force.fresh(time_s, limit_s)) {
-        name(list, "force");
-    }
-    if (!readings_.cup_pressure.fresh(time_s, limit_s)) {
-        name(list, "cup pressure");
-    }
-    return list;
 }
 
 }  // namespace limpet

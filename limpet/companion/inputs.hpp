@@ -26,10 +26,6 @@ public:
     void poll(Wires& wires, mavlink::Offboard& offboard, double time_s);
 
     [[nodiscard]] const Readings& readings() const { return readings_; }
-    /// Empty: what guidance needs is here and fresh. Else "no left LiDAR, no force".
-    [[nodiscard]] std::string missing(double time_s) const;
-    [[nodiscard]] bool pose_fresh(double time_s) const;
-
     /// When the mechanism last answered or spoke of itself; < 0: never.
     [[nodiscard]] double mechanism_s() const { return mechanism_s_; }
     /// The last answer was a refusal.

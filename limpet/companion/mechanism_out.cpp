@@ -15,17 +15,25 @@ constexpr std::chrono::milliseconds kPatience(5);
 
 }  // namespace
 
-void MechanismOut::update(Wires& wires, const mavlink::MechanismCommand& wanted, double time_s) {
+bool MechanismPace::due(const mavlink::MechanismCommand& wanted, double rate_Hz, double time_s) {
     constexpr double kRounding_s = 1e-6;
-    const bool changed = asked_s_ < 0.0 || !(wanted == said_);
-    if (changed) {
+    if (asked_s_ < 0.0 || !(wanted == said_)) {
         asked_s_ = time_s;
         said_ = wanted;
-        confirmation_ = 0;
-    } else if (time_s - sent_s_ < 1.0 / config_.limits.mechanism_rate_Hz - kRounding_s) {
-        return;
+        repeats_ = 0;
+    } else if (time_s >= sent_s_ && time_s - sent_s_ < 1.0 / rate_Hz - kRounding_s) {
+        return false;  // not when a simulation began anew
+    } else {
+        ++repeats_;
     }
     sent_s_ = time_s;
+    return true;
+}
+
+void MechanismOut::update(Wires& wires, const mavlink::MechanismCommand& wanted, double time_s) {
+    if (!pace_.due(wanted, config_.limits.mechanism_rate_Hz, time_s)) {
+        return;
+    }
     if (config_.mechanism == MechanismWire::line) {
         devices::MechanismBuffer buffer;
         const std::string_view line =
@@ -33,10 +41,10 @@ void MechanismOut::update(Wires& wires, const mavlink::MechanismCommand& wanted,
         (void)wires.mechanism->send(std::as_bytes(std::span(line)), kPatience);
         return;
     }
+    const auto confirmation = static_cast<std::uint8_t>(std::min(pace_.repeats(), 255));
     (void)wires.sensors->send(
-        mavlink::actuator_command(wanted, static_cast<std::uint8_t>(config_.system), confirmation_),
+        mavlink::actuator_command(wanted, static_cast<std::uint8_t>(config_.system), confirmation),
         kPatience);
-    confirmation_ = static_cast<std::uint8_t>(std::min(confirmation_ + 1, 255));
 }
 
 }  // namespace limpet

@@ -7,23 +7,34 @@
 
 namespace limpet {
 
-/// Tells the mechanism what pump and valve shall be: at once when that changes, and again
-/// mechanism_rate_Hz times a second, whether or not it has answered: a mechanism that was reset
-/// learns it so.
+/// When to say what pump and valve shall be: at once when that changes, and again so many times a
+/// second, whether or not the mechanism has answered: one that was reset learns it so.
+class MechanismPace {
+public:
+    [[nodiscard]] bool due(const mavlink::MechanismCommand& wanted, double rate_Hz, double time_s);
+    /// Since when it is asked for what it is asked for; < 0: nothing was asked yet.
+    [[nodiscard]] double asked_s() const { return asked_s_; }
+    /// How often the same has been said since it was said first.
+    [[nodiscard]] int repeats() const { return repeats_; }
+
+private:
+    mavlink::MechanismCommand said_;
+    double asked_s_ = -1.0;
+    double sent_s_ = -1e9;
+    int repeats_ = 0;
+};
+
+/// Says it over a companion's wires.
 class MechanismOut {
 public:
     explicit MechanismOut(const CompanionConfig& config) : config_(config) {}
 
     void update(Wires& wires, const mavlink::MechanismCommand& wanted, double time_s);
-    /// Since when it is asked for what it is asked for; < 0: nothing was asked yet.
-    [[nodiscard]] double asked_s() const { return asked_s_; }
+    [[nodiscard]] double asked_s() const { return pace_.asked_s(); }
 
 private:
     const CompanionConfig& config_;
-    mavlink::MechanismCommand said_;
-    double asked_s_ = -1.0;
-    double sent_s_ = -1e9;
-    std::uint8_t confirmation_ = 0;
+    MechanismPace pace_;
 };
 
 }  // namespace limpet

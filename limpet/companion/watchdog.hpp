@@ -13,15 +13,6 @@ namespace limpet {
 // it can (LiDAR, force or pressure lost, battery low, position lost on the wall); here stands what
 // it cannot. Why each cell is so: docs/decisions/0013-handing-back.md
 //
-//                     in_air   pressed  leaving  on_cup   at_rest
-//   mode_taken        let_go   let_go   let_go   let_go   let_go      an operator flies it
-//   disarmed          let_go   let_go   let_go   let_go   carry_on    somebody stopped the motors
-//   interrupted       hold     finish   finish   finish   let_go      Ctrl-C, SIGTERM
-//   autopilot_silent  hold     finish   hold     finish   finish
-//   loop_late         hold     finish   hold     finish   finish      our own loop
-//   pose_stale        hold     finish   hold     finish   finish
-//   estimate_stale    hold     finish   hold     finish   finish
-//
 //   guidance ──► in_air ──► pressed ──► on_cup ◄──► at_rest
 //                  ▲           ▼          │
 //                  └─────── leaving ◄─────┘

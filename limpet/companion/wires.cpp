@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/wires.hpp"
 
-#include <chrono>
-#include <optional>
-
 #include "limpet/mavlink/key_file.hpp"
 
 namespace limpet {
@@ -14,23 +11,13 @@ Role role_of(const TransportAddress& address) {
     return address.medium == Medium::tcp ? Role::connect : Role::listen;
 }
 
-std::uint64_t unix_us() {
-    using namespace std::chrono;
-    return static_cast<std::uint64_t>(
-        duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-}
-
 std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
-                                         const TransportAddress& address,
-                                         const std::optional<mavlink::SigningKey>& key,
-                                         std::uint8_t link_id) {
+                                         const TransportAddress& address, std::uint8_t link_id) {
     auto link = std::make_unique<mavlink::Link>(
         open_transport(address, role_of(address)),
         mavlink::Sender{.system = static_cast<std::uint8_t>(config.system),
                         .component = mavlink::kCompanionComponent});
-    if (key) {
-        link->sign({.key = *key, .link_id = link_id, .unix_us = unix_us});
-    }
+    mavlink::sign(*link, config.signing_key_file, link_id);
     return link;
 }
 
@@ -44,14 +31,10 @@ std::unique_ptr<devices::NatNetClient> open_natnet(const CompanionConfig& config
 }  // namespace
 
 Wires open_wires(const CompanionConfig& config) {
-    std::optional<mavlink::SigningKey> key;
-    if (!config.signing_key_file.empty()) {
-        key = mavlink::read_signing_key(config.signing_key_file);
-    }
     Wires wires;
-    wires.autopilot = open_link(config, config.autopilot, key, 0);
+    wires.autopilot = open_link(config, config.autopilot, 0);
     if (config.sensors) {
-        wires.sensors = open_link(config, *config.sensors, key, 1);
+        wires.sensors = open_link(config, *config.sensors, 1);
     }
     if (config.pose_source == PoseSource::natnet) {
         wires.motion_capture = open_natnet(config);

@@ -31,6 +31,10 @@ inline constexpr double kAirDensity_kg_m3 = 1.225;
 [[nodiscard]] constexpr double degrees(double angle_rad) {
     return angle_rad * (180.0 / kPi);
 }
+/// What people read pressures in.
+[[nodiscard]] constexpr double hectopascals(double pressure_Pa) {
+    return 0.01 * pressure_Pa;
+}
 
 /// Roll, pitch, yaw of the aerospace z-y'-x'' sequence [rad].
 struct Euler {

@@ -79,7 +79,7 @@ void RandomStream::refill() {
     const r123::Philox4x32::key_type key = {
         {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32U)}};
     const auto block = r123::Philox4x32{}(counter, key);
-    for (unsigned i = 0; i < 2; ++i) {
+    for (std::size_t i = 0; i < 2; ++i) {
         const std::uint64_t bits =
             (static_cast<std::uint64_t>(block[2 * i]) << 32U) | block[2 * i + 1];
         uniforms_[i] = static_cast<double>(bits >> 11U) * 0x1.0p-53;

@@ -9,7 +9,7 @@ namespace limpet {
 
 /// Who draws. A stream of its own for each consumer: adding a draw in one place leaves every other
 /// place's numbers as they were. Numbers are part of the recordings' meaning: append, never
-/// reorder.
+/// reorder. 10..29 are the sensors'; a new one may name its own there (limpet/sensors/sensor.hpp).
 enum class Stream : std::uint32_t {
     seal = 1,
     pump = 2,
@@ -22,6 +22,7 @@ enum class Stream : std::uint32_t {
     lidar_right = 16,
     force = 17,
     pressure = 18,
+    battery = 19,
     wind = 30,
     wall_air = 31,
     scenario = 40,
@@ -52,6 +53,12 @@ public:
     /// @param median  of the result, > 0
     /// @param sigma   standard deviation of its logarithm, >= 0
     [[nodiscard]] double lognormal(double median, double sigma);
+
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        each(self.seed_, self.run_, self.stream_, self.counter_, self.uniforms_,
+             self.uniforms_left_);
+    }
 
 private:
     void refill();

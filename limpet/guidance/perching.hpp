@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "limpet/core/short_text.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/signals/outcome.hpp"
@@ -81,7 +82,7 @@ struct PerchingTask {
 
 struct Ending {
     Outcome outcome = Outcome::timed_out;
-    std::string_view reason;  ///< a literal
+    ShortText reason;
 };
 
 /// Everything that guidance remembers; copyable.

@@ -22,8 +22,8 @@ void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readin
               const Estimate& estimate) {
     const auto& left = readings.lidar_left;
     const auto& right = readings.lidar_right;
-    const double time_s = std::min(left.time_s, right.time_s);
-    if (time_s <= wall.time_s || !left.value.valid || !right.value.valid) {
+    if (!left.newer_than(wall.time_s) || !right.newer_than(wall.time_s) || !left.value.valid ||
+        !right.value.valid) {
         return;
     }
     const double mean_m = 0.5 * (left.value.distance_m + right.value.distance_m);
@@ -38,6 +38,7 @@ void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readin
     const double heading_rad = attitude.yaw_rad + wall.alpha_rad;
     const double ahead_m = (mean_m + parameters.lidar_x_m) * level * std::cos(wall.alpha_rad);
 
+    const double time_s = std::min(left.time_s, right.time_s);
     const double dt_s = time_s - wall.time_s;
     const double gain =
         wall.ever ? -std::expm1(-dt_s / std::max(parameters.wall_filter_s, 1e-9)) : 1.0;

@@ -138,8 +138,7 @@ template <class Message>
     if (frame.id != Message::kId) {
         return std::nullopt;
     }
-    constexpr auto& kPlace = kLayout<Message>;
-    std::array<std::uint8_t, kPlace.payload_bytes> payload = {};
+    std::array<std::uint8_t, kLayout<Message>.payload_bytes> payload = {};
     if (!frame.payload.empty()) {
         std::memcpy(payload.data(), frame.payload.data(),
                     frame.payload.size() < payload.size() ? frame.payload.size() : payload.size());
@@ -147,7 +146,7 @@ template <class Message>
     Message message;
     std::size_t index = 0;
     for_each_field(message, [&](std::string_view, auto& value) {
-        const std::uint8_t* at = payload.data() + kPlace.offset[index++];
+        const std::uint8_t* at = payload.data() + kLayout<Message>.offset[index++];
         detail::for_each_element(value, [&](auto& element) {
             detail::get_element(at, element);
             at += sizeof(element);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/core/signals/new_sample.hpp"
-
 namespace limpet::mavlink {
 namespace {
 
@@ -30,11 +28,14 @@ constexpr milliseconds kCatchUpWait{1000};
 Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
 
 void Hil::send(const Readings& readings, std::uint64_t time_usec) {
+    if (began_anew(readings, last_)) {
+        last_ = {};
+    }
     link_.cork();
-    if (is_new(readings.gps, last_.gps)) {
+    if (readings.gps.newer_than(last_.gps)) {
         (void)link_.send(hil_gps(readings.gps.value, options_.origin, time_usec));
     }
-    if (options_.motion_capture && is_new(readings.motion_capture, last_.motion_capture)) {
+    if (options_.motion_capture && readings.motion_capture.newer_than(last_.motion_capture)) {
         (void)link_.send(odometry(readings.motion_capture.value, time_usec));
     }
     const HilSensor sensor = hil_sensor(readings, last_, time_usec);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -98,6 +99,17 @@ SigningKey read_signing_key(const std::filesystem::path& path) {
             fmt::format("signing key {}: all zeros is nobody's secret", path.string()));
     }
     return *key;
+}
+
+void sign(Link& link, const std::filesystem::path& key_file, std::uint8_t link_id) {
+    if (key_file.empty()) {
+        return;
+    }
+    link.sign({.key = read_signing_key(key_file), .link_id = link_id, .unix_us = [] {
+                   using namespace std::chrono;
+                   return static_cast<std::uint64_t>(
+                       duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
+               }});
 }
 
 }  // namespace limpet::mavlink

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "limpet/mavlink/signing.hpp"
+#include "limpet/mavlink/link.hpp"
 
 namespace limpet::mavlink {
 
@@ -13,5 +13,9 @@ namespace limpet::mavlink {
 /// @throws InputError naming the file, never what is in it: cannot be read, not a file, others than
 ///         its owner may read or write it (its mode), neither of both forms, all zeros
 [[nodiscard]] SigningKey read_signing_key(const std::filesystem::path& path);
+
+/// Signs a link with the key in a file, by the machine's clock; an empty path leaves it unsigned.
+/// @throws InputError as read_signing_key
+void sign(Link& link, const std::filesystem::path& key_file, std::uint8_t link_id = 0);
 
 }  // namespace limpet::mavlink

@@ -30,11 +30,6 @@ Whole whole(double value) {
                                          static_cast<double>(std::numeric_limits<Whole>::max())));
 }
 
-template <class T>
-bool younger(const Sample<T>& sample, const Sample<T>& last) {
-    return sample.ever() && sample.time_s != last.time_s;
-}
-
 /// North and east of the origin [m].
 Vector3 local(double latitude_deg, double longitude_deg, const GeographicOrigin& origin) {
     const double lat0 = radians(origin.latitude_deg);
@@ -88,9 +83,9 @@ HilSensor hil_sensor(const Readings& readings, const Readings& last, std::uint64
     message.pressure_alt = number(barometer.altitude_m);
     message.temperature = kTemperature_degC;
     message.fields_updated =
-        (younger(readings.imu, last.imu) ? kImuFields : 0U) |
-        (younger(readings.magnetometer, last.magnetometer) ? kMagnetometerFields : 0U) |
-        (younger(readings.barometer, last.barometer) ? kBarometerFields : 0U);
+        (readings.imu.newer_than(last.imu) ? kImuFields : 0U) |
+        (readings.magnetometer.newer_than(last.magnetometer) ? kMagnetometerFields : 0U) |
+        (readings.barometer.newer_than(last.barometer) ? kBarometerFields : 0U);
     return message;
 }
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "limpet/core/frames.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet {
@@ -125,7 +125,8 @@ public:
         set(prefix + "pitch_drop_deg",
             pitches.empty() ? kNone : degrees(least(pitches) - pitches.front()));
         set(prefix + "lowest_pressure_hPa",
-            0.01 * least(within(recording_, "/sensors/cup_pressure", "fluid_pressure", after)));
+            hectopascals(
+                least(within(recording_, "/sensors/cup_pressure", "fluid_pressure", after))));
         const RecordedEvent* over = first_event(recording_, "hold_over", time_of(impact));
         set(prefix + "hold_s", time_of(over) - time_of(impact));
     }
@@ -134,7 +135,7 @@ public:
         const RecordedEvent* start = last_event(recording_, "landing_started");
         const RecordedEvent* end = first_event(recording_, "perched", time_of(start));
         const Stretch land{time_of(start), time_of(end)};
-        set("pressure_at_landing_hPa", 0.01 * value_of(start, "pressure_Pa"));
+        set("pressure_at_landing_hPa", hectopascals(value_of(start, "pressure_Pa")));
         set("landing_pitch_rise_deg", value_of(end, "pitch_deg") - value_of(start, "pitch_deg"));
         set("landing_force_rise_N", value_of(end, "force_N") - value_of(start, "force_N"));
         set("landing_s", land.to_s - land.from_s);
@@ -148,7 +149,7 @@ public:
         const Stretch end{std::max(off_s, time_of(on) - kSteady_s), time_of(on)};
         // The pump's own part: true pressure, so that the sensor's noise does not count.
         const auto ripple = within(recording_, "/cup", "pressure_Pa", end);
-        set("rest_ripple_hPa", 0.01 * (most(ripple) - least(ripple)));
+        set("rest_ripple_hPa", hectopascals(most(ripple) - least(ripple)));
         set("rest_pump_share", mean(within(recording_, "/cup", "pump_running", end)));
     }
 
@@ -157,7 +158,7 @@ public:
         const RecordedEvent* level = first_event(recording_, "level", time_of(on));
         const RecordedEvent* off = first_event(recording_, "pump_off", time_of(on));
         const Stretch up{time_of(on), time_of(level)};
-        set("take_off_pressure_hPa", 0.01 * value_of(on, "pressure_Pa"));
+        set("take_off_pressure_hPa", hectopascals(value_of(on, "pressure_Pa")));
         const auto thrust = within(recording_, "/truth/vehicle", "thrust_N", up);
         set("take_off_thrust_rise_N", thrust.empty() ? kNone : thrust.back() - thrust.front());
         set("take_off_pitch_setback",
@@ -166,7 +167,7 @@ public:
         set("pump_off_pitch_deg", std::abs(value_of(off, "pitch_deg")));
         set("pump_off_after_level_s", time_of(off) - time_of(level));
         const RecordedEvent* released = first_event(recording_, "pressure_released", time_of(off));
-        set("pressure_released_hPa", 0.01 * value_of(released, "pressure_Pa"));
+        set("pressure_released_hPa", hectopascals(value_of(released, "pressure_Pa")));
         set("waited_s",
             (released != nullptr ? time_of(released)
                                  : time_of(first_event(recording_, "aborted", time_of(off)))) -
@@ -210,9 +211,9 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
         take.set(std::string(metric.name), flight.result.metrics.*metric.field);
     }
     take.set("attempts", flight.result.attempts);
-    take.set("pressure_lowest_hPa", 0.01 * flight.result.metrics.pressure_min_Pa);
+    take.set("pressure_lowest_hPa", hectopascals(flight.result.metrics.pressure_min_Pa));
     take.set("pressure_at_release_end_hPa",
-             0.01 * flight.result.metrics.pressure_at_release_end_Pa);
+             hectopascals(flight.result.metrics.pressure_at_release_end_Pa));
     take.set("seal_margin_N",
              flight.result.metrics.impact_force_N -
                  value_of(last_event(flight.recording, "attached"), "seal_threshold_N"));

@@ -21,19 +21,17 @@ constexpr double kStep = 1e-6;
 constexpr int kSettlePeriods = 500;  ///< slider and lip come to rest, a swing does not grow much
 constexpr int kNewtonSteps = 6;
 constexpr double kStanding = 1e-7;  ///< a number that nothing moves: an integrator without gain
+constexpr int kWatchPeriods = 64;   ///< longer than the longest dead time
 constexpr double kResting = 1e-8;   ///< by how much the rest may move in a period
 
 }  // namespace
 
-LevelOnCup::LevelOnCup(std::shared_ptr<const SimulationModel> model)
+LevelOnCup::LevelOnCup(std::shared_ptr<const FlightModel> model)
     : model_(std::move(model)),
       plant_(model_->plant),
       state_(start(*model_, plant_)),
-      ticks_(kTicksPerSecond / model_->control_rate_Hz),
-      delay_ticks_(static_cast<std::size_t>(
-          std::lround(model_->scenario.airframe.rotor.command_delay_s / kTick_s))) {
-    require(model_->scenario.airframe.has_cup && model_->scenario.wall.present,
-            "a cup and a wall to be level on");
+      ticks_(kTicksPerSecond / model_->control_rate_Hz) {
+    require(model_->airframe.has_cup && model_->has_wall, "a cup and a wall to be level on");
     require(ticks_ * model_->control_rate_Hz == kTicksPerSecond,
             "a control rate that divides the tick's");
     put_on_wall();
@@ -41,12 +39,11 @@ LevelOnCup::LevelOnCup(std::shared_ptr<const SimulationModel> model)
 
 /// Square before the wall, the lip just on it, sealed at the surface's best vacuum.
 void LevelOnCup::put_on_wall() {
-    const Scenario& scenario = model_->scenario;
-    const WallPlane& wall = model_->cup.wall;
+    const WallGeometry& wall = model_->cup.wall;
     const Vector3 x_T_W = wall.R_WT.col(0);
     const double yaw_rad = std::atan2(x_T_W.y(), x_T_W.x());
     const Quaternion q_WB = quaternion_from_euler({.yaw_rad = yaw_rad});
-    const CupMountParameters& mount = scenario.airframe.cup;
+    const CupMountParameters& mount = model_->airframe.cup;
     const Vector3 lip_B_m(mount.joint_x_m + mount.lip_offset_m, 0.0, mount.joint_z_m);
     plant_.set_pose(wall.p_WT_m - q_WB * lip_B_m, q_WB);
     see_motion(*model_, state_.truth, plant_);
@@ -54,27 +51,27 @@ void LevelOnCup::put_on_wall() {
     state_.autopilot.rate = {};
     state_.autopilot.rate.filtering = true;
     state_.guidance.setpoint = {
-        .motion = AttitudeSetpoint{.q_WB = q_WB, .thrust = scenario.guidance.hover_thrust},
+        .motion = AttitudeSetpoint{.q_WB = q_WB, .thrust = model_->guidance.hover_thrust},
         .armed = true,
         .pump_on = true};
-    state_.cup.mean_pressure_Pa = scenario.wall.surface.vacuum_pressure_Pa;
+    state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
     state_.cup.status.phase = CupPhase::attached;
-    state_.cup.touches = static_cast<int>(scenario.wall.first_touches.size()) + 1;
+    state_.cup.touches = static_cast<int>(model_->surfaces.size());
     state_.fine_until = 0;
 }
 
 /// As the loop does it: control, rotors, bodies and cup.
 void LevelOnCup::period() {
-    const Airframe& airframe = model_->scenario.airframe;
+    const Airframe& airframe = model_->airframe;
     const Quaternion before = state_.truth.base.q_WF;
     state_.autopilot.estimate.q_WB = before;
     state_.command = control(model_->autopilot, state_.autopilot, state_.guidance.setpoint,
                              seconds(state_.tick));
-    EventList events;
+    TickReport report;
     for (int k = 0; k < ticks_; ++k) {
         step(airframe.rotor, state_.rotors, state_.command, kTick_s);
-        state_.cup.mean_pressure_Pa = model_->scenario.wall.surface.vacuum_pressure_Pa;
-        advance(*model_, state_, plant_, events);
+        state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
+        advance(*model_, state_, plant_, report);
         ++state_.tick;
         see_motion(*model_, state_.truth, plant_);
     }
@@ -83,69 +80,115 @@ void LevelOnCup::period() {
         (ticks_ * kTick_s);
 }
 
-/// Numbers beside the bodies' own that go from one period to the next.
-template <class Visit>
-void LevelOnCup::for_each_number(Visit visit) {
-    for (double& speed_rad_s : state_.rotors.speed_rad_s) {
-        visit(speed_rad_s);
-    }
-    for (std::size_t age = 1; age <= delay_ticks_; ++age) {
-        const std::size_t slot =
-            (state_.rotors.next + kCommandDelaySteps - age) % kCommandDelaySteps;
-        for (double& asked_rad_s : state_.rotors.asked_rad_s[slot]) {
-            visit(asked_rad_s);
-        }
-    }
-    const auto visit3 = [&visit](Vector3& v) {
-        visit(v.x());
-        visit(v.y());
-        visit(v.z());
-    };
-    RateControlState& rate = state_.autopilot.rate;
-    visit3(rate.integral);
-    visit3(rate.rate_rad_s);
-    visit3(rate.acceleration_rad_s2);
-    for (LowPass* filter : {&rate.rate_filter, &rate.acceleration_filter}) {
-        visit3(filter->input_1);
-        visit3(filter->input_2);
-        visit3(filter->output_1);
-        visit3(filter->output_2);
-    }
-    visit3(state_.autopilot.estimate.w_WB_B_rad_s);
+void LevelOnCup::restore(const Snapshot& snapshot) {
+    state_ = snapshot.state;
+    plant_.restore(snapshot.plant);
 }
 
-std::size_t LevelOnCup::size() const {
-    constexpr std::size_t kRates = 3 * (3 + 2 * 4 + 1);
-    return 2 * plant_.freedoms() + kRotors * (1 + delay_ticks_) + kRates;
+Eigen::Index LevelOnCup::size() const {
+    return static_cast<Eigen::Index>(2 * plant_.freedoms() + carried_.size());
 }
 
-/// @return the bodies' displacement from `origin`, then all other numbers as they are
+/// @return the bodies' displacement from `origin`, then the carried numbers as they are
 Vector LevelOnCup::numbers(const PlantState& origin) {
-    Vector all(static_cast<Eigen::Index>(size()));
+    Vector all(size());
     plant_.displacement_from(origin, {all.data(), 2 * plant_.freedoms()});
     auto at = static_cast<Eigen::Index>(2 * plant_.freedoms());
-    for_each_number([&](double value) { all[at++] = value; });
+    const std::vector<double*> own = numbers_of(state_);
+    for (const std::size_t place : carried_) {
+        all[at++] = *own[place];
+    }
     return all;
 }
 
 void LevelOnCup::add(const Vector& step) {
     plant_.displace({step.data(), 2 * plant_.freedoms()});
     auto at = static_cast<Eigen::Index>(2 * plant_.freedoms());
-    for_each_number([&](double& value) { value += step[at++]; });
+    const std::vector<double*> own = numbers_of(state_);
+    for (const std::size_t place : carried_) {
+        *own[place] += step[at++];
+    }
     see_motion(*model_, state_.truth, plant_);
+}
+
+/// Those which the bodies' motion reaches and which reach the bodies again, at once or by way of
+/// one another. Clocks, settings and what is worked out anew in every period are not among them.
+void LevelOnCup::find_carried() {
+    carried_.clear();
+    const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+    const auto watch = [&](double push) {
+        restore(here);
+        add(Vector::Constant(size(), push));
+        std::vector<double> seen;
+        for (int k = 0; k < kWatchPeriods; ++k) {
+            period();
+            for (const double* number : numbers_of(state_)) {
+                seen.push_back(*number);
+            }
+        }
+        return seen;
+    };
+    const std::vector<double> still = watch(0.0);
+    const std::vector<double> pushed = watch(kStep);
+    const std::size_t all = still.size() / kWatchPeriods;
+    for (std::size_t place = 0; place < all; ++place) {
+        bool reached = false;
+        for (std::size_t i = place; i < still.size(); i += all) {
+            reached = reached || still[i] != pushed[i];
+        }
+        if (reached) {
+            carried_.push_back(place);
+        }
+    }
+    restore(here);
+    keep_what_reaches(16);  // most places are dead: a look at many at once
+    keep_what_reaches(1);
+}
+
+/// Of what is carried, the groups of so many whose nudge reaches the bodies in the end.
+void LevelOnCup::keep_what_reaches(Eigen::Index group) {
+    const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+    const Eigen::Index n = size();
+    const auto bodies = static_cast<Eigen::Index>(2 * plant_.freedoms());
+    const Vector at_rest = image(here, Vector::Zero(n));
+    using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+    std::vector<Flags> reached;  // by each group
+    for (Eigen::Index at = bodies; at < n; at += group) {
+        Vector nudge = Vector::Zero(n);
+        nudge.segment(at, std::min(group, n - at)).setConstant(kStep);
+        reached.push_back(image(here, nudge).array() != at_rest.array());
+    }
+    Flags counts = Flags::Constant(n, false);
+    counts.head(bodies) = true;
+    for (Eigen::Index before = 0; before != counts.count();) {
+        before = counts.count();
+        for (std::size_t k = 0; k < reached.size(); ++k) {
+            const Eigen::Index at = bodies + static_cast<Eigen::Index>(k) * group;
+            if (!counts[at] && (reached[k] && counts).any()) {
+                counts.segment(at, std::min(group, n - at)) = true;
+            }
+        }
+    }
+    std::vector<std::size_t> kept;
+    for (Eigen::Index at = bodies; at < n; ++at) {
+        if (counts[at]) {
+            kept.push_back(carried_[static_cast<std::size_t>(at - bodies)]);
+        }
+    }
+    carried_ = std::move(kept);
+    restore(here);
 }
 
 /// Where one period leads from `from` and a step aside.
 Vector LevelOnCup::image(const Snapshot& from, const Vector& step) {
-    state_ = from.state;
-    plant_.restore(from.plant);
+    restore(from);
     add(step);
     period();
     return numbers(from.plant);
 }
 
 Matrix LevelOnCup::jacobian(const Snapshot& at) {
-    const auto n = static_cast<Eigen::Index>(size());
+    const Eigen::Index n = size();
     Matrix jacobian(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
         jacobian.col(i) =
@@ -159,15 +202,15 @@ std::vector<Mode> LevelOnCup::modes() {
     for (int k = 0; k < kSettlePeriods; ++k) {
         period();
     }
-    const auto n = static_cast<Eigen::Index>(size());
+    find_carried();
+    const Eigen::Index n = size();
     Matrix map;
     for (int k = 0;; ++k) {
-        const Snapshot here{.state = state_, .plant = plant_.save()};
+        const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
         const Vector now = numbers(here.plant);
         map = jacobian(here);
         const Vector miss = image(here, Vector::Zero(n)) - now;
-        state_ = here.state;
-        plant_.restore(here.plant);
+        restore(here);
         if (miss.lpNorm<Eigen::Infinity>() < kResting) {
             break;
         }

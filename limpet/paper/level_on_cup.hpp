@@ -7,6 +7,7 @@
 
 #include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/simulation/model.hpp"
+#include "limpet/simulation/snapshot.hpp"
 
 namespace limpet {
 
@@ -26,11 +27,7 @@ struct Mode {
 class LevelOnCup {
 public:
     /// @param model  its vehicle has a cup and its scenario a wall
-    explicit LevelOnCup(std::shared_ptr<const SimulationModel> model);
-
-    /// Everything that the loop carries from one control period to the next, as small numbers
-    /// around the rest: bodies, rotors and their dead time, filters, integrators.
-    [[nodiscard]] std::size_t size() const;
+    explicit LevelOnCup(std::shared_ptr<const FlightModel> model);
 
     /// Modes of the linearised loop, fastest growing first. Jacobian by central differences at the
     /// rest, which is found by Newton's method.
@@ -40,18 +37,22 @@ public:
 private:
     void put_on_wall();
     void period();
+    void restore(const Snapshot& snapshot);
+    void find_carried();
+    void keep_what_reaches(Eigen::Index group);
+    [[nodiscard]] Eigen::Index size() const;
     [[nodiscard]] Eigen::VectorXd numbers(const PlantState& origin);
     void add(const Eigen::VectorXd& step);
     [[nodiscard]] Eigen::VectorXd image(const Snapshot& from, const Eigen::VectorXd& step);
     [[nodiscard]] Eigen::MatrixXd jacobian(const Snapshot& at);
-    template <class Visit>
-    void for_each_number(Visit visit);
 
-    std::shared_ptr<const SimulationModel> model_;
+    std::shared_ptr<const FlightModel> model_;
     MujocoPlant plant_;
-    SimulationState state_;
-    int ticks_ = 1;                ///< of a control period
-    std::size_t delay_ticks_ = 0;  ///< of the rotors' dead time
+    FlightState state_;
+    int ticks_ = 1;  ///< of a control period
+    /// Which of the state's numbers, in the order of the walk, the loop carries beside the bodies'
+    /// own from one period to the next: rotors and their dead time, filters, integrators.
+    std::vector<std::size_t> carried_;
 };
 
 /// The fastest-growing or slowest-decaying of the modes that are mostly pitch and below 3 Hz.

@@ -33,11 +33,11 @@ bool holds(std::string_view text, std::string_view part) {
 
 /// Nothing random: a kick alone is to be seen.
 void silence(Scenario& scenario) {
-    for (const Parameter<SensorParameters>& row : sensor_table()) {
+    for (const BoundParameter& row : sensor_rows(scenario.sensors)) {
         if (holds(row.name, "_noise") || holds(row.name, "_bias") || holds(row.name, "_walk") ||
             holds(row.name, "_dropout")) {
             if (row.minimum <= 0.0 && !holds(row.name, "_tau")) {
-                row.of(scenario.sensors).set(0.0);
+                row.value.set(0.0);
             }
         }
     }
@@ -189,8 +189,7 @@ void fill(StabilityMap& map, int jobs) {
             motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
         const Scenario scenario =
             load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
-        LevelOnCup loop(
-            build_model(scenario, [&](const std::string& mjcf) { return plants.get(mjcf); }));
+        LevelOnCup loop(build_model(scenario, plants.get(scenario)));
         map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
     });
 }

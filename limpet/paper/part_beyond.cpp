@@ -84,8 +84,8 @@ PageTable break_off_table(const std::vector<BreakOff>& loads) {
                         "at P_land. Closed forms: pull (P_atm - P) A, shear mu times that, "
                         "peel that times R/2."};
     for (const BreakOff& load : loads) {
-        table.rows.push_back({load.surface, 0.01 * load.pressure_Pa, load.pull_N, load.shear_N,
-                              load.peel_N_m, load.pull_in_weights});
+        table.rows.push_back({load.surface, hectopascals(load.pressure_Pa), load.pull_N,
+                              load.shear_N, load.peel_N_m, load.pull_in_weights});
     }
     return table;
 }

@@ -12,7 +12,7 @@
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet {
 namespace {

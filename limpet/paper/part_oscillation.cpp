@@ -155,7 +155,7 @@ std::vector<Change> changes(const Study& study) {
     set(5, "pivot", "+ pivot at 0.40 m", {"vehicle.cup.joint_x_m=0.40"});
     set(6, "attitude_p", "+ attitude P 8", {"autopilot.MC_PITCH_P=8"});
     set(7, "rate_i_more", "+ rate I 0.30", {"autopilot.MC_PITCHRATE_I=0.3"});
-    for (const std::size_t i : {0, 1, 2, 4}) {
+    for (const std::size_t i : {0U, 1U, 2U, 4U}) {
         all[i].traced = true;
     }
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {

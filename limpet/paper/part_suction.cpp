@@ -10,7 +10,7 @@
 #include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/study.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/suction/identification.hpp"
 #include "limpet/suction/pneumatics.hpp"
@@ -37,7 +37,7 @@ PressureTrace trace_of(const Recording& recording) {
 }
 
 /// The pneumatic model's leak depends on the clamping; Table II was fitted at 20 N (0008).
-const std::vector<std::string> kPneumatic = {"suction.pneumatic=1", "press_rig.press_N=20",
+const std::vector<std::string> kPneumatic = {"suction.pressure_model=pneumatic", "press_rig.press_N=20",
                                              "wall.surface.seal_threshold_median_N=10"};
 
 Press fly_press(const TableTwo& column, const Study& study) {
@@ -72,26 +72,27 @@ double value_or_nan(const std::optional<Fitted>& fitted) {
 void collect(const std::vector<Press>& presses, Evidence& evidence) {
     double worst_Pa = 0.0;
     for (const Press& press : presses) {
-        evidence.set(press.flight + ".vacuum_hPa", 0.01 * value_or_nan(true_vacuum_Pa(press.fit)));
+        evidence.set(press.flight + ".vacuum_hPa",
+                     hectopascals(value_or_nan(true_vacuum_Pa(press.fit))));
         evidence.set(press.flight + ".tau_1_s", value_or_nan(press.fit.sealing_time_s));
         evidence.set(press.flight + ".tau_2_s", value_or_nan(press.fit.unsealing_time_s));
         worst_Pa = std::max(worst_Pa, press.fit.residual_Pa);
     }
-    evidence.set("press.worst_residual_hPa", 0.01 * worst_Pa);
+    evidence.set("press.worst_residual_hPa", hectopascals(worst_Pa));
     // Concrete comes first; the others are to be faster and deeper.
     const auto rate_hPa_s = [](const Press& press) {
-        return 0.01 * (kAtmosphere_Pa - value_or_nan(true_vacuum_Pa(press.fit))) /
+        return hectopascals(kAtmosphere_Pa - value_or_nan(true_vacuum_Pa(press.fit))) /
                value_or_nan(press.fit.sealing_time_s);
     };
     double next_rate = std::numeric_limits<double>::infinity(), next_vacuum_hPa = 0.0;
     for (std::size_t i = 1; i < presses.size(); ++i) {
         next_rate = std::min(next_rate, rate_hPa_s(presses[i]));
         next_vacuum_hPa =
-            std::max(next_vacuum_hPa, 0.01 * value_or_nan(true_vacuum_Pa(presses[i].fit)));
+            std::max(next_vacuum_hPa, hectopascals(value_or_nan(true_vacuum_Pa(presses[i].fit))));
     }
     evidence.set("press.slowest_margin_hPa_s", next_rate - rate_hPa_s(presses[0]));
     evidence.set("press.weakest_margin_hPa",
-                 0.01 * value_or_nan(true_vacuum_Pa(presses[0].fit)) - next_vacuum_hPa);
+                 hectopascals(value_or_nan(true_vacuum_Pa(presses[0].fit))) - next_vacuum_hPa);
     evidence.set(
         "press.tau_1_cinder_less_concrete_s",
         value_or_nan(presses[1].fit.sealing_time_s) - value_or_nan(presses[0].fit.sealing_time_s));
@@ -112,9 +113,10 @@ PageFigure pressure_figure(const std::vector<Press>& presses, const Study& study
             const double since_s = press.trace.t_s[i] - begin_s;
             if (since_s > -kBefore_s && since_s < kShown_s) {
                 sensor.x.push_back(since_s);
-                sensor.y.push_back(0.01 * press.trace.pressure_Pa[i]);
+                sensor.y.push_back(hectopascals(press.trace.pressure_Pa[i]));
                 curve.x.push_back(since_s);
-                curve.y.push_back(0.01 * mean_pressure_Pa(press.fit.curve, press.trace.t_s[i]));
+                curve.y.push_back(
+                    hectopascals(mean_pressure_Pa(press.fit.curve, press.trace.t_s[i])));
             }
         }
         ChartPanel panel{.title = press.name,
@@ -160,9 +162,10 @@ PageTable table_two(const std::vector<Press>& presses) {
         const TableTwo& paper = kTableTwo[i];
         const Surface& used = press.surface;
         table.rows.push_back({press.name, std::string("P_vac, hPa"),
-                              fmt::format("{:g}", paper.vacuum_hPa), 0.01 * used.vacuum_pressure_Pa,
-                              with_interval(true_vacuum_Pa(press.fit), 0.01),
-                              with_interval(true_vacuum_Pa(press.pneumatic), 0.01)});
+                              fmt::format("{:g}", paper.vacuum_hPa),
+                              hectopascals(used.vacuum_pressure_Pa),
+                              with_interval(true_vacuum_Pa(press.fit), hectopascals(1.0)),
+                              with_interval(true_vacuum_Pa(press.pneumatic), hectopascals(1.0))});
         table.rows.push_back(
             {press.name, std::string("tau_1, s"), pm(paper.tau_1_s, paper.tau_1_tolerance_s),
              used.sealing_time_constant_s, with_interval(press.fit.sealing_time_s, 1.0),
@@ -181,7 +184,7 @@ std::vector<double> steady_hPa(const PneumaticParameters& pump, const std::vecto
     std::vector<double> pressures_Pa(cups.size(), kAtmosphere_Pa);
     advance_network(pump_of(pump, true), cups, pressures_Pa, kLong_s);
     for (double& pressure : pressures_Pa) {
-        pressure *= 0.01;
+        pressure = hectopascals(pressure);
     }
     return pressures_Pa;
 }
@@ -191,7 +194,7 @@ PageTable beyond_the_exponential() {
     const Scenario scenario = load_scenario("press_concrete");
     const double radius_m = scenario.cup.lip.radius_m;
     constexpr double kPress_N = 20.0;
-    PneumaticParameters parameters = scenario.cup.pneumatics;
+    PneumaticParameters parameters = scenario.cup.pressure;
     PageTable table{
         .id = "pneumatic-predictions",
         .title = "What eqs. (5) and (6) cannot tell: porous concrete",
@@ -213,12 +216,12 @@ PageTable beyond_the_exponential() {
         table.rows.push_back({fmt::format("whole, hose narrowed to {} mm", bore_mm),
                               steady_hPa(parameters, {sealed()})[0], none});
     }
-    parameters = scenario.cup.pneumatics;
+    parameters = scenario.cup.pressure;
     const std::vector<double> both = steady_hPa(parameters, {sealed(), sealed()});
     table.rows.push_back({std::string("two cups on one pump, both whole"), both[0], both[1]});
     const std::vector<double> one = steady_hPa(
         parameters,
-        {sealed(), cup_off_the_wall(parameters, scenario.cup.vent.open_time_constant_s)});
+        {sealed(), cup_off_the_wall(parameters, scenario.cup.pressure.open_time_constant_s)});
     table.rows.push_back({std::string("two cups on one pump, one off the wall"), one[0], one[1]});
     return table;
 }

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/parallel.hpp"
-#include "limpet/plant/mujoco_plant.hpp"
+#include "limpet/plant/engines.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/vehicle/links.hpp"
@@ -41,8 +41,8 @@ double free_body_error() {
     Scene scene;
     scene.wall.present = false;
     scene.ground_z_W_m = 100.0;
-    scene.visuals = false;
-    MujocoPlant plant(std::make_shared<const MujocoModel>(write_mjcf(airframe, scene)));
+    const std::unique_ptr<Plant> made = kMujocoEngine.make(airframe, scene)->make();
+    Plant& plant = *made;
     const Vector3 v0(1.0, -0.5, -2.0), w0(3.0, 2.0, -1.0);
     plant.set_pose(Vector3::Zero(), Quaternion::Identity(), v0, w0);
     const Matrix3 inertia = airframe.inertia_kg_m2.asDiagonal();
@@ -74,7 +74,7 @@ enum class Direction {
 /// Moves a sealed cup until it lets go.
 CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction direction) {
     constexpr double kStep_s = 1e-3, kSpeed_m_s = 2e-3, kTurn_rad_s = 0.02, kLongest_s = 60.0;
-    const CupModel model{.parameters = scenario.cup, .wall = scenario.wall.plane};
+    const CupModel model{.parameters = scenario.cup, .wall = scenario.wall.geometry};
     CupState state;
     state.status.phase = CupPhase::attached;
     state.touches = 1;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "limpet/paper/evidence.hpp"
-#include "limpet/report/chart.hpp"
+#include "limpet/draw/chart.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet {

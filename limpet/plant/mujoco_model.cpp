@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/plant/engines.hpp"
 #include "limpet/plant/mujoco_errors.hpp"
 
 namespace limpet {
@@ -75,6 +76,14 @@ MujocoModel::MujocoModel(const std::string& mjcf) {
     model.opt.disableflags |=
         mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_CLAMPCTRL;
 }
+
+const Engine kMujocoEngine = {
+    "mujoco", "general rigid bodies, joints and contacts, by MuJoCo 2.2",
+    [](const Airframe& airframe, const Scene& scene) -> std::shared_ptr<const PlantModel> {
+        Scene bare = scene;
+        bare.visuals = false;
+        return std::make_shared<const MujocoModel>(write_mjcf(airframe, bare));
+    }};
 
 MujocoModel::~MujocoModel() = default;
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <iterator>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
@@ -199,6 +201,12 @@ void collect(std::string_view type, std::vector<const MessageDefinition*>& found
     }
 }
 
+/// Of what another message depends on.
+std::string part_of(const MessageDefinition& definition) {
+    return std::string(80, '=') + "\nMSG: " + short_type_name(definition.type) + "\n" +
+           std::string(definition.text);
+}
+
 }  // namespace
 
 std::span<const MessageDefinition> message_definitions() {
@@ -210,10 +218,20 @@ std::string ros2msg_schema(std::string_view type) {
     collect(type, parts);
     std::string text(parts.front()->text);
     for (std::size_t i = 1; i < parts.size(); ++i) {
-        text += std::string(80, '=') + "\nMSG: " + short_type_name(parts[i]->type) + "\n";
-        text += parts[i]->text;
+        text += part_of(*parts[i]);
     }
     return text;
+}
+
+std::string column_schema(std::span<const std::string_view> columns) {
+    std::string text = "builtin_interfaces/Time stamp\n";
+    for (const std::string_view column : columns) {
+        text += "float64 ";
+        std::transform(column.begin(), column.end(), std::back_inserter(text),
+                       [](unsigned char c) { return std::tolower(c); });
+        text += "\n";
+    }
+    return text + part_of(kDefinitions.front());
 }
 
 }  // namespace limpet

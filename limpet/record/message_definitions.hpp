@@ -24,4 +24,7 @@ struct MessageDefinition {
 /// @throws InternalError for a type that is not there
 [[nodiscard]] std::string ros2msg_schema(std::string_view type);
 
+/// The same of a message that holds a stamp and a float64 for each column.
+[[nodiscard]] std::string column_schema(std::span<const std::string_view> columns);
+
 }  // namespace limpet

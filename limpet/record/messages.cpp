@@ -57,9 +57,12 @@ public:
         return *this;
     }
 
-    Writer& numbers(std::initializer_list<double> values) {
-        cdr_.serializeArray(values.begin(), values.size());
+    Writer& numbers(std::span<const double> values) {
+        cdr_.serializeArray(values.data(), values.size());
         return *this;
+    }
+    Writer& numbers(std::initializer_list<double> values) {
+        return numbers(std::span(values.begin(), values.size()));
     }
 
     Writer& floats(std::initializer_list<double> values) {
@@ -270,6 +273,10 @@ Encoded rotor_command(Buffer& buffer, std::int64_t time_ns, const RotorCommand& 
         .numbers({c[0], c[1], c[2], c[3]})
         .octets({command.armed})
         .done();
+}
+
+Encoded columns(Buffer& buffer, std::int64_t time_ns, std::span<const double> numbers) {
+    return Writer(buffer).stamp(time_ns).numbers(numbers).done();
 }
 
 Encoded event(Buffer& buffer, std::int64_t time_ns, const Event& event) {

@@ -59,6 +59,9 @@ struct RangeSensor {
                                      int attempt);
 [[nodiscard]] Encoded rotor_command(Buffer& buffer, std::int64_t time_ns,
                                     const RotorCommand& command);
+/// A stamp and numbers: column_schema() of message_definitions.hpp.
+[[nodiscard]] Encoded columns(Buffer& buffer, std::int64_t time_ns,
+                              std::span<const double> numbers);
 [[nodiscard]] Encoded event(Buffer& buffer, std::int64_t time_ns, const Event& event);
 
 }  // namespace limpet::messages

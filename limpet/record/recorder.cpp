@@ -31,25 +31,42 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
     for (const mcap::Attachment& attachment : info.attachments) {
         writer_.add_attachment(attachment);
     }
-    add_channels();
+    add_channels(info.columns);
 }
 
-void Recorder::add_channels() {
+void Recorder::add_channels(const std::vector<ColumnChannel>& columns) {
     std::map<std::string_view, std::uint16_t> schemas;
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
         const auto& [name, type] = kTopics[i];
         if (schemas.count(type) == 0) {
             schemas[type] = writer_.add_schema(type, "ros2msg", ros2msg_schema(type));
         }
-        // The profile "ros2" wants the key; empty means the player's default.
-        channels_[i] =
-            writer_.add_channel(schemas[type], name, "cdr", {{"offered_qos_profiles", ""}});
+        channels_[i] = add_channel(name, schemas[type]);
+    }
+    for (const ColumnChannel& own : columns) {
+        const std::string schema = column_schema(own.columns);
+        columns_.push_back(
+            {.channel = add_channel(own.topic, writer_.add_schema(own.type, "ros2msg", schema))});
     }
 }
 
+std::uint16_t Recorder::add_channel(std::string_view topic, std::uint16_t schema) {
+    // The profile "ros2" wants the key; empty means the player's default.
+    return writer_.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
+}
+
+void Recorder::write_columns(Columns& to, double time_s, std::span<const double> numbers) {
+    const std::int64_t t = nanoseconds(time_s);
+    write(to.channel, t, messages::columns(buffer_, t, numbers));
+    to.last_s = time_s;
+}
+
 void Recorder::write(Topic topic, std::int64_t time_ns, messages::Encoded message) {
-    writer_.write(channels_[static_cast<std::size_t>(topic)], static_cast<std::uint64_t>(time_ns),
-                  message);
+    write(channels_[static_cast<std::size_t>(topic)], time_ns, message);
+}
+
+void Recorder::write(std::uint16_t channel, std::int64_t time_ns, messages::Encoded message) {
+    writer_.write(channel, static_cast<std::uint64_t>(time_ns), message);
     last_time_ns_ = std::max(last_time_ns_, time_ns);
 }
 
@@ -100,7 +117,7 @@ void Recorder::battery(const Sample<BatteryReading>& sample) {
 
 void Recorder::new_readings(const Readings& readings, Readings& last) {
     const auto when_new = [&](const auto& sample, auto& before, auto record) {
-        if (sample.ever() && sample.time_s > before.time_s) {
+        if (sample.newer_than(before)) {
             (this->*record)(sample);
             before.time_s = sample.time_s;
         }

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,13 @@
 
 namespace limpet {
 
+/// A channel of plain numbers, of a sensor that no topic in topics.hpp is for.
+struct ColumnChannel {
+    std::string_view topic;                     ///< "/sensors/NAME"
+    std::string_view type;                      ///< "limpet_msgs/msg/Name"
+    std::span<const std::string_view> columns;  ///< with their units
+};
+
 /// What a recording says of itself. Nothing in it may depend on the wall clock or the machine.
 struct RecordingInfo {
     std::string scenario;
@@ -24,6 +33,7 @@ struct RecordingInfo {
     mcap::StringMap numbers = {};
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
     messages::RangeSensor range_sensor;
+    std::vector<ColumnChannel> columns = {};
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from
@@ -50,6 +60,14 @@ public:
     /// All of these whose sample is newer than in `last`, which then holds them.
     void new_readings(const Readings& readings, Readings& last);
 
+    /// Into RecordingInfo::columns[channel], when it is newer than the last one there.
+    template <class T>
+    void columns(std::size_t channel, const Sample<T>& sample, std::span<const double> numbers) {
+        if (sample.newer_than(columns_[channel].last_s)) {
+            write_columns(columns_[channel], sample.time_s, numbers);
+        }
+    }
+
     /// Five messages: pose, twist, vehicle, cup, wrench of the cup.
     void truth(const Truth& truth);
     void estimate(const Estimate& estimate);
@@ -65,13 +83,21 @@ public:
     [[nodiscard]] const std::filesystem::path& path() const { return writer_.path(); }
 
 private:
-    void add_channels();
+    void add_channels(const std::vector<ColumnChannel>& columns);
+    struct Columns {
+        std::uint16_t channel = 0;
+        double last_s = -std::numeric_limits<double>::infinity();
+    };
+    std::uint16_t add_channel(std::string_view topic, std::uint16_t schema);
+    void write_columns(Columns& to, double time_s, std::span<const double> numbers);
     void write(Topic topic, std::int64_t time_ns, messages::Encoded message);
+    void write(std::uint16_t channel, std::int64_t time_ns, messages::Encoded message);
 
     mcap::Writer writer_;
     messages::RangeSensor range_sensor_;
     messages::Buffer buffer_;
     std::array<std::uint16_t, kTopics.size()> channels_{};
+    std::vector<Columns> columns_;
     std::int64_t last_time_ns_ = 0;
 };
 

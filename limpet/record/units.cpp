@@ -8,7 +8,8 @@ namespace limpet {
 namespace {
 
 /// Longer suffixes first.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kCapitals = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kCapitals = {{
+    {"_degc", "_degC"},
     {"_n_m", "_N_m"},
     {"_pa", "_Pa"},
     {"_n", "_N"},

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "limpet/report/panels.hpp"
+#include "limpet/draw/chart.hpp"
 
 /// What a paper says and what came out here.
 namespace limpet {

@@ -6,14 +6,13 @@
 #include <algorithm>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/figure_sketch.hpp"
-#include "limpet/report/gnuplot.hpp"
+#include "limpet/draw/gnuplot.hpp"
+#include "limpet/report/panels.hpp"
 
 namespace limpet {
 namespace {
 
-/// More points than this many times four cannot be told apart on the page.
-constexpr std::size_t kBins = 1200;
+constexpr double kWidth_px = 1400.0;
 
 std::string subtitle_of(const Summary& summary) {
     std::string text = "outcome: " + (summary.outcome.empty() ? "unknown" : words(summary.outcome));
@@ -26,55 +25,51 @@ std::string subtitle_of(const Summary& summary) {
     return text;
 }
 
-Figure make_figure(const Recording& recording, const Chapter& chapter) {
+}  // namespace
+
+Chart flight_chart(const Recording& recording, const Chapter& chapter) {
     const Summary facts = summary(recording);
-    Figure figure;
-    figure.title =
-        fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario, chapter.title);
-    figure.subtitle = subtitle_of(facts);
+    Chart chart{.title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
+                                     chapter.title),
+                .subtitle = subtitle_of(facts),
+                .column_px = kWidth_px};
     if (!recording.damage.empty()) {
         // What closes a recording is its summary: where that is, the end is not what is missing.
-        figure.warning =
+        chart.warning =
             recording.attachment("summary.json") != nullptr
                 ? "recording damaged"
                 : fmt::format("recording cut at t = {:.2f} s", whole_flight(recording).to_s);
     }
-    figure.window = chapter.window;
-    figure.panels = panels(recording, chapter.window);
-    for (Panel& panel : figure.panels) {
-        for (Curve& curve : panel.curves) {
-            curve = thinned(curve, chapter.window, kBins);
+    // Events and states stand over the first panel and run through all.
+    for (ChartPanel& panel : panels(recording, chapter.window)) {
+        const bool first = chart.panels.empty();
+        for (const RecordedEvent& event : recording.events) {
+            if (chapter.window.holds(event.time_s)) {
+                const auto name = fmt::format("{}  {:.2f}", words(event.name), event.time_s);
+                panel.moments.push_back({event.time_s, first ? name : ""});
+            }
         }
-    }
-    for (const RecordedEvent& event : recording.events) {
-        if (chapter.window.holds(event.time_s)) {
-            figure.events.push_back(event);
+        for (const auto& [state, window] : phases(recording)) {
+            if (window.to_s > chapter.window.from_s && window.from_s < chapter.window.to_s) {
+                panel.stretches.push_back(
+                    {{window.from_s, window.to_s}, first ? words(state) : ""});
+            }
         }
+        chart.panels.emplace_back(std::move(panel));
     }
-    std::stable_sort(figure.events.begin(), figure.events.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
-    for (const Phase& phase : phases(recording)) {
-        if (phase.window.to_s > chapter.window.from_s &&
-            phase.window.from_s < chapter.window.to_s) {
-            figure.phases.push_back(phase);
-        }
-    }
-    return figure;
+    return chart;
 }
-
-}  // namespace
 
 Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
     const gnuplot::TemporaryFolder work;
     std::vector<std::filesystem::path> drawn;
     for (const Chapter& chapter : chapters(recording)) {
-        const Figure figure = make_figure(recording, chapter);
-        if (figure.panels.empty() || chapter.window.span_s() <= 0.0) {
-            continue;
-        }
-        for (const auto& file :
-             draw(figure_sketch(figure), figure_data(figure), chapter.file, work.path())) {
-            drawn.push_back(file);
+        if (chapter.window.span_s() > 0.0) {
+            const Chart chart = flight_chart(recording, chapter);
+            if (!chart.panels.empty()) {
+                const auto files = draw_chart(chart, chapter.file, work.path() / "drawn").files;
+                drawn.insert(drawn.end(), files.begin(), files.end());
+            }
         }
     }
     if (drawn.empty()) {

@@ -3,14 +3,17 @@
 
 #include <filesystem>
 
-#include "limpet/record/recording.hpp"
-#include "limpet/report/pictures.hpp"
+#include "limpet/draw/chart.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet {
 
-/// Draws a flight against time as in the paper's Figs. 11 to 15: cup pressure, pitch, force through
-/// the slider, thrust and distance to the wall over a common time axis, with the flight's events
-/// and the states of guidance. PNG and SVG of each: `overview`, and when they happened `perching`,
+/// A part of a flight against time as in the paper's Figs. 11 to 15: cup pressure, pitch, force
+/// through the slider, thrust, distance to the wall and speed (panels.hpp) over a common time axis,
+/// with the flight's events and the states of guidance.
+[[nodiscard]] Chart flight_chart(const Recording& recording, const Chapter& chapter);
+
+/// Draws those charts, PNG and SVG of each: `overview`, and when they happened `perching`,
 /// `take_off`, `failed_attempt` (story.hpp says what each shows). A panel without data is left out.
 /// A damaged recording is drawn as far as it goes and its figures say so.
 /// @param folder  made when it is not there

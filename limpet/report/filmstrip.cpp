@@ -8,11 +8,11 @@
 #include <fstream>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/gnuplot.hpp"
-#include "limpet/report/layout.hpp"
+#include "limpet/draw/gnuplot.hpp"
+#include "limpet/draw/layout.hpp"
 #include "limpet/report/moments.hpp"
-#include "limpet/report/stage.hpp"
-#include "limpet/report/story.hpp"
+#include "limpet/draw/stage.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet {
 namespace {

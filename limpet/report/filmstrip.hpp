@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "limpet/record/recording.hpp"
-#include "limpet/report/pictures.hpp"
+#include "limpet/draw/pictures.hpp"
 
 namespace limpet {
 

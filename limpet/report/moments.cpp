@@ -9,24 +9,13 @@
 #include <optional>
 #include <string_view>
 
-#include "limpet/report/story.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet {
 namespace {
 
 constexpr std::size_t kMost = 8;
 constexpr double kApart_s = 0.04;
-
-/// Row of the sample nearest to an instant; the table has rows.
-std::size_t nearest_row(const Table& table, double time_s) {
-    const auto& times = table.time_s;
-    const auto after = std::lower_bound(times.begin(), times.end(), time_s);
-    if (after == times.end()) {
-        return times.size() - 1;
-    }
-    const auto row = static_cast<std::size_t>(after - times.begin());
-    return row > 0 && time_s - times[row - 1] < times[row] - time_s ? row - 1 : row;
-}
 
 /// @return nullopt when there is no such column
 std::optional<double> value_at(const Recording& recording, std::string_view topic,
@@ -65,7 +54,8 @@ public:
 
     void add(double time_s, std::string name) {
         if (time_s <= end_s_) {
-            moments_.push_back({time_s, std::move(name)});
+            moments_.emplace_back().time_s = time_s;  // GCC 12 sees ghosts in a moved pair
+            moments_.back().name = std::move(name);
         }
     }
     /// The first of that name from an instant on, no later than another.
@@ -211,7 +201,7 @@ std::string caption_at(const Recording& recording, double time_s) {
     }
     if (const auto pressure_Pa =
             value_at(recording, "/sensors/cup_pressure", "fluid_pressure", time_s)) {
-        text += fmt::format("   {:.0f} hPa", 0.01 * *pressure_Pa);
+        text += fmt::format("   {:.0f} hPa", hectopascals(*pressure_Pa));
     }
     return text;
 }

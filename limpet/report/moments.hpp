@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "limpet/record/recording.hpp"
-#include "limpet/report/stage.hpp"
+#include "limpet/draw/stage.hpp"
 
 namespace limpet {
 

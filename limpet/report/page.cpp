@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/report/gnuplot.hpp"
-#include "limpet/report/html.hpp"
+#include "limpet/draw/gnuplot.hpp"
+#include "limpet/draw/html.hpp"
 #include "limpet/report/page_check.hpp"
 #include "limpet/report/page_style.hpp"
 

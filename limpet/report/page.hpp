@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limpet/report/claims.hpp"
-#include "limpet/report/pictures.hpp"
+#include "limpet/draw/pictures.hpp"
 
 /// A report as a page that needs nothing but itself, and the same as data. Texts are plain and are
 /// escaped by the page; in paragraphs, captions and notes **bold** and `code` are marked up.

@@ -7,229 +7,237 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
-#include <utility>
 
 #include "limpet/core/frames.hpp"
+#include "limpet/draw/colours.hpp"
 #include "limpet/record/ros_frames.hpp"
 
 namespace limpet {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPerHundred = 0.01;  // Pa -> hPa
-constexpr double kToDegrees = 180.0 / kPi;
-
-/// Where a curve comes from and what its numbers are multiplied by.
-struct Source {
-    std::size_t panel;
-    std::string_view label;
-    Trace trace;
-    std::string_view topic;
-    std::string_view column;
-    double scale;
-};
+constexpr double kPanel_px = 165.0;
 
 enum PanelIndex : std::size_t {
     kPressure,
     kPitch,
     kForce,
     kThrust,
-    kDistance
+    kDistance,
+    kSpeed
+};
+
+/// How a curve looks: what sensors said, what was so.
+struct Pen {
+    const char* name;
+    const char* colour;
+    double width;
+};
+constexpr Pen kMeasured = {"measured", colours::kBlue, 1.8};
+constexpr Pen kTrue = {"true", colours::kDarkBlue, 1.6};
+constexpr Pen kEstimated = {"estimated", colours::kPeach, 2.8};
+constexpr Pen kAsked = {"asked", colours::kFaint, 2.6};
+
+/// Where a curve comes from and what its numbers are multiplied by.
+struct Source {
+    PanelIndex panel;
+    Pen pen;
+    const char* topic;
+    const char* column;
+    double scale = 1.0;
 };
 
 constexpr std::array<Source, 8> kSources = {{
-    {kPressure, "measured", Trace::measured, "/sensors/cup_pressure", "fluid_pressure",
-     kPerHundred},
-    {kPressure, "true", Trace::truth, "/cup", "pressure_Pa", kPerHundred},
-    {kPitch, "true", Trace::truth, "/truth/vehicle", "pitch_rad", kToDegrees},
-    {kForce, "measured", Trace::measured, "/sensors/force", "wrench.force.x", 1.0},
-    {kForce, "true", Trace::truth, "/truth/vehicle", "slider_force_N", 1.0},
-    {kThrust, "true", Trace::truth, "/truth/vehicle", "thrust_N", 1.0},
-    {kDistance, "left", Trace::measured, "/sensors/range_left", "range", 1.0},
-    {kDistance, "right", Trace::measured_2, "/sensors/range_right", "range", 1.0},
+    {kPressure, kMeasured, "/sensors/cup_pressure", "fluid_pressure", hectopascals(1.0)},
+    {kPressure, kTrue, "/cup", "pressure_Pa", hectopascals(1.0)},
+    {kPitch, kTrue, "/truth/vehicle", "pitch_rad", degrees(1.0)},
+    {kForce, kMeasured, "/sensors/force", "wrench.force.x"},
+    {kForce, kTrue, "/truth/vehicle", "slider_force_N"},
+    {kThrust, kTrue, "/truth/vehicle", "thrust_N"},
+    {kDistance, {"left", colours::kBlue, 1.8}, "/sensors/range_left", "range"},
+    {kDistance, {"right", colours::kOrange, 1.2}, "/sensors/range_right", "range"},
 }};
 
 /// Empty panels, in the order of the page.
-std::array<Panel, 5> templates() {
+std::array<ChartPanel, 6> templates() {
     return {{
-        {.title = "cup pressure", .unit = "hPa", .least_span = 100.0},
-        {.title = "pitch", .unit = "deg", .least_span = 6.0},
-        {.title = "force through the slider", .unit = "N", .least_span = 20.0},
-        {.title = "total thrust", .unit = "N", .least_span = 10.0, .from_zero = true},
-        {.title = "distance of the LiDARs to the wall",
-         .unit = "m",
+        {.y_label = "cup pressure  [hPa]", .least_span = 100.0},
+        {.y_label = "pitch  [deg]", .least_span = 6.0},
+        {.y_label = "force through the slider  [N]", .least_span = 20.0},
+        {.y_label = "total thrust  [N]", .least_span = 10.0, .from_zero = true},
+        {.y_label = "distance of the LiDARs to the wall  [m]",
          .least_span = 0.5,
          .from_zero = true},
+        {.y_label = "speed ahead  [m/s]", .least_span = 0.5},
     }};
 }
 
-void append_inside(Curve& curve, const Window& window, double time_s, double value) {
-    if (window.holds(time_s)) {
-        curve.time_s.push_back(time_s);
-        curve.values.push_back(std::isfinite(value) ? value : kNaN);
+/// Columns of a topic, read by row.
+class Columns {
+public:
+    Columns(const Recording& recording, const char* topic, std::vector<const char*> names)
+        : table_(find_table(recording, topic)) {
+        for (const char* name : names) {
+            columns_.push_back(table_ == nullptr ? nullptr : table_->find(name));
+        }
+        if (std::find(columns_.begin(), columns_.end(), nullptr) != columns_.end()) {
+            table_ = nullptr;
+        }
     }
-}
+    /// None when a column is not there.
+    [[nodiscard]] std::size_t rows() const { return table_ == nullptr ? 0 : table_->time_s.size(); }
+    [[nodiscard]] double time_s(std::size_t row) const { return table_->time_s[row]; }
+    [[nodiscard]] double at(std::size_t row, std::size_t column) const {
+        return columns_[column]->values[row];
+    }
+    /// By the nearest sample; NaN without any.
+    [[nodiscard]] double near(double time_s, std::size_t column) const {
+        return rows() == 0 ? kNaN : at(nearest_row(*table_, time_s), column);
+    }
 
-Curve read(const Recording& recording, const Source& source, const Window& window) {
-    Curve curve{std::string(source.label), source.trace, {}, {}};
-    const Table* table = find_table(recording, source.topic);
-    const Column* column = table == nullptr ? nullptr : table->find(source.column);
-    for (std::size_t i = 0; column != nullptr && i < column->values.size(); ++i) {
-        append_inside(curve, window, table->time_s[i], source.scale * column->values[i]);
+private:
+    const Table* table_;
+    std::vector<const Column*> columns_;
+};
+
+/// @param value  of a row
+template <class Value>
+ChartSeries read(const Pen& pen, const Columns& columns, const Window& window, const Value& value) {
+    ChartSeries series{.name = pen.name, .colour = pen.colour, .width = pen.width};
+    for (std::size_t i = 0; i < columns.rows(); ++i) {
+        if (window.holds(columns.time_s(i))) {
+            const double y = value(i);
+            series.x.push_back(columns.time_s(i));
+            series.y.push_back(std::isfinite(y) ? y : kNaN);
+        }
     }
-    return curve;
+    return series;
 }
 
 /// The autopilot's pitch, out of its attitude.
-Curve estimated_pitch(const Recording& recording, const Window& window) {
-    Curve curve{"estimated", Trace::estimated, {}, {}};
-    const Table* table = find_table(recording, "/estimate/pose");
-    if (table == nullptr) {
-        return curve;
-    }
-    std::array<const Column*, 4> q{};
-    constexpr std::array kNames = {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y",
-                                   "pose.orientation.z"};
-    std::transform(kNames.begin(), kNames.end(), q.begin(),
-                   [table](const char* name) { return table->find(name); });
-    if (std::find(q.begin(), q.end(), nullptr) != q.end()) {
-        return curve;
-    }
-    for (std::size_t i = 0; i < table->time_s.size(); ++i) {
-        const Quaternion q_ros(q[0]->values[i], q[1]->values[i], q[2]->values[i], q[3]->values[i]);
-        const Euler angles = euler_from_quaternion(ros::enu_flu_from_ned_frd(q_ros));
-        append_inside(curve, window, table->time_s[i], degrees(angles.pitch_rad));
-    }
-    return curve;
+ChartSeries estimated_pitch(const Recording& recording, const Window& window) {
+    const Columns q(
+        recording, "/estimate/pose",
+        {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y", "pose.orientation.z"});
+    return read(kEstimated, q, window, [&q](std::size_t i) {
+        const Quaternion q_ros(q.at(i, 0), q.at(i, 1), q.at(i, 2), q.at(i, 3));
+        return degrees(euler_from_quaternion(ros::enu_flu_from_ned_frd(q_ros)).pitch_rad);
+    });
+}
+
+double ahead(double north, double east, double yaw_rad) {
+    return north * std::cos(yaw_rad) + east * std::sin(yaw_rad);
+}
+
+/// What guidance asked for: pitch, distance and speed, each in its own mode of the setpoint; what a
+/// mode does not use was recorded as NaN, and the feed-forward of a position is no speed asked for.
+std::array<std::pair<PanelIndex, ChartSeries>, 3> asked(const Recording& recording,
+                                                        const Window& window) {
+    constexpr double kVelocity = 2.0;  // limpet_msgs/msg/Setpoint
+    const Columns asked(recording, "/setpoint",
+                        {"mode", "pitch_rad", "yaw_rad", "velocity_north_m_s", "velocity_east_m_s",
+                         "position_north_m", "position_east_m"});
+    const Columns left(recording, "/sensors/range_left", {"range"});
+    const Columns right(recording, "/sensors/range_right", {"range"});
+    const Columns pose(recording, "/estimate/pose", {"pose.position.y", "pose.position.x"});
+    const auto series = [&](const auto& value) {
+        ChartSeries found = read(kAsked, asked, window, value);
+        found.mark = ChartSeries::Mark::dashes;
+        return found;
+    };
+    return {{{kPitch, series([&](std::size_t i) { return degrees(asked.at(i, 1)); })},
+             {kDistance, series([&](std::size_t i) {
+                  const double t = asked.time_s(i);
+                  const double too_far_m = ahead(asked.at(i, 5) - pose.near(t, 0),
+                                                 asked.at(i, 6) - pose.near(t, 1), asked.at(i, 2));
+                  return 0.5 * (left.near(t, 0) + right.near(t, 0)) - too_far_m;
+              })},
+             {kSpeed, series([&](std::size_t i) {
+                  return asked.at(i, 0) == kVelocity
+                             ? ahead(asked.at(i, 3), asked.at(i, 4), asked.at(i, 2))
+                             : kNaN;
+              })}}};
 }
 
 /// The pressures at which guidance decided, as the recording tells.
-std::vector<Level> pressure_levels(const Recording& recording) {
-    std::vector<Level> levels;
+std::vector<ChartLine> pressure_levels(const Recording& recording) {
+    std::vector<ChartLine> levels;
     const auto limpet = recording.metadata.find("limpet");
-    if (limpet == recording.metadata.end()) {
-        return levels;
-    }
     for (const auto& [key, label] :
-         {std::pair{"land_pressure_Pa", "P_{land}"}, std::pair{"detach_pressure_Pa", "detach"}}) {
-        const auto found = limpet->second.find(key);
-        if (found != limpet->second.end()) {
-            const double level_hPa = std::atof(found->second.c_str()) * kPerHundred;
-            levels.push_back({fmt::format("{} {:g}", label, level_hPa), level_hPa});
+         {std::pair{"land_pressure_Pa", "P_land"}, std::pair{"detach_pressure_Pa", "detach"}}) {
+        if (limpet != recording.metadata.end() && limpet->second.count(key) > 0) {
+            const double level_hPa = hectopascals(std::atof(limpet->second.at(key).c_str()));
+            levels.push_back({level_hPa, fmt::format("{} {:g}", label, level_hPa)});
         }
     }
     return levels;
 }
 
-bool has_points(const Curve& curve) {
-    return std::any_of(curve.values.begin(), curve.values.end(),
-                       [](double v) { return std::isfinite(v); });
-}
-
-bool has_cup(const Recording& recording) {
-    return find_table(recording, "/sensors/cup_pressure") != nullptr ||
+/// What only a vehicle with a cup has.
+bool expected(const Recording& recording, PanelIndex panel) {
+    return (panel != kPressure && panel != kForce) ||
+           find_table(recording, "/sensors/cup_pressure") != nullptr ||
            find_table(recording, "/sensors/force") != nullptr;
 }
 
-bool of_cup(std::size_t panel) {
-    return panel == kPressure || panel == kForce;
+bool has_points(const ChartSeries& series) {
+    return std::any_of(series.y.begin(), series.y.end(), [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace
 
-std::vector<Panel> panels(const Recording& recording, const Window& window) {
-    std::array<Panel, 5> all = templates();
-    all[kPressure].levels = pressure_levels(recording);
-    for (const Source& source : kSources) {
-        if (of_cup(source.panel) && !has_cup(recording)) {
-            continue;
+std::vector<ChartPanel> panels(const Recording& recording, const Window& window) {
+    std::array<ChartPanel, 6> all = templates();
+    const auto add = [&all](PanelIndex panel, ChartSeries series) {
+        if (has_points(series)) {
+            all[panel].series.push_back(std::move(series));
         }
-        all[source.panel].curves.push_back(read(recording, source, window));
+    };
+    all[kPressure].levels = pressure_levels(recording);
+    add(kPitch, estimated_pitch(recording, window));  // under the truth: it is drawn broader
+    for (const Source& source : kSources) {
+        const Columns column(recording, source.topic, {source.column});
+        if (expected(recording, source.panel)) {
+            add(source.panel, read(source.pen, column, window,
+                                   [&](std::size_t i) { return source.scale * column.at(i, 0); }));
+        }
     }
-    auto& pitch = all[kPitch].curves;  // under the truth: it is drawn broader
-    pitch.insert(pitch.begin(), estimated_pitch(recording, window));
-    std::vector<Panel> shown;
-    for (Panel& panel : all) {
-        panel.curves.erase(std::remove_if(panel.curves.begin(), panel.curves.end(),
-                                          [](const Curve& c) { return !has_points(c); }),
-                           panel.curves.end());
-        if (!panel.curves.empty()) {
+    const Columns v(recording, "/truth/vehicle",
+                    {"velocity_north_m_s", "velocity_east_m_s", "yaw_rad"});
+    add(kSpeed, read(kTrue, v, window,
+                     [&v](std::size_t i) { return ahead(v.at(i, 0), v.at(i, 1), v.at(i, 2)); }));
+    for (auto& [panel, series] : asked(recording, window)) {
+        add(panel, series);
+    }
+    std::vector<ChartPanel> shown;
+    for (ChartPanel& panel : all) {
+        if (!panel.series.empty()) {
+            panel.x_range = Range{window.from_s, window.to_s};
+            panel.height_px = kPanel_px;
+            panel.x_numbers = false;
             shown.push_back(std::move(panel));
         }
+    }
+    if (!shown.empty()) {
+        shown.back().x_numbers = true;
+        shown.back().x_label = "time  [s]";
     }
     return shown;
 }
 
 std::vector<std::string> missing_topics(const Recording& recording) {
     std::vector<std::string> missing;
-    const auto titles = templates();
     for (const Source& source : kSources) {
-        const bool expected = !of_cup(source.panel) || has_cup(recording);
-        if (expected && find_table(recording, source.topic) == nullptr) {
+        if (expected(recording, source.panel) && find_table(recording, source.topic) == nullptr) {
+            const std::string label = templates()[source.panel].y_label;
             missing.push_back(fmt::format("{} ({}): no {} in the recording",
-                                          titles[source.panel].title, source.label, source.topic));
+                                          label.substr(0, label.find("  [")), source.pen.name,
+                                          source.topic));
         }
     }
     return missing;
-}
-
-Curve thinned(const Curve& curve, const Window& window, std::size_t bins) {
-    if (curve.values.size() <= 4 * bins) {
-        return curve;
-    }
-    Curve thin{curve.label, curve.trace, {}, {}};
-    const double per_s = static_cast<double>(bins) / window.span_s();
-    const auto bin_of = [&](std::size_t i) {
-        return std::floor((curve.time_s[i] - window.from_s) * per_s);
-    };
-    for (std::size_t first = 0; first < curve.values.size();) {
-        std::size_t end = first;
-        std::array<std::size_t, 4> kept = {first, first, first, first};
-        bool gap = false;
-        for (; end < curve.values.size() && bin_of(end) == bin_of(first); ++end) {
-            gap = gap || std::isnan(curve.values[end]);
-            kept[1] = curve.values[end] < curve.values[kept[1]] ? end : kept[1];
-            kept[2] = curve.values[end] > curve.values[kept[2]] ? end : kept[2];
-            kept[3] = end;
-        }
-        std::sort(kept.begin(), kept.end());
-        // A stretch with a gap in it stays whole: gaps are rare, and comparisons with NaN are
-        // false.
-        for (std::size_t i = first; i < end; ++i) {
-            if (gap || std::find(kept.begin(), kept.end(), i) != kept.end()) {
-                thin.time_s.push_back(curve.time_s[i]);
-                thin.values.push_back(curve.values[i]);
-            }
-        }
-        first = end;
-    }
-    return thin;
-}
-
-Range axis_range(const Panel& panel) {
-    double low = panel.from_zero ? 0.0 : std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-    for (const Curve& curve : panel.curves) {
-        for (const double value : curve.values) {
-            low = std::fmin(low, value);
-            high = std::fmax(high, value);
-        }
-    }
-    for (const Level& level : panel.levels) {
-        low = std::min(low, level.value);
-        high = std::max(high, level.value);
-    }
-    const double lacking = std::max(0.0, panel.least_span - (high - low));
-    if (panel.from_zero) {
-        high += lacking;
-    } else {
-        low -= 0.5 * lacking;
-        high += 0.5 * lacking;
-    }
-    constexpr double kAir = 0.07;
-    const double air = kAir * (high - low);
-    return {panel.from_zero ? std::min(0.0, low) : low - air, high + air};
 }
 
 }  // namespace limpet

@@ -53,6 +53,21 @@ std::vector<CatalogueEntry> list_surfaces(const fs::path& root) {
     return entries;
 }
 
+std::vector<Choice> choices_of(std::string_view room) {
+    const auto names_of = [](const auto& registry) {
+        std::vector<CatalogueEntry> names;
+        for (const auto* entry : registry) {
+            names.push_back({std::string(entry->name), std::string(entry->description)});
+        }
+        return names;
+    };
+    std::vector<Choice> choices = {{"wall", "shape", names_of(wall_shapes())},
+                                   {"simulation", "engine", names_of(engines())}};
+    std::erase_if(choices,
+                  [room](const Choice& choice) { return !room.empty() && choice.section != room; });
+    return choices;
+}
+
 std::vector<ParameterInfo> all_parameters() {
     Scenario defaults;
     std::vector<ParameterInfo> all;

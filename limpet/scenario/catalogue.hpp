@@ -25,6 +25,15 @@ struct CatalogueEntry {
 /// @throws InputError when surfaces.yaml is not right
 [[nodiscard]] std::vector<CatalogueEntry> list_surfaces(const std::filesystem::path& root);
 
+/// A key of a scenario that takes a name out of a registry; the first is the default.
+struct Choice {
+    std::string section;
+    std::string key;
+    std::vector<CatalogueEntry> names;
+};
+/// @param room  as of parameters_of(); empty: all
+[[nodiscard]] std::vector<Choice> choices_of(std::string_view room);
+
 /// Every number that a scenario can set, with the section in which it is set.
 [[nodiscard]] std::vector<ParameterInfo> all_parameters();
 

@@ -39,6 +39,22 @@ Mount read_mount(const YamlNode& node) {
     return *mount;
 }
 
+/// One of a registry by its name.
+/// @param kind     "engine", for the message
+/// @param entries  pointers to what has a name
+template <class Entries>
+auto read_choice(const YamlNode& node, std::string_view kind, const Entries& entries) {
+    const std::string word = read_text(node);
+    std::vector<std::string> names;
+    for (const auto* entry : entries) {
+        if (entry->name == word) {
+            return entry;
+        }
+        names.emplace_back(entry->name);
+    }
+    fail(node, unknown_name(word, kind, names));
+}
+
 bool says_none(const YamlNode* node) {
     return node == nullptr || node->kind == YamlNode::Kind::null ||
            (node->kind == YamlNode::Kind::scalar && node->text == "none");
@@ -49,7 +65,10 @@ void read_wall(const YamlNode* node, const fs::path& root, WallSetup& wall) {
     if (!wall.present) {
         return;
     }
-    read_rows(node, bind(wall_table(), wall), {"surface", "first_touches"});
+    read_rows(node, bind(wall_table(), wall), {"shape", "surface", "first_touches"});
+    if (const YamlNode* shape = node->find("shape")) {
+        wall.geometry.shape = read_choice(*shape, "shape of a wall", wall_shapes());
+    }
     const YamlNode* surface = node->find("surface");
     if (surface == nullptr) {
         fail(*node, "has no surface, as in `surface: porous_concrete`");
@@ -95,16 +114,20 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
     read_wall(root.find("wall"), data, scenario.wall);
     const std::vector<Section> sections = scenario_sections(scenario);
-    for (const char* name : {"pendulum", "press_rig", "environment", "sensors", "simulation"}) {
+    for (const char* name : {"pendulum", "press_rig", "environment", "sensors"}) {
         read_rows(root.find(name), find_section(sections, name).rows);
     }
     const YamlNode* simulation = root.find("simulation");
+    read_rows(simulation, find_section(sections, "simulation").rows, {"engine"});
+    if (const YamlNode* engine = simulation ? simulation->find("engine") : nullptr) {
+        scenario.engine = read_choice(*engine, "engine", engines());
+    }
     if (simulation == nullptr || simulation->find("touch_step_s") == nullptr) {
         scenario.simulation.touch_step_s =
             std::min(scenario.simulation.touch_step_s, scenario.simulation.step_s);
     }
     derive(scenario);
-    read_rows(root.find("suction"), find_section(sections, "suction").rows);
+    read_suction(root.find("suction"), scenario.cup);
     derive_from_suction(scenario);
     for (const char* name : {"guidance", "autopilot"}) {
         read_rows(root.find(name), find_section(sections, name).rows);

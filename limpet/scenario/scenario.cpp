@@ -76,6 +76,8 @@ const ParameterTable<WallSetup>& wall_table() {
          "of the wall, half on each side of the line of flight", "assumed: wide enough"},
         {"height_m", "m", 0.2, 100.0, &W::height_m,
          "of the wall, half above and half below the start", "assumed: high enough"},
+        {"radius_m", "m", 1.0, 1e4, [](W& w) -> double& { return w.radius_m; },
+         "of a wall whose shape bends; a plane has none", "assumed: a tank of 10 m"},
     };
     return table;
 }
@@ -91,9 +93,20 @@ Quaternion attitude(const Start& start) {
 Vector3 touching_p_WB_m(const Scenario& scenario) {
     const Vector3 ahead_W = heading_W(scenario.wall);
     const Vector3 p_BC_W_m = attitude(scenario.start) * lip_p_B_m(scenario.airframe);
-    const WallPlane& plane = scenario.wall.plane;
-    const Vector3 x_T_W = plane.R_WT.col(0);
-    return ahead_W * (x_T_W.dot(plane.p_WT_m - p_BC_W_m) / x_T_W.dot(ahead_W));
+    const WallGeometry& wall = scenario.wall.geometry;
+    // Newton's: before a flat wall the first step is exact.
+    constexpr double kThere_m = 1e-9;
+    constexpr int kSteps = 20;
+    double way_m = 0.0;
+    for (int k = 0; k < kSteps; ++k) {
+        const Vector3 p_WC_m = p_BC_W_m + way_m * ahead_W;
+        const double before_m = before_wall_m(wall, p_WC_m);
+        if (std::abs(before_m) < kThere_m) {
+            break;
+        }
+        way_m += before_m / tangent_frame(wall, p_WC_m).into_W().dot(ahead_W);
+    }
+    return ahead_W * way_m;
 }
 
 namespace {
@@ -115,10 +128,12 @@ void lay_out(Scenario& scenario) {
     // About y by a negative angle: x turns down, so that the outward normal turns up.
     const Matrix3 R_HT =
         Eigen::AngleAxisd(-radians(scenario.wall.lean_deg), Vector3::UnitY()).toRotationMatrix();
-    scenario.wall.plane = {.p_WT_m = R_WH.col(0) * simulation.start_distance_m,
-                           .R_WT = R_WH * R_HT,
-                           .half_width_m = 0.5 * scenario.wall.width_m,
-                           .half_height_m = 0.5 * scenario.wall.height_m};
+    scenario.wall.geometry = {.p_WT_m = R_WH.col(0) * simulation.start_distance_m,
+                              .R_WT = R_WH * R_HT,
+                              .half_width_m = 0.5 * scenario.wall.width_m,
+                              .half_height_m = 0.5 * scenario.wall.height_m,
+                              .radius_m = scenario.wall.radius_m,
+                              .shape = scenario.wall.geometry.shape};
     const auto yaw_rad = [&](double off_normal_deg) {
         return wrap_pi(radians(scenario.wall.heading_deg + off_normal_deg));
     };
@@ -144,13 +159,7 @@ void lay_out(Scenario& scenario) {
 
 Scene scene_of(const Scenario& scenario) {
     Scene scene;
-    const WallPlane& plane = scenario.wall.plane;
-    scene.wall = {.present = scenario.wall.present,
-                  .p_WT_m = plane.p_WT_m,
-                  .q_WT = Quaternion(plane.R_WT),
-                  .half_width_m = plane.half_width_m,
-                  .half_height_m = plane.half_height_m,
-                  .surface = scenario.wall.surface.name};
+    scene.wall = {{scenario.wall.geometry}, scenario.wall.present, scenario.wall.surface.name};
     scene.ground_z_W_m = scenario.start.ground_z_W_m;
     return scene;
 }

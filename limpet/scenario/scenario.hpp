@@ -10,8 +10,10 @@
 
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/wall.hpp"
 #include "limpet/guidance/parameters.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/plant/engines.hpp"
+#include "limpet/sensors/registry.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
@@ -56,7 +58,8 @@ struct WallSetup {
     double lean_deg = 0.0;     ///< > 0: the top leans away from the vehicle
     double width_m = 4.0;
     double height_m = 4.0;
-    WallPlane plane;  ///< made of the above, see lay_out()
+    double radius_m = 5.0;  ///< of a shape that bends
+    WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
     Surface surface;
     /// Surface met by the first, second, ... touch; `surface` after those.
     std::vector<Surface> first_touches;
@@ -98,6 +101,7 @@ struct Scenario {
     AutopilotParameters autopilot;
     PerchingParameters guidance;
     SimulationParameters simulation;
+    const Engine* engine = &kMujocoEngine;  ///< that moves the bodies
 };
 
 /// @return unit vector of travel into the wall, level
@@ -107,7 +111,7 @@ struct Scenario {
 /// Where the vehicle's lip meets the wall on the line of travel, in the attitude of its start.
 [[nodiscard]] Vector3 touching_p_WB_m(const Scenario& scenario);
 
-/// Fills `wall.plane` and `start` from the numbers of `wall`, `simulation` and the mount's. W's
+/// Fills `wall.geometry` and `start` from the numbers of `wall`, `simulation` and the mount's. W's
 /// origin is where a free vehicle would start without the sideways offset; the wall's is
 /// start_distance_m ahead of it along the heading, at the same height. On a mount the vehicle
 /// starts on that line: pulled back on its ropes, or start_gap_m before the wall.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/sections.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/suggestion.hpp"
 
 namespace limpet {
 namespace {
@@ -56,6 +59,36 @@ std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
             {"y_m", "m", -5.0, 5.0, &p_B_m.y(), "hub right of it", "vehicle file"}};
 }
 
+std::vector<BoundParameter> suction_rows(CupParameters& cup) {
+    std::vector<BoundParameter> rows = bind(cup_table(), cup);
+    for_each_table(PressureModels{}, cup.pressure, [&](const auto& table, auto& numbers) {
+        rows = joined(std::move(rows), bind(table, numbers));
+    });
+    return joined(std::move(rows), bind(lip_table(), cup.lip));
+}
+
+void read_suction(const YamlNode* section, CupParameters& cup) {
+    const YamlNode* old = section == nullptr ? nullptr : section->find("pneumatic");
+    if (old != nullptr) {
+        fail(*old, "is no key any more, say pressure_model: pneumatic");
+    }
+    read_rows(section, suction_rows(cup), {"pressure_model"});
+    const YamlNode* named = section == nullptr ? nullptr : section->find("pressure_model");
+    if (named == nullptr) {
+        return;
+    }
+    const std::string word = read_text(*named);
+    std::vector<std::string_view> names;
+    for (const PressureModel& model : pressure_models()) {
+        if (model.name == word) {
+            cup.pressure_model = static_cast<int>(names.size());
+            return;
+        }
+        names.push_back(model.name);
+    }
+    fail(*named, fmt::format("\"{}\" is none of {}", shown(word), fmt::join(names, ", ")));
+}
+
 std::vector<Section> scenario_sections(Scenario& scenario) {
     std::vector<Section> sections;
     for (Section& section : vehicle_sections(scenario.airframe)) {
@@ -69,12 +102,10 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     sections.push_back(
         {"environment", joined(bind(wind_table(), scenario.environment.wind),
                                bind(wall_air_table(), scenario.environment.wall_air))});
-    sections.push_back({"suction", joined(joined(bind(cup_table(), scenario.cup),
-                                                 bind(pneumatic_table(), scenario.cup.pneumatics)),
-                                          bind(lip_table(), scenario.cup.lip))});
+    sections.push_back({"suction", suction_rows(scenario.cup)});
     sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
     sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
-    sections.push_back({"sensors", bind(sensor_table(), scenario.sensors)});
+    sections.push_back({"sensors", sensor_rows(scenario.sensors)});
     sections.push_back({"simulation", bind(simulation_table(), scenario.simulation)});
     return sections;
 }

@@ -23,6 +23,12 @@ struct Section {
 /// Place and direction of one rotor: an item of a vehicle's list `rotors`.
 [[nodiscard]] std::vector<BoundParameter> rotor_rows(Vector3& p_B_m);
 
+/// Section `suction`: the cup, every pressure model, the lip. The model's name is a text beside them.
+[[nodiscard]] std::vector<BoundParameter> suction_rows(CupParameters& cup);
+/// @param section  null or empty: nothing is set
+/// @throws InputError in a line, also for a pressure model that is none
+void read_suction(const YamlNode* section, CupParameters& cup);
+
 /// Sections of a scenario, each bound to its values in `scenario`.
 [[nodiscard]] std::vector<Section> scenario_sections(Scenario& scenario);
 

@@ -44,11 +44,11 @@ GazeboWorld showroom(const Airframe& airframe, const std::vector<Surface>& surfa
         const double y_m = first_m + kPitch_m * static_cast<double>(i);
         const std::string& surface = surfaces[i].name;
         world.walls.push_back({.name = "wall_" + surface,
-                               .face = {.present = true,
-                                        .p_WT_m = {gap_m, y_m, kGround_m - 0.5 * kHeight_m},
-                                        .half_width_m = 0.5 * kWidth_m,
-                                        .half_height_m = 0.5 * kHeight_m,
-                                        .surface = surface}});
+                               .face = {{.p_WT_m = {gap_m, y_m, kGround_m - 0.5 * kHeight_m},
+                                         .half_width_m = 0.5 * kWidth_m,
+                                         .half_height_m = 0.5 * kHeight_m},
+                                        true,
+                                        surface}});
         world.vehicles.push_back({.name = airframe.name + "_" + surface,
                                   .p_WB_m = {0.0, y_m, 0.0},
                                   .is_static = true,

@@ -102,6 +102,7 @@ void write_wall(Writer& writer, WallSetup& wall) {
         return;
     }
     writer.line(0, "wall:");
+    writer.value(1, "shape", wall.geometry.shape->name);
     writer.rows(1, bind(wall_table(), wall));
     write_surface(writer, 1, "surface:", wall.surface);
     if (!wall.first_touches.empty()) {
@@ -141,7 +142,11 @@ std::string to_yaml(const Scenario& scenario) {
     for (const std::string_view name : {"pendulum", "press_rig", "environment", "suction",
                                         "guidance", "autopilot", "sensors", "simulation"}) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
+        if (name == "suction") {
+            writer.value(1, "pressure_model", pressure_models()[copy.cup.pressure_model].name);
+        }
     }
+    writer.value(1, "engine", copy.engine->name);  // of the last section, simulation
     return writer.take();
 }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/sensors/noise.hpp"
-
 namespace limpet {
 namespace {
 
@@ -26,23 +24,24 @@ double standard_altitude_m(double pressure_Pa) {
            (1.0 - std::pow(pressure_Pa / kAtmosphere_Pa, 1.0 / kExponent));
 }
 
-BarometerState start_barometer(const SensorParameters& parameters, const RandomStream& random) {
-    BarometerState state;
-    state.random = random;
-    state.bias_Pa = parameters.baro_bias_Pa * state.random.normal();
-    return state;
+// clang-format off
+const ParameterTable<BarometerSensor::Parameters>& BarometerSensor::table() {
+    using P = Parameters;
+    static const ParameterTable<P> table = {
+        {"baro_rate_Hz", "Hz", 0.0, 1000.0, &P::baro_rate_Hz, "samples a second, whole; 0: not fitted", "PX4 HIL, facts.md section 2"},
+        {"baro_noise_Pa", "Pa", 0.0, 1000.0, &P::baro_noise_Pa, "white noise", "PX4 Gazebo Classic barometer plugin, recalled"},
+        {"baro_bias_Pa", "Pa", 0.0, 10000.0, &P::baro_bias_Pa, "constant bias of a flight", "assumed: 0.1 m is left after zeroing on the ground"},
+    };
+    return table;
 }
+// clang-format on
 
-void sense_barometer(const SensorParameters& parameters, BarometerState& state, const Truth& truth,
-                     Tick tick, Sample<BarometerReading>& reading) {
-    if (!sampled(tick, parameters.baro_rate_Hz)) {
-        return;
-    }
-    const double pressure_Pa = standard_pressure_Pa(-truth.base.p_WF_m.z()) + state.bias_Pa +
-                               parameters.baro_noise_Pa * state.random.normal();
-    reading.time_s = truth.time_s;
-    reading.value.pressure_Pa = std::max(0.0, pressure_Pa);
-    reading.value.altitude_m = standard_altitude_m(reading.value.pressure_Pa);
+std::optional<BarometerReading> BarometerSensor::measure(const Parameters& p, State& state,
+                                                         const SensorView& view) {
+    const double pressure_Pa =
+        std::max(0.0, standard_pressure_Pa(-view.truth.base.p_WF_m.z()) + state.bias +
+                          p.baro_noise_Pa * state.random.normal());
+    return Reading{.pressure_Pa = pressure_Pa, .altitude_m = standard_altitude_m(pressure_Pa)};
 }
 
 }  // namespace limpet

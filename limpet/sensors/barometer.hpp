@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/core/random.hpp"
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet {
 
@@ -17,14 +13,22 @@ namespace limpet {
 [[nodiscard]] double standard_altitude_m(double pressure_Pa);
 
 /// Static pressure at B's origin. The rotors' own pressure field is left out.
-struct BarometerState {
-    RandomStream random;
-    double bias_Pa = 0.0;
+struct BarometerSensor {
+    using Reading = BarometerReading;
+    struct Parameters {
+        int baro_rate_Hz = 50;
+        double baro_noise_Pa = 1.0;
+        double baro_bias_Pa = 1.2;
+    };
+    using State = BiasedSensor;
+    static constexpr std::array kStreams = {Stream::barometer};
+    static constexpr std::array kReadings = {&Readings::barometer};
+    static constexpr bool kOnCup = false;
+    static constexpr auto kRate_Hz = &Parameters::baro_rate_Hz;
+    static constexpr auto kBias = &Parameters::baro_bias_Pa;
+    [[nodiscard]] static const ParameterTable<Parameters>& table();
+    [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
+                                                        const SensorView& view);
 };
-
-[[nodiscard]] BarometerState start_barometer(const SensorParameters& parameters,
-                                             const RandomStream& random);
-void sense_barometer(const SensorParameters& parameters, BarometerState& state, const Truth& truth,
-                     Tick tick, Sample<BarometerReading>& reading);
 
 }  // namespace limpet

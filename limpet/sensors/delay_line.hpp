@@ -35,6 +35,11 @@ public:
         }
     }
 
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        each(self.slots_, self.first_, self.count_);
+    }
+
 private:
     struct Slot {
         Sample<T> sample;

@@ -1,23 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/core/random.hpp"
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include <algorithm>
+
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet {
 
 /// Load cell between slider and cup: tension positive, saturates at its range.
-struct ForceState {
-    RandomStream random;
-    double bias_N = 0.0;
-};
+struct ForceSensor {
+    using Reading = ForceReading;
+    struct Parameters {
+        int force_rate_Hz = 250;
+        double force_noise_N = 0.2;
+        double force_bias_N = 0.1;
+        double force_range_N = 200.0;
+        double force_fails_at_s = kNever_s;
+    };
+    using State = BiasedSensor;
+    static constexpr std::array kStreams = {Stream::force};
+    static constexpr std::array kReadings = {&Readings::force};
+    static constexpr bool kOnCup = true;
+    static constexpr auto kRate_Hz = &Parameters::force_rate_Hz;
+    static constexpr auto kBias = &Parameters::force_bias_N;
+    // clang-format off
+    [[nodiscard]] static const ParameterTable<Parameters>& table() {
+        using P = Parameters;
+        static const ParameterTable<P> table = {
+            {"force_rate_Hz", "Hz", 0.0, 1000.0, &P::force_rate_Hz, "samples a second, whole; 0: not fitted", "assumed: load cell 80-500 Hz"},
+            {"force_noise_N", "N", 0.0, 100.0, &P::force_noise_N, "white noise", "assumed: load cell, facts.md section 2"},
+            {"force_bias_N", "N", 0.0, 100.0, &P::force_bias_N, "constant bias of a flight", "assumed: left after taring"},
+            {"force_range_N", "N", 1.0, 1e5, &P::force_range_N, "saturates at, either way", "assumed: load cell, facts.md section 2"},
+            {"force_fails_at_s", "s", 0.0, kNever_s, &P::force_fails_at_s, "fault: no sample from then on", "fault injection; the default is never"},
+        };
+        return table;
+    }
+    // clang-format on
 
-[[nodiscard]] ForceState start_force(const SensorParameters& parameters,
-                                     const RandomStream& random);
-void sense_force(const SensorParameters& parameters, ForceState& state, const Truth& truth,
-                 Tick tick, Sample<ForceReading>& reading);
+    [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
+                                                        const SensorView& view) {
+        const double noise_N = p.force_noise_N * state.random.normal();
+        if (view.truth.time_s >= p.force_fails_at_s) {
+            return std::nullopt;
+        }
+        return Reading{std::clamp(view.truth.slider.force_N + state.bias + noise_N,
+                                  -p.force_range_N, p.force_range_N)};
+    }
+};
 
 }  // namespace limpet

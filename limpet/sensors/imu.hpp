@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/core/random.hpp"
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet {
 
@@ -15,22 +11,41 @@ namespace limpet {
 /// vehicle's velocity and attitude at both ends. No plant has to offer accelerations, none is
 /// missed between two samples, and a strapdown integration of the samples gives the motion back.
 /// Turning and accelerating at once within an interval T leaves an error of second order in T.
-struct ImuState {
-    RandomStream random;
-    Vector3 gyro_turn_on_rad_s = Vector3::Zero();
-    Vector3 accel_turn_on_m_s2 = Vector3::Zero();
-    Vector3 gyro_bias_rad_s = Vector3::Zero();  ///< wandering part
-    Vector3 accel_bias_m_s2 = Vector3::Zero();  ///< wandering part
-    Vector3 v_WB_m_s = Vector3::Zero();         ///< at the last sample
-    Quaternion q_WB = Quaternion::Identity();   ///< at the last sample
-    double time_s = 0.0;                        ///< of the last sample
-};
-
-[[nodiscard]] ImuState start_imu(const SensorParameters& parameters, const Truth& truth,
-                                 const RandomStream& random);
-
 /// A sample at the very start has no interval: it measures a vehicle that does not accelerate.
-void sense_imu(const SensorParameters& parameters, ImuState& state, const Truth& truth, Tick tick,
-               Sample<ImuReading>& reading);
+struct ImuSensor {
+    using Reading = ImuReading;
+    struct Parameters {
+        int imu_rate_Hz = 250;
+        double gyro_noise_density_rad_s_rtHz = 3.39e-4;
+        double gyro_bias_walk_rad_s2_rtHz = 3.88e-5;
+        double gyro_bias_tau_s = 1000.0;
+        double gyro_turn_on_bias_rad_s = 8.7e-4;
+        double gyro_range_rad_s = 17.45;
+        double accel_noise_density_m_s2_rtHz = 4e-3;
+        double accel_bias_walk_m_s3_rtHz = 6e-3;
+        double accel_bias_tau_s = 300.0;
+        double accel_turn_on_bias_m_s2 = 0.0196;
+        double accel_range_m_s2 = 176.5;
+    };
+    struct State {
+        RandomStream random;
+        Vector3 gyro_turn_on_rad_s = Vector3::Zero();
+        Vector3 accel_turn_on_m_s2 = Vector3::Zero();
+        Vector3 gyro_bias_rad_s = Vector3::Zero();  ///< wandering part
+        Vector3 accel_bias_m_s2 = Vector3::Zero();  ///< wandering part
+        Vector3 v_WB_m_s = Vector3::Zero();         ///< at the last sample
+        Quaternion q_WB = Quaternion::Identity();   ///< at the last sample
+        double time_s = 0.0;                        ///< of the last sample
+    };
+    static constexpr std::array kStreams = {Stream::imu};
+    static constexpr std::array kReadings = {&Readings::imu};
+    static constexpr bool kOnCup = false;
+    static constexpr auto kRate_Hz = &Parameters::imu_rate_Hz;
+    [[nodiscard]] static const ParameterTable<Parameters>& table();
+    [[nodiscard]] static State start(const Parameters& p, const RandomStream& random,
+                                     const Truth& truth);
+    [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
+                                                        const SensorView& view);
+};
 
 }  // namespace limpet

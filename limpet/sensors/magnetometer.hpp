@@ -1,26 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/core/random.hpp"
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet {
 
-/// Earth's field in W, from strength, inclination and declination [gauss].
-[[nodiscard]] Vector3 earth_field_W_gauss(const SensorParameters& parameters);
-
 /// Three axes of B in a uniform field. Currents and steel nearby are left out.
-struct MagnetometerState {
-    RandomStream random;
-    Vector3 bias_gauss = Vector3::Zero();
+struct MagnetometerSensor {
+    using Reading = MagnetometerReading;
+    struct Parameters {
+        int mag_rate_Hz = 100;
+        double mag_noise_gauss = 0.004;
+        double mag_bias_gauss = 0.002;
+        double mag_field_gauss = 0.479;
+        double mag_inclination_deg = 63.2;
+        double mag_declination_deg = 0.0;
+    };
+    struct State {
+        RandomStream random;
+        Vector3 bias_gauss = Vector3::Zero();
+    };
+    static constexpr std::array kStreams = {Stream::magnetometer};
+    static constexpr std::array kReadings = {&Readings::magnetometer};
+    static constexpr bool kOnCup = false;
+    static constexpr auto kRate_Hz = &Parameters::mag_rate_Hz;
+    [[nodiscard]] static const ParameterTable<Parameters>& table();
+    [[nodiscard]] static State start(const Parameters& p, const RandomStream& random,
+                                     const Truth& truth);
+    [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
+                                                        const SensorView& view);
 };
 
-[[nodiscard]] MagnetometerState start_magnetometer(const SensorParameters& parameters,
-                                                   const RandomStream& random);
-void sense_magnetometer(const SensorParameters& parameters, MagnetometerState& state,
-                        const Truth& truth, Tick tick, Sample<MagnetometerReading>& reading);
+/// Earth's field in W, from strength, inclination and declination [gauss].
+[[nodiscard]] Vector3 earth_field_W_gauss(const MagnetometerSensor::Parameters& parameters);
 
 }  // namespace limpet

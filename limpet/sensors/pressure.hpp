@@ -1,24 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/core/random.hpp"
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include <algorithm>
+
+#include "limpet/sensors/sensor.hpp"
 
 namespace limpet {
 
 /// Absolute pressure inside the cup. A stuck sensor repeats its last value with new time stamps:
 /// the fault that time stamps alone cannot tell.
-struct PressureState {
-    RandomStream random;
-    double bias_Pa = 0.0;
-};
+struct PressureSensor {
+    using Reading = PressureReading;
+    struct Parameters {
+        int pressure_rate_Hz = 100;
+        double pressure_noise_Pa = 100.0;
+        double pressure_bias_Pa = 50.0;
+        double pressure_range_min_Pa = 1000.0;
+        double pressure_range_max_Pa = 120000.0;
+        double pressure_resolution_Pa = 2.0;
+        double pressure_stuck_at_s = kNever_s;
+    };
+    struct State {
+        RandomStream random;
+        double bias = 0.0;
+        Reading last = {};
+    };
+    static constexpr std::array kStreams = {Stream::pressure};
+    static constexpr std::array kReadings = {&Readings::cup_pressure};
+    static constexpr bool kOnCup = true;
+    static constexpr auto kRate_Hz = &Parameters::pressure_rate_Hz;
+    static constexpr auto kBias = &Parameters::pressure_bias_Pa;
+    // clang-format off
+    [[nodiscard]] static const ParameterTable<Parameters>& table() {
+        using P = Parameters;
+        static const ParameterTable<P> table = {
+            {"pressure_rate_Hz", "Hz", 0.0, 1000.0, &P::pressure_rate_Hz, "samples a second, whole; 0: not fitted", "assumed: 50-100 Hz, facts.md section 2"},
+            {"pressure_noise_Pa", "Pa", 0.0, 10000.0, &P::pressure_noise_Pa, "white noise", "assumed: 1 hPa, facts.md section 2"},
+            {"pressure_bias_Pa", "Pa", 0.0, 10000.0, &P::pressure_bias_Pa, "constant bias of a flight", "assumed: half the noise"},
+            {"pressure_range_min_Pa", "Pa", 0.0, 1e5, &P::pressure_range_min_Pa, "reads no less", "MS5803-01 class: 10 hPa"},
+            {"pressure_range_max_Pa", "Pa", 1e5, 1e6, &P::pressure_range_max_Pa, "reads no more", "assumed: MS5803-01 class"},
+            {"pressure_resolution_Pa", "Pa", 0.0, 10000.0, &P::pressure_resolution_Pa, "step of the reading; 0: none", "assumed: MS5803-01 class"},
+            {"pressure_stuck_at_s", "s", 0.0, kNever_s, &P::pressure_stuck_at_s, "fault: from then on the last value, ever anew", "fault injection; the default is never"},
+        };
+        return table;
+    }
+    // clang-format on
 
-[[nodiscard]] PressureState start_pressure(const SensorParameters& parameters,
-                                           const RandomStream& random);
-void sense_pressure(const SensorParameters& parameters, PressureState& state, const Truth& truth,
-                    Tick tick, Sample<PressureReading>& reading);
+    [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
+                                                        const SensorView& view) {
+        const double noise_Pa = p.pressure_noise_Pa * state.random.normal();
+        if (view.truth.time_s < p.pressure_stuck_at_s) {
+            state.last.pressure_Pa =
+                std::clamp(quantised(view.truth.cup_status.pressure_Pa + state.bias + noise_Pa,
+                                     p.pressure_resolution_Pa),
+                           p.pressure_range_min_Pa, p.pressure_range_max_Pa);
+        }
+        return state.last;
+    }
+};
 
 }  // namespace limpet

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <tuple>
 
-#include "limpet/core/signals/readings.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/core/time.hpp"
-#include "limpet/plant/plant.hpp"
-#include "limpet/sensors/barometer.hpp"
-#include "limpet/sensors/force.hpp"
-#include "limpet/sensors/gps.hpp"
-#include "limpet/sensors/imu.hpp"
-#include "limpet/sensors/lidar.hpp"
-#include "limpet/sensors/magnetometer.hpp"
-#include "limpet/sensors/motion_capture.hpp"
-#include "limpet/sensors/parameters.hpp"
-#include "limpet/sensors/pressure.hpp"
+#include "limpet/sensors/registry.hpp"
 
 namespace limpet {
 
@@ -23,24 +13,34 @@ namespace limpet {
 struct SensorsModel {
     SensorParameters parameters;
     bool has_cup = true;  ///< LiDARs, force and pressure belong to the perching mechanism
-    Vector3 lidar_left_p_B_m = {0.205, -0.205, 0.0};
-    Vector3 lidar_right_p_B_m = {0.205, 0.205, 0.0};
+    SensorMounts mounts = {};
+};
+
+/// All units of a registry's sensors.
+template <class List>
+struct UnitsOf;
+template <class... All>
+struct UnitsOf<TypeList<All...>> {
+    std::tuple<std::array<SensorUnit<All>, All::kStreams.size()>...> units;
+
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        std::apply(each, self.units);
+    }
 };
 
 /// Everything that changes while they measure. Each sensor draws from a stream of its own, and as
 /// many numbers a sample whatever its parameters: changing one leaves the others' readings as they
 /// were.
 struct SensorsState {
-    ImuState imu;
-    BarometerState barometer;
-    MagnetometerState magnetometer;
-    GpsState gps;
-    MotionCaptureState motion_capture;
-    LidarState lidar_left;
-    LidarState lidar_right;
-    ForceState force;
-    PressureState pressure;
+    UnitsOf<Sensors> sensors;
     Readings readings;  ///< what has arrived so far
+
+    /// Both units of LiDARs, the one of any other.
+    template <class Sensor>
+    [[nodiscard]] const auto& units() const {
+        return std::get<std::array<SensorUnit<Sensor>, Sensor::kStreams.size()>>(sensors.units);
+    }
 };
 
 /// Switches the sensors on: draws the biases of this flight. No reading yet.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/advance.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/rig.hpp"
 
@@ -9,27 +12,47 @@ namespace {
 
 /// Around a touch the plant sub-steps: impact forces converge below 0.25 ms (reference:
 /// physics.md).
-bool needs_fine_steps(const SimulationModel& model, const SimulationState& state) {
+bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
     const CupStatus& cup = state.cup.status;
     return state.tick < state.fine_until ||
-           (cup.phase == CupPhase::free && cup.gap_m < model.scenario.simulation.touch_range_m &&
-            cup.gap_m > -model.scenario.simulation.touch_range_m);
+           (cup.phase == CupPhase::free && cup.gap_m < model.simulation.touch_range_m &&
+            cup.gap_m > -model.simulation.touch_range_m);
 }
 
 /// Forces inside the slider: the plant integrates spring and damper itself, the stops are ours.
-SliderStatus apply_slider_stops(const SimulationModel& model, Plant& plant) {
+SliderStatus apply_slider_stops(const FlightModel& model, Plant& plant) {
     const SliderMotion motion = plant.slider();
     const SliderForce force =
-        slider_force(model.scenario.airframe.slider, motion.position_m, motion.velocity_m_s);
+        slider_force(model.airframe.slider, motion.position_m, motion.velocity_m_s);
     plant.apply_slider(force.stop_N);
     return {.position_m = motion.position_m,
             .velocity_m_s = motion.velocity_m_s,
             .force_N = -force.total_N()};
 }
 
-/// The cup between wall and mechanism: its wrench goes to the plant, its events to the list.
-void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plant, double time_s,
-               double dt_s, EventList& events, ExternalCup* external) {
+/// What the cup bears at one step of the plant.
+void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatus& cup) {
+    if (cup.phase == CupPhase::free) {
+        return;
+    }
+    const auto raise = [](double& peak, double value) { peak = std::fmax(peak, value); };
+    raise(peaks.slider_press_N, -slider.force_N);
+    raise(peaks.lip_press_N, -cup.pull_N);
+    if (!is_sealed(cup.phase)) {
+        return;
+    }
+    raise(peaks.pull_N, cup.pull_N);
+    raise(peaks.shear_N, cup.shear_N);
+    raise(peaks.peel_N_m, cup.peel_N_m);
+    if (cup.phase != CupPhase::sealing) {  // a seal that begins has nothing to spare yet
+        peaks.margin_N = std::fmin(
+            peaks.margin_N, std::min({cup.pull_margin_N, cup.shear_margin_N, cup.peel_margin_N}));
+    }
+}
+
+/// The cup between wall and mechanism: its wrench goes to the plant, its events to the report.
+void apply_cup(const FlightModel& model, FlightState& state, Plant& plant, double time_s,
+               double dt_s, TickReport& report, ExternalCup* external) {
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
     const Surface& surface = surface_under_cup(model, state.cup);
@@ -44,15 +67,20 @@ void apply_cup(const SimulationModel& model, SimulationState& state, Plant& plan
     if (state.cup.status.phase != CupPhase::free) {
         plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
     }
-    if (before == CupPhase::free && state.cup.status.phase != CupPhase::free) {
-        observe_touch(state.metrics, time_s, model.cup.wall.R_WT.col(0).dot(cup.v_WF_W_m_s));
+    ContactPeaks& peaks = report.contact;
+    if (before == CupPhase::free && state.cup.status.phase != CupPhase::free &&
+        std::isnan(peaks.touch_s)) {
+        peaks.touch_s = time_s;
+        peaks.touch_speed_m_s = 
+            tangent_frame(model.cup.wall, cup.p_WF_m).into_W().dot(cup.v_WF_W_m_s);
     }
     if (output.event) {
-        events.add(*output.event);
+        report.events.add(*output.event);
     }
+    see_contact(peaks, state.truth.slider, state.cup.status);
     if (state.cup.status.phase != before) {
         state.fine_until =
-            state.tick + static_cast<Tick>(model.scenario.simulation.touch_transient_s / kTick_s);
+            state.tick + static_cast<Tick>(model.simulation.touch_transient_s / kTick_s);
     }
 }
 
@@ -62,8 +90,8 @@ struct AirLoad {
     double thrust_N = 0.0;
 };
 
-AirLoad load_of_air(const SimulationModel& model, const SimulationState& state) {
-    const Airframe& airframe = model.scenario.airframe;
+AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
+    const Airframe& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const Wrench rotors_B =
@@ -71,10 +99,10 @@ AirLoad load_of_air(const SimulationModel& model, const SimulationState& state) 
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
-    if (acts(model.wall_air) && model.scenario.wall.present) {
-        const Wrench wall_W =
-            wall_air_wrench_W(model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N,
-                              base.q_WF, closest_hub_m(model, base), model.cup.wall.R_WT.col(0));
+    if (acts(model.wall_air) && model.has_wall) {
+        const Wrench wall_W = wall_air_wrench_W(
+            model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N, base.q_WF,
+            closest_hub_m(model, base), tangent_frame(model.cup.wall, base.p_WF_m).into_W());
         air.wrench_W.force_N += wall_W.force_N;
         air.wrench_W.moment_N_m += wall_W.moment_N_m;
     }
@@ -83,16 +111,16 @@ AirLoad load_of_air(const SimulationModel& model, const SimulationState& state) 
 
 }  // namespace
 
-void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant) {
+void see_motion(const FlightModel& model, Truth& truth, const Plant& plant) {
     truth.base = plant.kinematics(Body::base);
-    if (model.scenario.airframe.has_cup) {
+    if (model.airframe.has_cup) {
         truth.cup = plant.kinematics(Body::cup);
     }
 }
 
-void advance(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+void advance(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
              ExternalCup* external_cup) {
-    const bool has_cup = model.scenario.airframe.has_cup;
+    const bool has_cup = model.airframe.has_cup;
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
     const StepMode mode{.step_s = kTick_s / steps,
@@ -104,18 +132,16 @@ void advance(const SimulationModel& model, SimulationState& state, Plant& plant,
             see_motion(model, state.truth, plant);
         }
         plant.apply(Body::base, air.wrench_W, state.truth.base.p_WF_m);
-        if (model.scenario.mount != Mount::free) {
+        if (model.mount != Mount::free) {
             plant.apply(Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
         }
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
-            apply_cup(model, state, plant, time_s, mode.step_s, events, external_cup);
-            observe_contact(state.metrics, state.guidance.state, state.truth.slider,
-                            state.cup.status);
+            apply_cup(model, state, plant, time_s, mode.step_s, report, external_cup);
         }
         plant.step(mode);
     }
-    state.physics_steps += steps;
+    report.physics_steps += steps;
     state.truth.thrust_N = air.thrust_N;
 }
 

@@ -3,16 +3,18 @@
 
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/tick_report.hpp"
 
 namespace limpet {
 
 /// One base tick of rigid-body truth, in one step of the plant or, around a touch, in several:
 /// rotors, slider stops and cup push, the plant moves.
+/// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
-void advance(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+void advance(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
              ExternalCup* external_cup = nullptr);
 
 /// Where base and cup are now.
-void see_motion(const SimulationModel& model, Truth& truth, const Plant& plant);
+void see_motion(const FlightModel& model, Truth& truth, const Plant& plant);
 
 }  // namespace limpet

@@ -17,40 +17,39 @@ namespace {
 constexpr double kNear_m = 0.15;
 constexpr double kSlow_m_s = 0.08;
 
-/// The scenario without its mission: hovers at the start for ever.
-SimulationModel hovering(const SimulationModel& model) {
-    SimulationModel waiting = model;
+/// The flight without its mission: hovers at the start for ever.
+FlightModel hovering(const FlightModel& model) {
+    FlightModel waiting = model;
     waiting.task = {
         .perch = false, .take_off = false, .hover_s = std::numeric_limits<double>::infinity()};
     return waiting;
 }
 
-void rest_on_stand(const SimulationModel& model, const Vector3& stand_W_m, Plant& plant,
-                   Truth& truth) {
-    plant.set_pose(stand_W_m, attitude(model.scenario.start));
+void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, Plant& plant, Truth& truth) {
+    plant.set_pose(stand_W_m, attitude(model.start));
     truth.base = plant.kinematics(Body::base);
-    if (model.scenario.airframe.has_cup) {
+    if (model.airframe.has_cup) {
         truth.cup = plant.kinematics(Body::cup);
     }
 }
 
-bool stands_still(const Scenario& scenario, const Truth& truth) {
-    return (truth.base.p_WF_m - scenario.start.p_WB_m).norm() < kNear_m &&
+bool stands_still(const Start& start, const Truth& truth) {
+    return (truth.base.p_WF_m - start.p_WB_m).norm() < kNear_m &&
            truth.base.v_WF_W_m_s.norm() < kSlow_m_s;
 }
 
 /// A flight's first state with the vehicle, rotors and autopilot as they are.
-Snapshot first_state(const SimulationModel& model, const SimulationState& now, const Plant& plant,
+Snapshot first_state(const FlightModel& model, const FlightState& now, const Plant& plant,
                      std::uint32_t run) {
-    SimulationState state = start(model, now.truth.base, now.truth.cup, run);
+    FlightState state = start(model, now.truth.base, now.truth.cup, run);
     state.truth.rotor_speed_rad_s = now.truth.rotor_speed_rad_s;
     state.rotors = now.rotors;
     state.command = now.command;
     state.autopilot.estimate = now.autopilot.estimate;
     state.autopilot.estimate.time_s = 0.0;
     state.guidance = start_perching(model.task, state.autopilot.estimate, 0.0);
-    state.sensors = start(model.sensors, state.truth, model.scenario.seed, run);
-    return {.state = state, .plant = plant.save()};
+    state.sensors = start(model.sensors, state.truth, model.seed, run);
+    return {.state = state, .plant = plant.save(), .seen = {}};
 }
 
 std::string obstacle_of(const ExternalAutopilot& autopilot, const ExternalGuidance* guidance,
@@ -71,28 +70,27 @@ std::string obstacle_of(const ExternalAutopilot& autopilot, const ExternalGuidan
 
 }  // namespace
 
-Snapshot bring_up(const SimulationModel& model, const Outside& outside, const BringUp& options) {
+Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringUp& options) {
     ExternalAutopilot& autopilot = *outside.autopilot;
-    const Scenario& scenario = model.scenario;
-    const SimulationModel waiting = hovering(model);
-    const Vector3 stand_W_m = scenario.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
-    const double weight_N = scenario.airframe.mass_kg * kGravity_m_s2;
+    const FlightModel waiting = hovering(model);
+    const Vector3 stand_W_m = model.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
+    const double weight_N = model.airframe.mass_kg * kGravity_m_s2;
 
     const std::unique_ptr<Plant> made = model.plant->make();
     Plant& plant = *made;
-    SimulationState state = start(waiting, plant, options.run);
+    FlightState state = start(waiting, plant, options.run);
     state.rotors = {};
     state.command = {};
     rest_on_stand(model, stand_W_m, plant, state.truth);
-    state.sensors = start(model.sensors, state.truth, scenario.seed, options.run);
+    state.sensors = start(model.sensors, state.truth, model.seed, options.run);
 
-    EventList events;
+    TickReport report;
     Pace pace(options.speed);
     bool on_stand = true;
     Tick still_since = -1;
     std::string obstacle;
     while (seconds(state.tick) < options.limit_s) {
-        step(waiting, state, plant, events, outside);
+        step(waiting, state, plant, report, outside);
         on_stand = on_stand && state.truth.thrust_N < weight_N;
         if (on_stand) {
             rest_on_stand(model, stand_W_m, plant, state.truth);
@@ -111,13 +109,14 @@ Snapshot bring_up(const SimulationModel& model, const Outside& outside, const Br
             throw Interrupted("interrupted while the autopilot was brought up");
         }
         if (state.ending) {
-            give_up(fmt::format("{} on the way to the start", state.ending->reason), obstacle);
+            give_up(fmt::format("{} on the way to the start", state.ending->reason.view()),
+                    obstacle);
         }
         if (outside.guidance != nullptr && !on_stand) {
             return first_state(model, state, plant, options.run);
         }
         const bool still =
-            !on_stand && stands_still(scenario, state.truth) && state.autopilot.estimate.valid;
+            !on_stand && stands_still(model.start, state.truth) && state.autopilot.estimate.valid;
         still_since = !still ? -1 : still_since < 0 ? state.tick : still_since;
         if (still_since >= 0 && seconds(state.tick - still_since) >= options.steady_s) {
             return first_state(model, state, plant, options.run);

@@ -9,6 +9,7 @@
 #include "limpet/autopilot/external.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/snapshot.hpp"
 
 namespace limpet {
 
@@ -32,7 +33,7 @@ struct BringUp {
 /// @return the flight's first state: time 0, the plant as it flies
 /// @throws InputError when it is not there in time or fails, with what it waited for
 /// @throws Interrupted on options.stop
-[[nodiscard]] Snapshot bring_up(const SimulationModel& model, const Outside& outside,
+[[nodiscard]] Snapshot bring_up(const FlightModel& model, const Outside& outside,
                                 const BringUp& options);
 
 }  // namespace limpet

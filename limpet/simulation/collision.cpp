@@ -6,53 +6,39 @@
 #include <limits>
 
 namespace limpet {
-namespace {
 
-/// Distance of a point from the wall's plane, > 0 in front of it.
-double before_wall_m(const WallPlane& wall, const Vector3& p_W_m) {
-    return -wall.R_WT.col(0).dot(p_W_m - wall.p_WT_m);
-}
-
-bool within_wall(const WallPlane& wall, const Vector3& p_W_m) {
-    const Vector3 p_T_m = wall.R_WT.transpose() * (p_W_m - wall.p_WT_m);
-    return std::abs(p_T_m.y()) <= wall.half_width_m && std::abs(p_T_m.z()) <= wall.half_height_m;
-}
-
-}  // namespace
-
-bool legs_near_wall(const SimulationModel& model, const Kinematics& base) {
-    const Airframe& airframe = model.scenario.airframe;
-    if (!airframe.has_cup || !model.scenario.wall.present) {
+bool legs_near_wall(const FlightModel& model, const Kinematics& base) {
+    const Airframe& airframe = model.airframe;
+    if (!airframe.has_cup || !model.has_wall) {
         return false;
     }
     const Vector3 tips_B_m(airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m);
     return before_wall_m(model.cup.wall, base.p_WF_m + base.q_WF * tips_B_m) <
-           model.scenario.simulation.contact_range_m;
+           model.simulation.contact_range_m;
 }
 
-double closest_hub_m(const SimulationModel& model, const Kinematics& base) {
+double closest_hub_m(const FlightModel& model, const Kinematics& base) {
     double closest_m = std::numeric_limits<double>::infinity();
-    for (const Vector3& p_BR_m : model.scenario.airframe.rotor_p_B_m) {
+    for (const Vector3& p_BR_m : model.airframe.rotor_p_B_m) {
         const Vector3 p_WR_m = base.p_WF_m + base.q_WF * p_BR_m;
-        if (within_wall(model.cup.wall, p_WR_m)) {
+        if (tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
         }
     }
     return closest_m;
 }
 
-std::optional<Ending> collision(const SimulationModel& model, const Truth& truth) {
-    const Airframe& airframe = model.scenario.airframe;
+std::optional<Ending> collision(const FlightModel& model, const Truth& truth) {
+    const Airframe& airframe = model.airframe;
     const Vector3& p_WB_m = truth.base.p_WF_m;
-    if (p_WB_m.z() > model.scenario.simulation.start_height_m) {
+    if (p_WB_m.z() > model.simulation.start_height_m) {
         return Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
-    if (!model.scenario.wall.present ||
-        std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
-            airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
+    if (!model.has_wall || std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
+                               airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
         return std::nullopt;
     }
-    const Vector3 n_W = model.cup.wall.R_WT.col(0);
+    const Vector3 n_W = tangent_frame(model.cup.wall, p_WB_m).into_W();
     const double along_axis = n_W.dot(truth.base.q_WF * Vector3::UnitZ());
     // A disc reaches its radius times the sine of the angle between its axis and the direction.
     const double reach_m =
@@ -60,20 +46,18 @@ std::optional<Ending> collision(const SimulationModel& model, const Truth& truth
     for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
         const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * p_BR_m;
         if (before_wall_m(model.cup.wall, p_WR_m) < reach_m &&
-            within_wall(model.cup.wall, p_WR_m)) {
+            tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             return Ending{.outcome = Outcome::crashed, .reason = "a propeller hit the wall"};
         }
     }
     return std::nullopt;
 }
 
-const Surface& surface_under_cup(const SimulationModel& model, const CupState& cup) {
-    const WallSetup& wall = model.scenario.wall;
+const Surface& surface_under_cup(const FlightModel& model, const CupState& cup) {
     // The touch that is going on has been counted; a free cup looks at the spot that comes next.
     const int touch = cup.touches - (cup.status.phase == CupPhase::free ? 0 : 1);
-    return touch < static_cast<int>(wall.first_touches.size())
-               ? wall.first_touches[static_cast<std::size_t>(touch)]
-               : wall.surface;
+    const auto last = static_cast<int>(model.surfaces.size()) - 1;
+    return model.surfaces[static_cast<std::size_t>(std::min(touch, last))];
 }
 
 }  // namespace limpet

@@ -8,15 +8,15 @@
 namespace limpet {
 
 /// Whether a leg is so near the wall that the engine must look for contacts.
-[[nodiscard]] bool legs_near_wall(const SimulationModel& model, const Kinematics& base);
+[[nodiscard]] bool legs_near_wall(const FlightModel& model, const Kinematics& base);
 
 /// @return distance of the closest motor axis to the wall [m]; infinity beyond its edges
-[[nodiscard]] double closest_hub_m(const SimulationModel& model, const Kinematics& base);
+[[nodiscard]] double closest_hub_m(const FlightModel& model, const Kinematics& base);
 
 /// What ends a flight: a propeller in the wall, the vehicle on the ground.
-[[nodiscard]] std::optional<Ending> collision(const SimulationModel& model, const Truth& truth);
+[[nodiscard]] std::optional<Ending> collision(const FlightModel& model, const Truth& truth);
 
 /// The surface that the current or the next touch meets.
-[[nodiscard]] const Surface& surface_under_cup(const SimulationModel& model, const CupState& cup);
+[[nodiscard]] const Surface& surface_under_cup(const FlightModel& model, const CupState& cup);
 
 }  // namespace limpet

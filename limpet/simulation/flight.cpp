@@ -17,54 +17,55 @@ namespace limpet {
 namespace {
 
 FlightResult result_of(const Flight& flight, double wall_s) {
-    const SimulationState& state = flight.state();
-    const Scenario& scenario = flight.model().scenario;
+    const FlightState& state = flight.state();
+    const Observations& seen = flight.seen();
     FlightResult result;
-    result.scenario = scenario.name;
-    result.seed = scenario.seed;
+    result.scenario = flight.model().scenario->name;
+    result.seed = flight.model().seed;
     result.outcome = state.ending->outcome;
-    result.reason = state.ending->reason;
-    result.attempts = state.metrics.attempts;
-    result.metrics = state.metrics;
+    result.reason = state.ending->reason.view();
+    result.attempts = seen.metrics.attempts;
+    result.metrics = seen.metrics;
     result.performance = {
-        .simulated_s = seconds(state.tick), .wall_s = wall_s, .physics_steps = state.physics_steps};
-    result.state_hash = state.hash;
+        .simulated_s = seconds(state.tick), .wall_s = wall_s, .physics_steps = seen.physics_steps};
+    result.state_hash = seen.hash;
     return result;
 }
 
 }  // namespace
 
-Flight::Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run,
-               const Outside& outside)
+Flight::Flight(std::shared_ptr<const FlightModel> model, std::uint32_t run, const Outside& outside)
     : model_(std::move(model)),
       plant_(model_->plant->make()),
       state_(start(*model_, *plant_, run)),
       outside_(outside) {}
 
-Flight::Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
+Flight::Flight(std::shared_ptr<const FlightModel> model, const Snapshot& airborne,
                const Outside& outside)
     : model_(std::move(model)),
       plant_(model_->plant->make()),
       state_(airborne.state),
+      seen_(airborne.seen),
       outside_(outside) {
     plant_->restore(airborne.plant);
 }
 
 const EventList& Flight::tick() {
-    events_.count = 0;
     if (ended()) {
-        return events_;
+        report_.restart();
+        return report_.events;
     }
-    step(*model_, state_, *plant_, events_, outside_);
+    step(*model_, state_, *plant_, report_, outside_);
+    observe(seen_, *model_, state_, report_);
     report_parameters();
     if (outside_.autopilot != nullptr && outside_.autopilot->failure()) {
         // In the air it falls; on the wall the cup still holds it.
         stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
              *outside_.autopilot->failure());
-    } else if (seconds(state_.tick) >= model_->scenario.simulation.time_limit_s) {
+    } else if (seconds(state_.tick) >= model_->simulation.time_limit_s) {
         stop(Outcome::timed_out, "the scenario's time is over");
     }
-    return events_;
+    return report_.events;
 }
 
 void Flight::stop(Outcome outcome, std::string_view reason) {
@@ -87,17 +88,17 @@ void Flight::set_autopilot(const AutopilotParameters& parameters) {
             parameters_set_.push_back({row.name, row.get(parameters)});
         }
     }
-    auto own = std::make_shared<SimulationModel>(*model_);
+    auto own = std::make_shared<FlightModel>(*model_);
     own->autopilot.parameters = parameters;
-    own->scenario.autopilot = parameters;
     model_ = std::move(own);
 }
 
 void Flight::report_parameters() {
+    EventList& events = report_.events;
     std::size_t reported = 0;
-    while (reported < parameters_set_.size() && events_.count < events_.events.size()) {
-        events_.add(make_event(seconds(state_.tick), "autopilot", EventName::parameter_set, {},
-                               {parameters_set_[reported++]}));
+    while (reported < parameters_set_.size() && events.count < events.events.size()) {
+        events.add(make_event(seconds(state_.tick), "autopilot", EventName::parameter_set, {},
+                              {parameters_set_[reported++]}));
     }
     parameters_set_.erase(parameters_set_.begin(),
                           parameters_set_.begin() + static_cast<std::ptrdiff_t>(reported));
@@ -105,12 +106,12 @@ void Flight::report_parameters() {
 
 void Flight::restore(const Snapshot& snapshot) {
     state_ = snapshot.state;
+    seen_ = snapshot.seen;
     plant_->restore(snapshot.plant);
 }
 
-FlightResult fly(std::shared_ptr<const SimulationModel> model,
-                 const std::filesystem::path& recording, const FlightWatch& watch,
-                 std::uint32_t run, const FlightConduct& conduct) {
+FlightResult fly(std::shared_ptr<const FlightModel> model, const std::filesystem::path& recording,
+                 const FlightWatch& watch, std::uint32_t run, const FlightConduct& conduct) {
     const ExternalAutopilot* autopilot = conduct.outside.autopilot;
     Flight flight = autopilot == nullptr ? Flight(model, run, conduct.outside)
                                          : Flight(model,

@@ -10,6 +10,8 @@
 
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/snapshot.hpp"
+#include "limpet/simulation/tick_report.hpp"
 
 namespace limpet {
 
@@ -17,17 +19,17 @@ namespace limpet {
 class Flight {
 public:
     /// @param outside  stations that are not ours, but no autopilot
-    explicit Flight(std::shared_ptr<const SimulationModel> model, std::uint32_t run = 0,
+    explicit Flight(std::shared_ptr<const FlightModel> model, std::uint32_t run = 0,
                     const Outside& outside = {});
     /// The same from another start: that to which an autopilot behind a wire has brought the
     /// vehicle (bring_up.hpp).
-    Flight(std::shared_ptr<const SimulationModel> model, const Snapshot& airborne,
+    Flight(std::shared_ptr<const FlightModel> model, const Snapshot& airborne,
            const Outside& outside);
 
     /// One base tick. Does nothing once the flight has ended.
     /// @return what happened in it, valid until the next tick
     const EventList& tick();
-    /// Ends it from outside, with a reason (a literal). Nothing when it has ended already.
+    /// Ends it from outside, with a reason. Nothing when it has ended already.
     void stop(Outcome outcome, std::string_view reason);
     /// From the next tick on the built-in autopilot flies with these; the model becomes a copy of
     /// this flight's own. Each one that changes is an event of the next ticks, so that the
@@ -36,21 +38,25 @@ public:
     void set_autopilot(const AutopilotParameters& parameters);
     [[nodiscard]] bool ended() const { return state_.ending.has_value(); }
 
-    [[nodiscard]] const SimulationModel& model() const { return *model_; }
-    [[nodiscard]] const SimulationState& state() const { return state_; }
+    [[nodiscard]] const FlightModel& model() const { return *model_; }
+    [[nodiscard]] const FlightState& state() const { return state_; }
     [[nodiscard]] const Plant& plant() const { return *plant_; }
+    [[nodiscard]] const Observations& seen() const { return seen_; }
 
     /// The whole run as it is now; a flight on the same model goes on from it bit-exactly.
-    [[nodiscard]] Snapshot save() const { return {.state = state_, .plant = plant_->save()}; }
+    [[nodiscard]] Snapshot save() const {
+        return {.state = state_, .plant = plant_->save(), .seen = seen_};
+    }
     void restore(const Snapshot& snapshot);
 
 private:
     void report_parameters();
 
-    std::shared_ptr<const SimulationModel> model_;
+    std::shared_ptr<const FlightModel> model_;
     std::unique_ptr<Plant> plant_;
-    SimulationState state_;
-    EventList events_;
+    FlightState state_;
+    TickReport report_;
+    Observations seen_;
     std::vector<EventValue> parameters_set_;  ///< not reported yet
     Outside outside_;
 };
@@ -102,7 +108,7 @@ struct FlightResult {
 /// @param recording  file to write; empty: none
 /// @throws InputError when the recording cannot be written, or the autopilot does not bring the
 ///         vehicle to its start
-[[nodiscard]] FlightResult fly(std::shared_ptr<const SimulationModel> model,
+[[nodiscard]] FlightResult fly(std::shared_ptr<const FlightModel> model,
                                const std::filesystem::path& recording = {},
                                const FlightWatch& watch = {}, std::uint32_t run = 0,
                                const FlightConduct& conduct = {});

@@ -4,12 +4,13 @@
 #include <fmt/core.h>
 
 #include "limpet/core/version.hpp"
+#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
 
-RecordingInfo describe(const SimulationModel& model) {
-    const Scenario& scenario = model.scenario;
+RecordingInfo describe(const FlightModel& model) {
+    const Scenario& scenario = *model.scenario;
     RecordingInfo info;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
@@ -21,8 +22,16 @@ RecordingInfo describe(const SimulationModel& model) {
     }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
-    info.attachments.push_back(
-        {.name = "model.xml", .media_type = "application/xml", .text = model.mjcf});
+    for_each_type(Sensors{}, [&](auto type) {
+        using Sensor = typename decltype(type)::type;
+        if constexpr (!kIsRead<Sensor>) {
+            info.columns.push_back(
+                {.topic = Sensor::kTopic, .type = Sensor::kMessage, .columns = Sensor::kColumns});
+        }
+    });
+    info.attachments.push_back({.name = "model.xml",
+                                .media_type = "application/xml",
+                                .text = write_mjcf(scenario.airframe, scene_of(scenario))});
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;
@@ -30,15 +39,22 @@ RecordingInfo describe(const SimulationModel& model) {
 
 }  // namespace
 
-FlightLog::FlightLog(const std::filesystem::path& path, const SimulationModel& model)
+FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model)
     : recorder_(path, describe(model)) {}
 
-void FlightLog::tick(const SimulationModel& model, const SimulationState& state,
-                     const EventList& events) {
+void FlightLog::tick(const FlightModel& model, const FlightState& state, const EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
     recorder_.new_readings(state.sensors.readings, last_);
+    std::size_t channel = 0;
+    for_each_type(Sensors{}, [&](auto type) {
+        using Sensor = typename decltype(type)::type;
+        if constexpr (!kIsRead<Sensor>) {
+            const auto& heard = state.sensors.template units<Sensor>()[0].heard;
+            recorder_.columns(channel++, heard, Sensor::numbers(heard.value));
+        }
+    });
     if (due(state.tick, model.record_rate_Hz)) {
         const double time_s = seconds(state.tick);
         recorder_.truth(state.truth);

@@ -13,10 +13,10 @@ namespace limpet {
 class FlightLog {
 public:
     /// @throws InputError when the file cannot be written
-    FlightLog(const std::filesystem::path& path, const SimulationModel& model);
+    FlightLog(const std::filesystem::path& path, const FlightModel& model);
 
     /// After every tick, with its events.
-    void tick(const SimulationModel& model, const SimulationState& state, const EventList& events);
+    void tick(const FlightModel& model, const FlightState& state, const EventList& events);
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:

@@ -7,12 +7,6 @@
 #include <span>
 #include <string_view>
 
-#include "limpet/core/signals/event.hpp"
-#include "limpet/core/signals/truth.hpp"
-#include "limpet/guidance/perching.hpp"
-#include "limpet/suction/force_law.hpp"
-#include "limpet/vehicle/battery.hpp"
-
 namespace limpet {
 
 /// Parts of the manoeuvre in which the cup bears load.
@@ -62,14 +56,17 @@ struct Metrics {
     double energy_perched_Wh = 0.0;
     std::array<CupLoads, kLoadPhases.size()> loads{};
 
-    // bookkeeping
-    double touch_s = kNone;
-    double pump_off_s = kNone;
-    bool awaits_touch = false;
-    double waiting_pitch_min_deg = kNone;
-    double waiting_pitch_max_deg = kNone;
-    double rest_pitch_min_deg = kNone;
-    double rest_pitch_max_deg = kNone;
+    /// Bookkeeping.
+    struct Memory {
+        double touch_s = kNone;
+        double pump_off_s = kNone;
+        bool awaits_touch = false;
+        double waiting_pitch_min_deg = kNone;
+        double waiting_pitch_max_deg = kNone;
+        double rest_pitch_min_deg = kNone;
+        double rest_pitch_max_deg = kNone;
+    };
+    Memory memory;
 };
 
 /// A figure under the name by which results and columns call it; the unit is in the name.
@@ -78,16 +75,5 @@ struct MetricInfo {
     double Metrics::*field;
 };
 [[nodiscard]] std::span<const MetricInfo> metric_table();
-
-/// Once a plant step, sub-steps included: the peaks.
-void observe_contact(Metrics& metrics, PerchingState state, const SliderStatus& slider,
-                     const CupStatus& cup);
-/// At the moment the lip meets the wall.
-void observe_touch(Metrics& metrics, double time_s, double speed_m_s);
-/// Once a base tick: pressures, pitch, energy.
-void observe_tick(Metrics& metrics, PerchingState state, double state_age_s, double rest_s,
-                  double land_pressure_Pa, const Truth& truth, const BatteryState& battery);
-/// @param wall  for the true alignment
-void observe_event(Metrics& metrics, const Event& event, const Truth& truth, const WallPlane& wall);
 
 }  // namespace limpet

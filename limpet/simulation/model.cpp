@@ -2,9 +2,9 @@
 #include "limpet/simulation/model.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "limpet/simulation/advance.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
 namespace limpet {
 namespace {
@@ -14,8 +14,8 @@ SensorsModel sensors_of(const Scenario& scenario) {
     const double half_m = 0.5 * airframe.lidar_separation_m;
     return {.parameters = scenario.sensors,
             .has_cup = airframe.has_cup,
-            .lidar_left_p_B_m = {airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
-            .lidar_right_p_B_m = {airframe.lidar_x_m, half_m, airframe.lidar_z_m}};
+            .mounts = {.lidar_p_B_m = {Vector3{airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
+                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}}};
 }
 
 int whole(double value) {
@@ -34,25 +34,38 @@ AutopilotModel autopilot_model(const Scenario& scenario) {
     return make_autopilot(scenario.autopilot, rotors);
 }
 
-std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
-                                                   const CompilePlant& compile) {
-    auto model = std::make_shared<SimulationModel>();
-    model->scenario = scenario;
-    Scene scene = scene_of(scenario);
-    model->mjcf = write_mjcf(scenario.airframe, scene);
-    scene.visuals = false;
-    model->plant = compile(write_mjcf(scenario.airframe, scene));
+std::shared_ptr<const FlightModel> build_model(const Scenario& scenario) {
+    return build_model(scenario, scenario.engine->make(scenario.airframe, scene_of(scenario)));
+}
+
+std::shared_ptr<const FlightModel> build_model(const Scenario& scenario,
+                                                   std::shared_ptr<const PlantModel> plant) {
+    auto model = std::make_shared<FlightModel>();
+    model->scenario = std::make_shared<const Scenario>(scenario);
+    model->plant = std::move(plant);
+    model->airframe = scenario.airframe;
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_model(scenario);
     model->task = {.perch = scenario.mission != Mission::hover,
                    .take_off = scenario.mission == Mission::perch_and_take_off,
                    .hover_s = scenario.simulation.hover_s};
-    model->cup = {.parameters = scenario.cup, .wall = scenario.wall.plane};
+    model->guidance = scenario.guidance;
+    model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
+    model->has_wall = scenario.wall.present;
+    model->surfaces = scenario.wall.first_touches;
+    model->surfaces.push_back(scenario.wall.surface);
+    model->ahead_W = heading_W(scenario.wall);
+    model->start = scenario.start;
+    model->seed = scenario.seed;
+    model->mount = scenario.mount;
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
                            attitude(scenario.start));
+    model->pendulum_hold_s = scenario.pendulum.hold_s;
+    model->press_rig = scenario.press_rig;
     model->clamp = clamp(scenario.press_rig, scenario.airframe);
+    model->simulation = scenario.simulation;
     model->control_rate_Hz = scenario.sensors.imu_rate_Hz;
     model->guidance_rate_Hz = scenario.simulation.guidance_rate_Hz;
     model->record_rate_Hz = scenario.simulation.record_rate_Hz;
@@ -61,21 +74,20 @@ std::shared_ptr<const SimulationModel> build_model(const Scenario& scenario,
     return model;
 }
 
-SimulationState start(const SimulationModel& model, Plant& plant, std::uint32_t run) {
-    plant.set_pose(model.scenario.start.p_WB_m, attitude(model.scenario.start));
+FlightState start(const FlightModel& model, Plant& plant, std::uint32_t run) {
+    plant.set_pose(model.start.p_WB_m, attitude(model.start));
     Truth truth;
     see_motion(model, truth, plant);
     return start(model, truth.base, truth.cup, run);
 }
 
-SimulationState start(const SimulationModel& model, const Kinematics& base, const Kinematics& cup,
-                      std::uint32_t run) {
-    const Scenario& scenario = model.scenario;
-    const Airframe& airframe = scenario.airframe;
-    SimulationState state;
+FlightState start(const FlightModel& model, const Kinematics& base, const Kinematics& cup,
+                  std::uint32_t run) {
+    const Airframe& airframe = model.airframe;
+    FlightState state;
     state.truth.base = base;
     state.truth.cup = cup;
-    if (scenario.mount == Mount::free) {
+    if (model.mount == Mount::free) {
         const double hover = hover_command(airframe);
         state.rotors = spinning(airframe.rotor, hover);
         state.command = {.command = {hover, hover, hover, hover}, .armed = true};
@@ -85,19 +97,19 @@ SimulationState start(const SimulationModel& model, const Kinematics& base, cons
     state.truth.battery = status(airframe.battery, state.battery);
 
     Estimate estimate;
-    estimate.p_WB_m = scenario.start.p_WB_m;
-    estimate.q_WB = attitude(scenario.start);
+    estimate.p_WB_m = model.start.p_WB_m;
+    estimate.q_WB = attitude(model.start);
     estimate.valid = true;
     state.autopilot = start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);
-    if (scenario.mount != Mount::free) {
+    if (model.mount != Mount::free) {
         state.guidance.state = PerchingState::approaching;
-        state.guidance.setpoint = {.pump_on = scenario.mount == Mount::pendulum};
+        state.guidance.setpoint = {.pump_on = model.mount == Mount::pendulum};
     }
-    state.sensors = start(model.sensors, state.truth, scenario.seed, run);
-    state.wind = start(model.wind, RandomStream(scenario.seed, run, Stream::wind));
-    state.wall_air = start(model.wall_air, RandomStream(scenario.seed, run, Stream::wall_air));
-    state.cup.random = RandomStream(scenario.seed, run, Stream::seal);
+    state.sensors = start(model.sensors, state.truth, model.seed, run);
+    state.wind = start(model.wind, RandomStream(model.seed, run, Stream::wind));
+    state.wall_air = start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
+    state.cup.random = RandomStream(model.seed, run, Stream::seal);
     return state;
 }
 

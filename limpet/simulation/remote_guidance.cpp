@@ -7,7 +7,6 @@
 #include <span>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/signals/new_sample.hpp"
 #include "limpet/devices/tfmini.hpp"
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
@@ -81,7 +80,7 @@ void RemoteGuidance::send_loads(const Readings& readings) {
         message.value = static_cast<float>(value);
         (void)wires_.sensors->send(message, kNoWait);
     };
-    const bool pressure = is_new(readings.cup_pressure, last_.cup_pressure);
+    const bool pressure = readings.cup_pressure.newer_than(last_.cup_pressure);
     if (wires_.mechanism != nullptr && pressure) {
         devices::MechanismBuffer buffer;  // a line carries both: at the slower one's rate
         const std::string_view line =
@@ -92,7 +91,7 @@ void RemoteGuidance::send_loads(const Readings& readings) {
                             buffer);
         send_bytes(*wires_.mechanism, std::as_bytes(std::span(line)));
     }
-    if (is_new(readings.force, last_.force)) {
+    if (readings.force.newer_than(last_.force)) {
         send_value(mavlink::kForceName, readings.force.value.axial_N);
     }
     if (pressure) {
@@ -116,13 +115,16 @@ void RemoteGuidance::send_heartbeat() {
 
 void RemoteGuidance::send(const Readings& readings, double time_s) {
     send_heartbeat();
-    if (is_new(readings.motion_capture, last_.motion_capture)) {
+    if (began_anew(readings, last_)) {
+        last_ = {};
+    }
+    if (readings.motion_capture.newer_than(last_.motion_capture)) {
         send_pose(readings.motion_capture, time_s - readings.motion_capture.time_s);
     }
-    if (is_new(readings.lidar_left, last_.lidar_left)) {
+    if (readings.lidar_left.newer_than(last_.lidar_left)) {
         send_range(readings.lidar_left, 0, wires_.lidar_left.get());
     }
-    if (is_new(readings.lidar_right, last_.lidar_right)) {
+    if (readings.lidar_right.newer_than(last_.lidar_right)) {
         send_range(readings.lidar_right, 1, wires_.lidar_right.get());
     }
     send_loads(readings);
@@ -135,7 +137,7 @@ std::string_view RemoteGuidance::keep(std::string_view text) {
 
 void RemoteGuidance::end(Outcome outcome, std::string_view reason) {
     if (!ending_) {
-        ending_ = Ending{.outcome = outcome, .reason = keep(reason)};
+        ending_ = Ending{.outcome = outcome, .reason = reason};
     }
 }
 

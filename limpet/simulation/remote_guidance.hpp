@@ -12,7 +12,7 @@
 #include "limpet/devices/natnet_source.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/mechanism.hpp"
-#include "limpet/sensors/parameters.hpp"
+#include "limpet/sensors/registry.hpp"
 #include "limpet/simulation/outside.hpp"
 
 namespace limpet {

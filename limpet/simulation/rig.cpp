@@ -12,12 +12,12 @@ double pitch_deg(const Truth& truth) {
     return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
 }
 
-void enter(SimulationState& state, PerchingState next, double time_s) {
+void enter(FlightState& state, PerchingState next, double time_s) {
     state.guidance.state = next;
     state.guidance.since_s = time_s;
 }
 
-void report(const SimulationState& state, EventName name, std::string_view reason, double time_s,
+void report(const FlightState& state, EventName name, std::string_view reason, double time_s,
             EventList& events) {
     events.add(make_event(time_s, "rig", name, reason,
                           {{"pitch_deg", pitch_deg(state.truth)},
@@ -25,13 +25,13 @@ void report(const SimulationState& state, EventName name, std::string_view reaso
                            {"pressure_Pa", state.cup.status.pressure_Pa}}));
 }
 
-void end(SimulationState& state, Outcome outcome, std::string_view reason, double time_s) {
+void end(FlightState& state, Outcome outcome, std::string_view reason, double time_s) {
     enter(state, PerchingState::finished, time_s);
     state.guidance.ending = Ending{.outcome = outcome, .reason = reason};
 }
 
 /// What a failed seal failed at, asked once the press has come and gone.
-void watch_touch(const SimulationModel& model, SimulationState& state) {
+void watch_touch(const FlightModel& model, FlightState& state) {
     RigState& rig = state.rig;
     const CupPhase phase = state.cup.status.phase;
     if (phase != CupPhase::attached) {
@@ -65,16 +65,15 @@ std::string_view why_not(const RigState& rig) {
                         : "tilted too far while it was pressed";
 }
 
-void report_first_touch(SimulationState& state, double time_s, EventList& events) {
+void report_first_touch(FlightState& state, double time_s, EventList& events) {
     if (!state.rig.touched && state.cup.status.phase != CupPhase::free) {
         state.rig.touched = true;
         report(state, EventName::impact, "the lip meets the wall", time_s, events);
     }
 }
 
-void operate_pendulum(const SimulationModel& model, SimulationState& state, double time_s,
+void operate_pendulum(const FlightModel& model, FlightState& state, double time_s,
                       EventList& events) {
-    const PendulumParameters& pendulum = model.scenario.pendulum;
     RigState& rig = state.rig;
     const CupPhase phase = state.cup.status.phase;
     if (state.guidance.state == PerchingState::approaching && rig.touched) {
@@ -85,18 +84,18 @@ void operate_pendulum(const SimulationModel& model, SimulationState& state, doub
     } else if (rig.touched && rig.off_since_s < 0.0) {
         rig.off_since_s = time_s;
     }
-    if (rig.attached_since_s >= 0.0 && time_s - rig.attached_since_s >= pendulum.hold_s) {
+    if (rig.attached_since_s >= 0.0 && time_s - rig.attached_since_s >= model.pendulum_hold_s) {
         report(state, EventName::hold_over, "held", time_s, events);
         end(state, Outcome::perched, "the cup attached and held", time_s);
-    } else if (rig.off_since_s >= 0.0 && time_s - rig.off_since_s >= pendulum.hold_s) {
+    } else if (rig.off_since_s >= 0.0 && time_s - rig.off_since_s >= model.pendulum_hold_s) {
         report(state, EventName::hold_over, "off the wall", time_s, events);
         end(state, Outcome::failed_to_seal, why_not(rig), time_s);
     }
 }
 
-void operate_press_rig(const SimulationModel& model, SimulationState& state, double time_s,
+void operate_press_rig(const FlightModel& model, FlightState& state, double time_s,
                        EventList& events) {
-    const PressRigParameters& press = model.scenario.press_rig;
+    const PressRigParameters& press = model.press_rig;
     const CupStatus& cup = state.cup.status;
     const double age_s = time_s - state.guidance.since_s;
     if (state.guidance.state == PerchingState::approaching) {
@@ -117,7 +116,7 @@ void operate_press_rig(const SimulationModel& model, SimulationState& state, dou
             state.guidance.setpoint.pump_on = false;
         }
     } else if (state.guidance.state == PerchingState::releasing) {
-        if (!state.rig.released && cup.pressure_Pa > model.scenario.guidance.detach_pressure_Pa) {
+        if (!state.rig.released && cup.pressure_Pa > model.guidance.detach_pressure_Pa) {
             state.rig.released = true;
             report(state, EventName::pressure_released, "pressure above detachment", time_s,
                    events);
@@ -133,18 +132,17 @@ void operate_press_rig(const SimulationModel& model, SimulationState& state, dou
 
 }  // namespace
 
-Wrench mount_wrench_W(const SimulationModel& model, const SimulationState& state) {
-    switch (model.scenario.mount) {
+Wrench mount_wrench_W(const FlightModel& model, const FlightState& state) {
+    switch (model.mount) {
         case Mount::free: return {};
         case Mount::pendulum: return rope_wrench_W(model.pendulum, state.truth.base);
         case Mount::press_rig: {
-            const Vector3 ahead_W = heading_W(model.scenario.wall);
             const bool moves = state.guidance.state == PerchingState::approaching;
             Kinematics held;
-            held.p_WF_m = model.scenario.start.p_WB_m + state.rig.advance_m * ahead_W;
-            held.q_WF = attitude(model.scenario.start);
+            held.p_WF_m = model.start.p_WB_m + state.rig.advance_m * model.ahead_W;
+            held.q_WF = attitude(model.start);
             if (moves) {
-                held.v_WF_W_m_s = model.scenario.press_rig.approach_speed_m_s * ahead_W;
+                held.v_WF_W_m_s = model.press_rig.approach_speed_m_s * model.ahead_W;
             }
             return clamp_wrench_W(model.clamp, held, state.truth.base);
         }
@@ -152,16 +150,15 @@ Wrench mount_wrench_W(const SimulationModel& model, const SimulationState& state
     throw InternalError("mount out of range");
 }
 
-void operate(const SimulationModel& model, SimulationState& state, EventList& events) {
+void operate(const FlightModel& model, FlightState& state, EventList& events) {
     const double time_s = seconds(state.tick);
     if (state.tick == 0) {
         report(state, EventName::approach_started,
-               model.scenario.mount == Mount::pendulum ? "let go" : "the clamp moves", time_s,
-               events);
+               model.mount == Mount::pendulum ? "let go" : "the clamp moves", time_s, events);
     }
     report_first_touch(state, time_s, events);
     watch_touch(model, state);
-    if (model.scenario.mount == Mount::pendulum) {
+    if (model.mount == Mount::pendulum) {
         operate_pendulum(model, state, time_s, events);
     } else {
         operate_press_rig(model, state, time_s, events);

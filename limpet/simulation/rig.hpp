@@ -18,9 +18,9 @@ namespace limpet {
 
 /// Force and moment of the mount on the base about its origin, in W.
 /// Only on a mount; a free vehicle has none.
-[[nodiscard]] Wrench mount_wrench_W(const SimulationModel& model, const SimulationState& state);
+[[nodiscard]] Wrench mount_wrench_W(const FlightModel& model, const FlightState& state);
 
 /// Once a tick, in guidance's place.
-void operate(const SimulationModel& model, SimulationState& state, EventList& events);
+void operate(const FlightModel& model, FlightState& state, EventList& events);
 
 }  // namespace limpet

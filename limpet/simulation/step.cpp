@@ -3,7 +3,6 @@
 
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/collision.hpp"
-#include "limpet/simulation/digest.hpp"
 #include "limpet/simulation/rig.hpp"
 
 // The loop, drawn in docs/design.md: a line a station, in the order in which data flows.
@@ -14,18 +13,18 @@
 namespace limpet {
 namespace {
 
-void see_truth(const SimulationModel& model, SimulationState& state, const Plant& plant) {
+void see_truth(const FlightModel& model, FlightState& state, const Plant& plant) {
     Truth& truth = state.truth;
     truth.time_s = seconds(state.tick);
     see_motion(model, truth, plant);
     truth.cup_status = state.cup.status;
     truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
-    truth.battery = status(model.scenario.airframe.battery, state.battery);
+    truth.battery = status(model.airframe.battery, state.battery);
     truth.legs_force_W_N = plant.contact_force_W();
 }
 
 /// The built-in autopilot lives in the state; one behind a wire only leaves its estimate there.
-void estimate(const SimulationModel& model, SimulationState& state, ExternalAutopilot* external) {
+void estimate(const FlightModel& model, FlightState& state, ExternalAutopilot* external) {
     if (external != nullptr) {
         state.autopilot.estimate = external->estimate(seconds(state.tick));
     } else {
@@ -33,8 +32,7 @@ void estimate(const SimulationModel& model, SimulationState& state, ExternalAuto
     }
 }
 
-RotorCommand control(const SimulationModel& model, SimulationState& state,
-                     ExternalAutopilot* external) {
+RotorCommand control(const FlightModel& model, FlightState& state, ExternalAutopilot* external) {
     const double time_s = seconds(state.tick);
     return external != nullptr
                ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
@@ -43,19 +41,20 @@ RotorCommand control(const SimulationModel& model, SimulationState& state,
 
 }  // namespace
 
-void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+void step(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
           const Outside& outside) {
-    const Airframe& airframe = model.scenario.airframe;
+    const Airframe& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
-    events.count = 0;
+    report.restart();
+    EventList& events = report.events;
 
     sense(model.sensors, state.sensors, state.truth, plant, state.tick);
     const Readings& readings = state.sensors.readings;
     if (controls) {
         estimate(model, state, outside.autopilot);
     }
-    if (model.scenario.mount != Mount::free) {
+    if (model.mount != Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
     } else if (outside.guidance != nullptr) {
         outside.guidance->exchange(readings, state.autopilot.estimate, time_s, state.guidance,
@@ -64,8 +63,8 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
             state.guidance.setpoint.armed = state.command.armed;
         }
     } else if (due(state.tick, model.guidance_rate_Hz)) {
-        update(model.scenario.guidance, model.task, state.guidance, readings,
-               state.autopilot.estimate, time_s, events);
+        update(model.guidance, model.task, state.guidance, readings, state.autopilot.estimate,
+               time_s, events);
     }
     if (controls) {
         state.command = control(model, state, outside.autopilot);
@@ -76,19 +75,10 @@ void step(const SimulationModel& model, SimulationState& state, Plant& plant, Ev
          state.cup.status.pump_running, state.command.armed, kTick_s);
     step(model.wind, state.wind);
     step(model.wall_air, state.wall_air);
-    advance(model, state, plant, events, outside.cup);
+    advance(model, state, plant, report, outside.cup);
 
     ++state.tick;
     see_truth(model, state, plant);
-    observe_tick(state.metrics, state.guidance.state, seconds(state.tick) - state.guidance.since_s,
-                 model.scenario.guidance.rest_s, model.scenario.guidance.land_pressure_Pa,
-                 state.truth, state.battery);
-    for (std::size_t k = 0; k < events.count; ++k) {
-        observe_event(state.metrics, events.events[k], state.truth, model.cup.wall);
-    }
-    if (due(state.tick, kDigestRate_Hz)) {
-        digest(state.hash, state.truth, state.autopilot.estimate);
-    }
     if (!state.ending) {
         state.ending =
             state.guidance.ending ? state.guidance.ending : collision(model, state.truth);

@@ -3,13 +3,14 @@
 
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/tick_report.hpp"
 
 namespace limpet {
 
 /// One base tick of the loop, from the truth at this tick to the truth at the next.
-/// @param events   what happened in it; cleared first
+/// @param report   what happened in it, for observe() and others; made anew
 /// @param outside  stations that are not ours
-void step(const SimulationModel& model, SimulationState& state, Plant& plant, EventList& events,
+void step(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
           const Outside& outside = {});
 
 }  // namespace limpet

@@ -7,8 +7,7 @@
 #include "limpet/core/signals/cup_status.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/suction/force_law.hpp"
-#include "limpet/suction/pneumatics.hpp"
-#include "limpet/suction/pressure.hpp"
+#include "limpet/suction/pressure_model.hpp"
 #include "limpet/suction/seal.hpp"
 
 namespace limpet {
@@ -35,22 +34,19 @@ namespace limpet {
 
 struct CupParameters {
     LipParameters lip;
-    VentParameters vent;
+    PressureParameters pressure;
     double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
-    double pump_stop_band_Pa = 100.0;         ///< above P_vac: a cycling pump stops below it
-    double pump_restart_band_Pa = 2000.0;     ///< above P_vac: and starts again above it
     bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
-    bool pneumatic = false;                   ///< pneumatics.hpp instead of pressure.hpp
-    PneumaticParameters pneumatics;
+    int pressure_model = 0;                   ///< place in pressure_models()
 };
 
-/// Rows of `suction:` other than the lip's and the pneumatic model's.
+/// Rows of `suction:` other than the lip's and the pressure models'.
 [[nodiscard]] const ParameterTable<CupParameters>& cup_table();
 
 /// Immutable during a flight.
 struct CupModel {
     CupParameters parameters;
-    WallPlane wall;
+    WallGeometry wall;
 };
 
 struct CupState {
@@ -86,8 +82,8 @@ struct CupOutput {
 [[nodiscard]] CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
                              const Kinematics& cup, const CupInput& input, double dt_s);
 
-// The two halves of step(), for a cup whose lip is felt in one place and whose seal and pressure
-// are kept in another (the paper's Figs. 5 and 6: plugin and node).
+// What step() is made of, for a cup whose lip is felt in one place and whose seal and pressure are
+// kept in another (the paper's Figs. 5 and 6: plugin and node).
 
 /// What seal and pressure go by, of the lip's motion and load.
 struct LipContact {
@@ -101,13 +97,30 @@ struct LipContact {
     double shear_margin_N = 0.0;
     double peel_margin_N = 0.0;
 };
-[[nodiscard]] LipContact contact_of(const LipMotion& motion, const LipLoad& load);
+
+/// The lip at one instant.
+struct LipNow {
+    LipMotion motion;
+    LipLoad load;
+    LipContact contact;  ///< the same in a few words
+};
+
+/// The first half at the wall: motion and load in the phase that the cup is in. A free lip that
+/// meets the wall is loaded as one that touches; its springs begin here.
+[[nodiscard]] LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
+                              const Kinematics& cup, const CupInput& input);
+
+/// The second half at the wall, once the contact has changed the phase: what the status says of the
+/// load; a lip that has let go is loaded anew.
+/// @return on the cup about the lip's centre, in W
+[[nodiscard]] Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
+                              const Kinematics& cup, const CupInput& input, LipNow lip);
 
 /// Whether the vacuum acts between lip and wall.
 [[nodiscard]] bool is_sealed(CupPhase phase);
 
-/// The springs of a lip that has just touched.
-[[nodiscard]] Anchor anchor_at(const LipMotion& motion);
+/// From free to touching; what the seal asks for is not drawn.
+void begin_touch(CupState& state);
 
 /// The rows of the table that open the seal or end the contact.
 /// @param contact  why, in let_go
@@ -115,7 +128,7 @@ struct LipContact {
 [[nodiscard]] std::optional<Event> let_go(CupState& state, const LipContact& contact,
                                           double time_s);
 
-/// The half without forces: phase by the contact, then pressure over `dt_s`.
+/// Seal and pressure: phase by the contact, then pressure over `dt_s`.
 [[nodiscard]] std::optional<Event> step(const CupParameters& parameters, CupState& state,
                                         const Surface& surface, const LipContact& contact,
                                         const CupInput& input, double dt_s);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -154,9 +155,9 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
     }
     const MatrixXd scaled =
         scale.cwiseInverse().asDiagonal() * matrix * scale.cwiseInverse().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-    if (eigen.eigenvalues().minCoeff() < 1e-10) {
-        return;
+    const Eigen::LDLT<MatrixXd> decomposed(scaled);
+    if (decomposed.vectorD().minCoeff() < 1e-10) {
+        return;  // parameters that move the same
     }
     std::vector<double> residuals_Pa(n);
     MatrixXd gradients(size, static_cast<Eigen::Index>(n));
@@ -170,7 +171,7 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
     }
     fit.residual_Pa = std::sqrt(squares / static_cast<double>(n - fit.free.size()));
     fit.memory_s = memory_of(trace, residuals_Pa);
-    const MatrixXd inverse = scaled.inverse();
+    const MatrixXd inverse = decomposed.solve(MatrixXd::Identity(size, size));
     // Samples that pull the curve towards themselves leave less than their noise (HC3).
     std::vector<double> freed_Pa(n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -81,26 +81,26 @@ std::string_view to_string(LetGo reason) {
     throw InternalError("reason of letting go out of range");
 }
 
-LipMotion lip_motion(const WallPlane& wall, const Kinematics& cup) {
-    LipMotion motion;
-    const Vector3 p_TC = wall.R_WT.transpose() * (cup.p_WF_m - wall.p_WT_m);
-    motion.gap_m = -p_TC.x();
-    motion.y_m = p_TC.y();
-    motion.z_m = p_TC.z();
+LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
+    const TangentFrame spot = tangent_frame(wall, cup.p_WF_m);
+    LipMotion motion{.R_WT = spot.R_WT, .gap_m = spot.gap_m, .y_m = spot.y_m, .z_m = spot.z_m};
     // Everything below is about 100 times costlier and only matters next to the wall.
     constexpr double kNear_m = 0.25;
     if (motion.gap_m > kNear_m) {
         return motion;
     }
-    const Vector3 v_TC = wall.R_WT.transpose() * cup.v_WF_W_m_s;
+    const Vector3 v_TC = spot.R_WT.transpose() * cup.v_WF_W_m_s;
     motion.gap_rate_m_s = -v_TC.x();
-    motion.y_rate_m_s = v_TC.y();
-    motion.z_rate_m_s = v_TC.z();
-    const Matrix3 R_TC = wall.R_WT.transpose() * cup.q_WF.toRotationMatrix();
+    // Before a wall that bulges, the spot goes a shorter way than the lip.
+    motion.y_rate_m_s = v_TC.y() / (1.0 + spot.curvature_y_1_m * spot.gap_m);
+    motion.z_rate_m_s = v_TC.z() / (1.0 + spot.curvature_z_1_m * spot.gap_m);
+    const Matrix3 R_TC = spot.R_WT.transpose() * cup.q_WF.toRotationMatrix();
     motion.rotation_rad = rotation_vector_from_quaternion(Quaternion(R_TC));
     motion.rate_rad_s = R_TC * cup.w_WF_F_rad_s;
-    motion.faces_wall = R_TC(0, 0) > 0.5 && std::abs(motion.y_m) <= wall.half_width_m &&
-                        std::abs(motion.z_m) <= wall.half_height_m;
+    // T itself turns as its spot wanders over the bulge.
+    motion.rate_rad_s.y() -= spot.curvature_z_1_m * motion.z_rate_m_s;
+    motion.rate_rad_s.z() += spot.curvature_y_1_m * motion.y_rate_m_s;
+    motion.faces_wall = R_TC(0, 0) > 0.5 && spot.on_wall;
     return motion;
 }
 

@@ -8,6 +8,7 @@
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
+#include "limpet/core/wall.hpp"
 
 namespace limpet {
 
@@ -39,16 +40,11 @@ struct LipParameters {
 
 [[nodiscard]] const ParameterTable<LipParameters>& lip_table();
 
-/// A flat rigid wall: frame T, x into it.
-struct WallPlane {
-    Vector3 p_WT_m = Vector3::Zero();
-    Matrix3 R_WT = Matrix3::Identity();
-    double half_width_m = 2.0;   ///< along y_T
-    double half_height_m = 2.0;  ///< along z_T
-};
-
-/// Where the lip is relative to the wall, in T.
+/// Where the lip is relative to the wall, in the tangent frame T of the spot under its centre.
+/// The lip takes the wall for flat: over its width a wall of curvature k leaves the tangent plane
+/// by k R^2 / 2 (0.2 mm for 40 mm on a radius of 5 m), which the rubber is taken to follow.
 struct LipMotion {
+    Matrix3 R_WT = Matrix3::Identity();
     double gap_m = 0.0;  ///< lip's centre to the wall, < 0 compressed
     double gap_rate_m_s = 0.0;
     double y_m = 0.0, z_m = 0.0;  ///< lip's centre along the wall
@@ -58,7 +54,7 @@ struct LipMotion {
     [[nodiscard]] double tilt_rad() const { return std::hypot(rotation_rad.y(), rotation_rad.z()); }
     bool faces_wall = false;  ///< over the wall's area, mouth towards it
 };
-[[nodiscard]] LipMotion lip_motion(const WallPlane& wall, const Kinematics& cup);
+[[nodiscard]] LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup);
 
 /// The spot to which shear and twist springs pull.
 struct Anchor {

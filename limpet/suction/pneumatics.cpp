@@ -168,7 +168,7 @@ void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<dou
 
 }  // namespace
 
-const ParameterTable<PneumaticParameters>& pneumatic_table() {
+const ParameterTable<PneumaticParameters>& Pneumatic::table() {
     using P = PneumaticParameters;
     static const ParameterTable<P> table = {
         {"pump_speed_L_min", "L/min", 0.0, 1e3, &P::pump_speed_L_min,
@@ -283,6 +283,17 @@ void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<d
 double pressure_after(const Pump& pump, const CupAir& cup, double pressure_Pa, double dt_s) {
     advance_network(pump, std::span(&cup, 1), std::span(&pressure_Pa, 1), dt_s);
     return pressure_Pa;
+}
+
+bool Pneumatic::pump_rests(const Parameters& parameters, const SealedAir& air) {
+    return air.pressure_Pa < parameters.pump_stop_Pa ||
+           (air.pump_resting && air.pressure_Pa < parameters.pump_restart_Pa);
+}
+
+double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, double dt_s) {
+    const CupAir cup =
+        sealed_cup(parameters, air.surface, air.radius_m, air.press_N, air.valve_open);
+    return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
 }
 
 }  // namespace limpet

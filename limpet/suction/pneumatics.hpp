@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "limpet/core/parameters.hpp"
+#include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
 namespace limpet {
@@ -36,9 +38,6 @@ struct PneumaticParameters {
     double hose_length_m = 0.5;
     double partial_seal_area_mm2 = 0.0;  ///< hole where the lip does not meet the wall
 };
-
-/// Rows of `suction:` that only the pneumatic model reads.
-[[nodiscard]] const ParameterTable<PneumaticParameters>& pneumatic_table();
 
 /// @param clamping_N  force between lip and wall, >= 0 [N]
 /// @return C(N) [m^3/s]
@@ -100,5 +99,16 @@ void advance_network(const Pump& pump, std::span<const CupAir> cups, std::span<d
 /// One cup, alone on the pump.
 [[nodiscard]] double pressure_after(const Pump& pump, const CupAir& cup, double pressure_Pa,
                                     double dt_s);
+
+/// The pressure model of one cup (pressure_model.hpp).
+struct Pneumatic {
+    using Parameters = PneumaticParameters;
+    static constexpr std::string_view kName = "pneumatic";
+    [[nodiscard]] static const ParameterTable<Parameters>& table();
+    /// The pump's vacuum switch.
+    [[nodiscard]] static bool pump_rests(const Parameters& parameters, const SealedAir& air);
+    [[nodiscard]] static double next_Pa(const Parameters& parameters, const SealedAir& air,
+                                        double dt_s);
+};
 
 }  // namespace limpet

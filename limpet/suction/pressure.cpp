@@ -11,28 +11,28 @@ namespace limpet {
 namespace {
 
 /// Every airflow is dP/dt = (target - P) / tau.
-struct FirstOrder {
+struct Law {
     double target_Pa;
     double time_constant_s;
 };
 
-FirstOrder law(const Surface& surface, const VentParameters& vent, Airflow flow) {
+Law law(const Surface& surface, const FirstOrderParameters& cup, Airflow flow) {
     switch (flow) {
         case Airflow::sealing: return {surface.vacuum_pressure_Pa, surface.sealing_time_constant_s};
         case Airflow::unsealing: return {kAtmosphere_Pa, surface.unsealing_time_constant_s};
         case Airflow::venting:
             return {kAtmosphere_Pa, 1.0 / (1.0 / surface.unsealing_time_constant_s +
-                                           1.0 / vent.valve_time_constant_s)};
-        case Airflow::open: return {kAtmosphere_Pa, vent.open_time_constant_s};
+                                           1.0 / cup.valve_time_constant_s)};
+        case Airflow::open: return {kAtmosphere_Pa, cup.open_time_constant_s};
     }
     throw InternalError("airflow out of range");
 }
 
 }  // namespace
 
-double pressure_after(const Surface& surface, const VentParameters& vent, Airflow flow,
+double pressure_after(const Surface& surface, const FirstOrderParameters& cup, Airflow flow,
                       double pressure_Pa, double dt_s) {
-    const FirstOrder first_order = law(surface, vent, flow);
+    const Law first_order = law(surface, cup, flow);
     if (pressure_Pa == first_order.target_Pa) {
         return pressure_Pa;  // an open cup, most of a flight
     }
@@ -40,9 +40,9 @@ double pressure_after(const Surface& surface, const VentParameters& vent, Airflo
            (pressure_Pa - first_order.target_Pa) * std::exp(-dt_s / first_order.time_constant_s);
 }
 
-double time_to_pressure_s(const Surface& surface, const VentParameters& vent, Airflow flow,
+double time_to_pressure_s(const Surface& surface, const FirstOrderParameters& cup, Airflow flow,
                           double from_Pa, double to_Pa) {
-    const FirstOrder first_order = law(surface, vent, flow);
+    const Law first_order = law(surface, cup, flow);
     const double ratio = (from_Pa - first_order.target_Pa) / (to_Pa - first_order.target_Pa);
     if (from_Pa == to_Pa) {
         return 0.0;
@@ -51,6 +51,35 @@ double time_to_pressure_s(const Surface& surface, const VentParameters& vent, Ai
         return std::numeric_limits<double>::infinity();
     }
     return first_order.time_constant_s * std::log(ratio);
+}
+
+const ParameterTable<FirstOrderParameters>& FirstOrder::table() {
+    using P = FirstOrderParameters;
+    static const ParameterTable<P> table = {
+        {"valve_time_constant_s", "s", 1e-4, 1e3, &P::valve_time_constant_s,
+         "pressure rises with it through the open valve", "facts.md item 20: 2 mm on 60 cm^3"},
+        {"open_time_constant_s", "s", 1e-4, 1e3, &P::open_time_constant_s,
+         "pressure rises with it in a cup off the wall", "assumed"},
+        {"pump_stop_band_Pa", "Pa", 0.0, 1e5, &P::pump_stop_band_Pa,
+         "a cycling pump stops this close to the steady vacuum", "assumed"},
+        {"pump_restart_band_Pa", "Pa", 0.0, 1e5, &P::pump_restart_band_Pa,
+         "and starts again this far from it", "assumed"},
+    };
+    return table;
+}
+
+bool FirstOrder::pump_rests(const Parameters& parameters, const SealedAir& air) {
+    const double above_Pa = air.pressure_Pa - air.surface.vacuum_pressure_Pa;
+    return air.surface.pump_cycles &&
+           (above_Pa < parameters.pump_stop_band_Pa ||
+            (air.pump_resting && above_Pa < parameters.pump_restart_band_Pa));
+}
+
+double FirstOrder::next_Pa(const Parameters& parameters, const SealedAir& air, double dt_s) {
+    const Airflow flow = air.valve_open     ? Airflow::venting
+                         : air.pump_running ? Airflow::sealing
+                                            : Airflow::unsealing;
+    return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s);
 }
 
 }  // namespace limpet

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
+#include "limpet/core/parameters.hpp"
+#include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
 namespace limpet {
@@ -13,10 +17,12 @@ enum class Airflow {
     open,       ///< lip off the wall
 };
 
-/// Time constants of the cup itself; those of the seal are the surface's.
-struct VentParameters {
-    double valve_time_constant_s = 0.04;  ///< 2 mm orifice on 60 cm^3, facts.md item 20
-    double open_time_constant_s = 0.01;   ///< a cup off the wall
+/// Of the cup itself; time constants of the seal are the surface's.
+struct FirstOrderParameters {
+    double valve_time_constant_s = 0.04;   ///< 2 mm orifice on 60 cm^3, facts.md item 20
+    double open_time_constant_s = 0.01;    ///< a cup off the wall
+    double pump_stop_band_Pa = 100.0;      ///< above P_vac: a cycling pump stops below it
+    double pump_restart_band_Pa = 2000.0;  ///< above P_vac: and starts again above it
 };
 
 /// Pressure in the cup after `dt_s` of one airflow, from any starting pressure: the exact solution
@@ -26,12 +32,23 @@ struct VentParameters {
 /// @param dt_s         >= 0 [s]
 /// @return absolute pressure after dt_s [Pa]
 /// Source: paper eqs. (5), (6) and Table II; the valve adds its rate to that of the leak.
-[[nodiscard]] double pressure_after(const Surface& surface, const VentParameters& vent,
+[[nodiscard]] double pressure_after(const Surface& surface, const FirstOrderParameters& cup,
                                     Airflow flow, double pressure_Pa, double dt_s);
 
 /// How long one airflow takes from one pressure to another: the inverse of pressure_after.
 /// @return [s]; infinity when the flow never gets there
-[[nodiscard]] double time_to_pressure_s(const Surface& surface, const VentParameters& vent,
+[[nodiscard]] double time_to_pressure_s(const Surface& surface, const FirstOrderParameters& cup,
                                         Airflow flow, double from_Pa, double to_Pa);
+
+/// The paper's model: eqs. (5), (6).
+struct FirstOrder {
+    using Parameters = FirstOrderParameters;
+    static constexpr std::string_view kName = "first_order";
+    [[nodiscard]] static const ParameterTable<Parameters>& table();
+    /// On a tight surface, between a stop and a restart pressure; elsewhere the pump runs.
+    [[nodiscard]] static bool pump_rests(const Parameters& parameters, const SealedAir& air);
+    [[nodiscard]] static double next_Pa(const Parameters& parameters, const SealedAir& air,
+                                        double dt_s);
+};
 
 }  // namespace limpet

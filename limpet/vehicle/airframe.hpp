@@ -27,6 +27,8 @@ struct RotorParameters {
     double radius_m = 0.1524;            ///< of the propeller, 12 in
     double height_m = 0.04;              ///< of the propeller planes above the centre of mass
     double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
+
+    friend bool operator==(const RotorParameters&, const RotorParameters&) = default;
 };
 
 /// Spring slider between body and cup. Source: baseline.md.
@@ -38,6 +40,8 @@ struct SliderParameters {
     double stop_stiffness_N_m = 2e4;  ///< of both stops
     double stop_damping_N_s_m = 100.0;
     double mass_kg = 0.10;
+
+    friend bool operator==(const SliderParameters&, const SliderParameters&) = default;
 };
 
 /// Joint with two degrees of freedom and the cup's body. Lip and seal are in suction/.
@@ -51,6 +55,8 @@ struct CupMountParameters {
     double range_deg = 85.0;  ///< of each hinge, either way
     double radius_m = 0.04;
     double mass_kg = 0.10;
+
+    friend bool operator==(const CupMountParameters&, const CupMountParameters&) = default;
 };
 
 /// Two legs that limit the pitch when perched.
@@ -60,6 +66,8 @@ struct LegParameters {
     double tip_z_m = 0.25;
     double tip_radius_m = 0.012;
     double friction = 0.8;
+
+    friend bool operator==(const LegParameters&, const LegParameters&) = default;
 };
 
 struct BatteryParameters {
@@ -70,6 +78,8 @@ struct BatteryParameters {
     double pump_power_W = 12.0;
     double drive_efficiency = 0.75;  ///< motor and speed controller: shaft power / electric power
     double initial_charge = 1.0;     ///< 0..1
+
+    friend bool operator==(const BatteryParameters&, const BatteryParameters&) = default;
 };
 
 struct CadModel;
@@ -101,6 +111,8 @@ struct Airframe {
     /// Bodies and looks as a CAD program gives them, else null: then they are made of the above.
     /// Masses, inertias and the cup's joint above are the same as its.
     std::shared_ptr<const CadModel> cad{};
+
+    friend bool operator==(const Airframe&, const Airframe&) = default;
 };
 
 /// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery` of a vehicle file.

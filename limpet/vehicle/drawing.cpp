@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/vehicle/drawing.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "limpet/vehicle/cad_model.hpp"
@@ -19,12 +20,27 @@ Part box(std::string name, const Vector3& centre, const Vector3& size, Paint pai
             .paint = paint};
 }
 
+/// Turns z the shortest way to `along`, about -x where that is -z. Eigen's FromTwoVectors does the
+/// same by a singular value decomposition that takes ten seconds to compile.
+Quaternion turned_from_z(const Vector3& along) {
+    const Vector3 to = along.normalized();
+    const double cosine = to.z();
+    if (cosine < -1.0 + 1e-12) {
+        return {0.0, -1.0, 0.0, 0.0};
+    }
+    const double twice_w = std::sqrt((1.0 + cosine) * 2.0);
+    Quaternion q;
+    q.vec() = Vector3::UnitZ().cross(to) * (1.0 / twice_w);
+    q.w() = 0.5 * twice_w;
+    return q;
+}
+
 Part rod(std::string name, const Vector3& from, const Vector3& to, double radius_m, Paint paint) {
     const Vector3 along = to - from;
     return {.name = std::move(name),
             .shape = Shape::cylinder,
             .p_F_m = 0.5 * (from + to),
-            .q_F = Quaternion::FromTwoVectors(Vector3::UnitZ(), along),
+            .q_F = turned_from_z(along),
             .size_m = {radius_m, radius_m, along.norm()},
             .paint = paint};
 }

@@ -16,7 +16,4 @@ enum class Finish {
 /// By words in the surface's name; concrete when there is none.
 [[nodiscard]] Finish finish_of(std::string_view surface);
 
-/// Of the box that stands for the wall, behind its face. The same in every engine.
-inline constexpr double kWallThickness_m = 0.2;
-
 }  // namespace limpet

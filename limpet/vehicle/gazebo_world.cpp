@@ -102,20 +102,23 @@ void write_finish(pugi::xml_node visual, const GazeboWorld& world, const PlacedW
     add_text(script, "name", material_name(world, wall));
 }
 
-/// A box behind the face, in the axes of T turned up: x into the wall, y left, z up the wall.
+/// In the axes of T turned up: x into the wall, y left, z up the wall.
 void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall& wall) {
     const WallScene& face = wall.face;
-    const Vector3 size_m(kWallThickness_m, 2.0 * face.half_width_m, 2.0 * face.half_height_m);
-    const Vector3 centre_W_m = face.p_WT_m + face.q_WT * Vector3(0.5 * kWallThickness_m, 0.0, 0.0);
+    const WallSolid solid = solid_of(face);
+    const Part shape{.name = "wall",
+                     .shape = solid.kind == WallSolid::Kind::box ? Shape::box : Shape::cylinder,
+                     .size_m = solid.size_m};
+    const Quaternion q_WT(face.R_WT);
     auto model = add(node, "model", "name", wall.name);
     add_text(model, "static", "true");
-    add_text(model, "pose", sdf::pose(centre_W_m, face.q_WT));
+    add_text(model, "pose", sdf::pose(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
     auto link = add(model, "link", "name", "link");
     auto collision = add(link, "collision", "name", "wall");
-    add_text(add(add(collision, "geometry"), "box"), "size", text(size_m));
+    sdf::write_geometry(collision, shape);
     sdf::write_surface(collision, kRigid);
     auto visual = add(link, "visual", "name", "wall");
-    add_text(add(add(visual, "geometry"), "box"), "size", text(size_m));
+    sdf::write_geometry(visual, shape);
     write_finish(visual, world, wall);
 }
 

@@ -8,7 +8,7 @@ namespace limpet {
 using model_text::flu;
 
 LevelFrame level_frame(const WallScene& wall) {
-    Vector3 x = flu(Vector3(wall.q_WT * Vector3::UnitX()));
+    Vector3 x = flu(Vector3(wall.R_WT.col(0)));
     x.z() = 0.0;
     x = x.norm() > 1e-6 ? Vector3(x.normalized()) : Vector3(Vector3::UnitX());
     Matrix3 axes;

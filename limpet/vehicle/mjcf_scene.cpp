@@ -93,15 +93,25 @@ void write_surroundings(pugi::xml_node world, const Scene& scene) {
     if (!wall.present) {
         return;
     }
-    // A texture lies in the box's x-y plane: its z looks out of the wall, its y up.
+    const WallSolid solid = solid_of(wall);
+    const Matrix3 R_WT = Quaternion(wall.R_WT).normalized().toRotationMatrix();
+    const Vector3 half_m = 0.5 * solid.size_m;
+    auto geom = add(world, "geom", "name", "wall", "pos",
+                    text(flu(Vector3(wall.p_WT_m + R_WT * solid.p_TS_m))), "group", "0");
     Matrix3 R_TG;
-    R_TG << Vector3::UnitY(), -Vector3::UnitZ(), -Vector3::UnitX();
-    const Matrix3 R_WT = wall.q_WT.normalized().toRotationMatrix();
-    const Vector3 centre_W_m = wall.p_WT_m + 0.5 * kWallThickness_m * R_WT.col(0);
+    switch (solid.kind) {
+        case WallSolid::Kind::box:
+            // A texture lies in the box's x-y plane: its z looks out of the wall, its y up.
+            R_TG << Vector3::UnitY(), -Vector3::UnitZ(), -Vector3::UnitX();
+            set(geom, "type", "box", "size", text(half_m.y(), half_m.z(), half_m.x()));
+            break;
+        case WallSolid::Kind::cylinder:
+            R_TG = Vector3(1.0, -1.0, -1.0).asDiagonal();
+            set(geom, "type", "cylinder", "size", text(solid.size_m.x(), half_m.z()));
+            break;
+    }
     const Matrix3 R_WG = Vector3(1.0, -1.0, -1.0).asDiagonal() * R_WT * R_TG;
-    auto geom = add(world, "geom", "name", "wall", "type", "box", "size",
-                    text(wall.half_width_m, wall.half_height_m, 0.5 * kWallThickness_m), "pos",
-                    text(flu(centre_W_m)), "quat", text(Quaternion(R_WG)), "group", "0");
+    set(geom, "quat", text(Quaternion(R_WG)));
     if (scene.visuals) {
         set(geom, "material", "wall");
     }

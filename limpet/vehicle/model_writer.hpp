@@ -3,19 +3,17 @@
 
 #include <string>
 
+#include "limpet/core/wall.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet {
 
-/// The wall and how it looks. Frame T: origin on the surface, x into the wall, y right, z down the
-/// wall (a vertical wall: z_T = z_W).
-struct WallScene {
+/// The wall and how it looks.
+struct WallScene : WallGeometry {
     bool present = true;
-    Vector3 p_WT_m = Vector3::Zero();
-    Quaternion q_WT = Quaternion::Identity();
-    double half_width_m = 2.0;
-    double half_height_m = 2.0;
     std::string surface = "porous_concrete";  ///< chooses the material in pictures
+
+    friend bool operator==(const WallScene&, const WallScene&) = default;
 };
 
 struct Scene {
@@ -24,6 +22,8 @@ struct Scene {
     /// Shapes, materials, lights and cameras for pictures. A plant does without: it would carry
     /// every shape along in every step.
     bool visuals = true;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
 };
 
 // All writers turn forward-right-down and north-east-down into forward-left-up and a z-up world

@@ -46,6 +46,16 @@ struct RotorsState {
     /// Ring of the speeds asked for; the one written next is the oldest.
     std::array<std::array<double, kRotors>, kCommandDelaySteps> asked_rad_s{};
     std::size_t next = 0;
+
+    /// The oldest asked first: a place in the walk is an age.
+    template <class Self, class Each>
+    static void visit_members(Self& self, Each&& each) {
+        auto& [speeds, ring, oldest] = self;
+        each(oldest, speeds);
+        for (std::size_t k = 0; k < kCommandDelaySteps; ++k) {
+            each(ring[(oldest + k) % kCommandDelaySteps]);
+        }
+    }
 };
 
 /// All rotors at the steady speed of a command, as if it had been given for long.

@@ -29,29 +29,6 @@ void write_inertial(pugi::xml_node link, const Link& spec) {
     add_text(inertia, "iyz", text(own(1, 2)));
 }
 
-void write_geometry(pugi::xml_node parent, const Part& part) {
-    add_text(parent, "pose", pose(part.p_F_m, part.q_F));
-    auto geometry = add(parent, "geometry");
-    switch (part.shape) {
-        case Shape::box: add_text(add(geometry, "box"), "size", text(part.size_m)); break;
-        case Shape::cylinder: {
-            auto cylinder = add(geometry, "cylinder");
-            add_text(cylinder, "radius", text(part.size_m.x()));
-            add_text(cylinder, "length", text(part.size_m.z()));
-            break;
-        }
-        case Shape::sphere:
-            add_text(add(geometry, "sphere"), "radius", text(part.size_m.x()));
-            break;
-        case Shape::mesh: {
-            auto mesh = add(geometry, "mesh");
-            add_text(mesh, "uri", "file://" + part.mesh_file);
-            add_text(mesh, "scale", text(part.size_m));
-            break;
-        }
-    }
-}
-
 void write_visual(pugi::xml_node link, const Part& part) {
     auto visual = add(link, "visual", "name", part.name);
     write_geometry(visual, part);
@@ -111,6 +88,29 @@ void write_colour(pugi::xml_node visual, const std::array<double, 4>& rgba, doub
     add_text(material, "ambient", text(rgba[0], rgba[1], rgba[2], rgba[3]));
     add_text(material, "diffuse", text(rgba[0], rgba[1], rgba[2], rgba[3]));
     add_text(material, "specular", text(specular, specular, specular, 1.0));
+}
+
+void write_geometry(pugi::xml_node parent, const Part& part) {
+    add_text(parent, "pose", pose(part.p_F_m, part.q_F));
+    auto geometry = add(parent, "geometry");
+    switch (part.shape) {
+        case Shape::box: add_text(add(geometry, "box"), "size", text(part.size_m)); break;
+        case Shape::cylinder: {
+            auto cylinder = add(geometry, "cylinder");
+            add_text(cylinder, "radius", text(part.size_m.x()));
+            add_text(cylinder, "length", text(part.size_m.z()));
+            break;
+        }
+        case Shape::sphere:
+            add_text(add(geometry, "sphere"), "radius", text(part.size_m.x()));
+            break;
+        case Shape::mesh: {
+            auto mesh = add(geometry, "mesh");
+            add_text(mesh, "uri", "file://" + part.mesh_file);
+            add_text(mesh, "scale", text(part.size_m));
+            break;
+        }
+    }
 }
 
 void write_surface(pugi::xml_node collision, const ContactSurface& surface) {

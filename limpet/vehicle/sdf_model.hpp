@@ -18,6 +18,9 @@ namespace limpet::sdf {
 /// Appends <material> without textures.
 void write_colour(pugi::xml_node visual, const std::array<double, 4>& rgba, double specular);
 
+/// Appends the part's <pose> and <geometry> to a visual or a collision.
+void write_geometry(pugi::xml_node parent, const Part& part);
+
 /// How a shape pushes back in ODE.
 struct ContactSurface {
     double friction = 0.0;

@@ -96,51 +96,26 @@ std::optional<Event> ApartLip::obey(CupState& state, double time_s) {
 
 CupOutput ApartLip::step(const CupModel& model, CupState& state, const Surface& surface,
                          const Kinematics& cup, const CupInput& input) {
-    const LipParameters& lip = model.parameters.lip;
-    CupStatus& status = state.status;
     CupOutput output;
-    const LipMotion motion = lip_motion(model.wall, cup);
-    status.gap_m = motion.gap_m;
     output.event = obey(state, input.time_s);
-    if (status.phase == CupPhase::free && motion.faces_wall && motion.gap_m <= 0.0) {
-        status.phase = CupPhase::touching;
-        state.anchor = anchor_at(motion);
-        state.let_go_said = false;
-        ++state.touches;
+    const LipNow lip = feel_lip(model, state, surface, cup, input);
+    const LipContact& contact = lip.contact;
+    const bool lets_go = contact.let_go != LetGo::no;
+    if (state.status.phase == CupPhase::free && contact.touches) {
+        begin_touch(state);
         barrier_ = next_;
     }
-    const auto load_on = [&] {
-        const bool sealed = is_sealed(status.phase);
-        const double vacuum_N = sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m) : 0.0;
-        return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
-    };
-    LipLoad load;
-    if (status.phase != CupPhase::free) {
-        load = load_on();
-    }
-    LipContact contact = contact_of(motion, load);
     gathered_.touch = static_cast<std::uint32_t>(state.touches);
-    if (load.let_go != LetGo::no) {
+    if (lets_go) {
         if (const auto event = let_go(state, contact, input.time_s)) {
             output.event = event;
         }
-        load = status.phase == CupPhase::free ? LipLoad{} : load_on();
     }
-    collect(contact, input.press_N, status.phase, input.time_s);
-    if (contact.let_go != LetGo::no) {
+    output.wrench_W = load_cup(model, state, surface, cup, input, lip);
+    collect(contact, input.press_N, state.status.phase, input.time_s);
+    if (lets_go) {
         barrier_ = next_;  // the number under which this will be told
     }
-    output.wrench_W = {.force_N = model.wall.R_WT * load.wrench_T.force_N,
-                       .moment_N_m = model.wall.R_WT * load.wrench_T.moment_N_m};
-    const Quaternion q_CW = cup.q_WF.conjugate();
-    status.wrench_C = {.force_N = q_CW * output.wrench_W.force_N,
-                       .moment_N_m = q_CW * output.wrench_W.moment_N_m};
-    status.pull_N = load.pull_N;
-    status.shear_N = load.shear_N;
-    status.peel_N_m = load.peel_N_m;
-    status.pull_margin_N = load.pull_margin_N;
-    status.shear_margin_N = load.shear_margin_N;
-    status.peel_margin_N = load.peel_margin_N;
     return output;
 }
 

@@ -90,7 +90,7 @@ void Heard::take_status(PerchingMemory& guidance) {
     guidance.attempt = std::max<int>(1, status_->attempt);
     const auto outcome = outcome_from(status_->outcome);
     if (ends_with_mission_ && outcome && !guidance.ending) {
-        guidance.ending = Ending{.outcome = *outcome, .reason = keep(status_->reason)};
+        guidance.ending = Ending{.outcome = *outcome, .reason = std::string_view(status_->reason)};
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guidance as a ROS node: sensors and the autopilot's estimate in, set-points, pump and valve out;
-// perch, take_off and abort by services. What it does is session.hpp, here are its wires.
+// perch, take_off and abort by services. What it does is limpet/companion/session.hpp, here are its
+// wires.
 #include <limpet_ros/MechanismCommand.h>
 #include <limpet_ros/PerchingEvent.h>
 #include <limpet_ros/PerchingStatus.h>
@@ -10,11 +11,12 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "limpet/companion/mechanism_out.hpp"
+#include "limpet/companion/session.hpp"
 #include "limpet/core/errors.hpp"
 #include "ros/src/autopilot_calls.hpp"
 #include "ros/src/convert.hpp"
 #include "ros/src/node_parameters.hpp"
-#include "ros/src/session.hpp"
 #include "ros/src/vehicle_mode.hpp"
 
 namespace limpet::ros {
@@ -28,41 +30,44 @@ double time_of(const std_msgs::Header& header) {
     return header.stamp.isZero() ? now_s : std::min(header.stamp.toSec(), now_s);
 }
 
-struct PerchingArguments {
-    SessionSetup session;
-};
-
-PerchingArguments read_arguments() {
+SessionSetup read_setup() {
     NodeParameters parameters;
     const NodeSetup setup = load_setup(parameters.setup());
-    PerchingArguments arguments;
-    arguments.session.guidance = setup.scenario.guidance;
-    arguments.session.limits = setup.limits;
-    arguments.session.takes_off = setup.scenario.mission == Mission::perch_and_take_off;
-    arguments.session.asks_for_mode = parameters.flag("asks_for_mode", false);
+    const SessionSetup session{
+        .task = {.take_off = setup.scenario.mission == Mission::perch_and_take_off},
+        .guidance = setup.scenario.guidance,
+        .limits = setup.limits,
+        .by_request = true,
+        .asks_for_mode = parameters.flag("asks_for_mode", false),
+        .watches_motion_capture = false};
     parameters.refuse_others();
     if (setup.scenario.mission == Mission::hover || !setup.scenario.airframe.has_cup) {
         throw InputError(
             "perching_node: needs a vehicle with a cup and mission perch or "
             "perch_and_take_off");
     }
-    return arguments;
+    return session;
 }
 
 class PerchingNode {
 public:
-    explicit PerchingNode(const PerchingArguments& arguments)
-        : session_(arguments.session), own_("~"), calls_(kRetry_s) {
+    explicit PerchingNode(const SessionSetup& setup)
+        : session_(
+              setup,
+              {.on_event = [this](const Event& event) { tell(event); },
+               .on_line = [](double, const std::string& text) { ROS_INFO("%s", text.c_str()); }}),
+          own_("~"),
+          calls_(kRetry_s) {
         status_ = own_.advertise<limpet_ros::PerchingStatus>("status", kQueue, true);
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
         position_ = node_.advertise<limpet_ros::PositionTarget>("mavros/setpoint_raw/local", 1);
         attitude_ = node_.advertise<limpet_ros::AttitudeTarget>("mavros/setpoint_raw/attitude", 1);
         mechanism_ = node_.advertise<limpet_ros::MechanismCommand>("mechanism/command", 1, true);
         subscribe();
-        serve("perch", &PerchingSession::perch);
-        serve("take_off", &PerchingSession::take_off);
-        serve("abort", &PerchingSession::abort);
-        timer_ = node_.createTimer(::ros::Duration(1.0 / arguments.session.limits.guidance_rate_Hz),
+        serve("perch", [this](double now_s) { return session_.perch(now_s); });
+        serve("take_off", [this](double now_s) { return session_.take_off(now_s); });
+        serve("abort", [this](double) { return session_.abort(); });
+        timer_ = node_.createTimer(::ros::Duration(1.0 / setup.limits.guidance_rate_Hz),
                                    [this](const ::ros::TimerEvent&) { tick(); });
     }
 
@@ -110,13 +115,15 @@ private:
         read<sensor_msgs::FluidPressure>("cup/pressure", readings.cup_pressure, pressure_reading);
         read<sensor_msgs::BatteryState>("mavros/battery", readings.battery, battery_reading);
     }
-    void serve(const std::string& name, Answer (PerchingSession::*service)(double)) {
+    /// @param service  (time) -> Answer
+    template <class Service>
+    void serve(const std::string& name, Service service) {
         services_.push_back(
             own_.advertiseService<std_srvs::TriggerRequest, std_srvs::TriggerResponse>(
                 name, boost::function<bool(std_srvs::TriggerRequest&, std_srvs::TriggerResponse&)>(
-                          [this, name, service](std_srvs::TriggerRequest&,
-                                                std_srvs::TriggerResponse& response) {
-                              const Answer answer = (session_.*service)(::ros::Time::now().toSec());
+                          [name, service](std_srvs::TriggerRequest&,
+                                          std_srvs::TriggerResponse& response) {
+                              const Answer answer = service(::ros::Time::now().toSec());
                               response.success = answer.done ? 1 : 0;
                               response.message = answer.message;
                               ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
@@ -154,31 +161,28 @@ private:
         send(AttitudeSetpoint{.q_WB = session_.inputs().pose.value.q_WB, .thrust = 0.0}, now);
     }
 
-    /// At every change, and again mechanism_rate_Hz times a second: a mechanism that was reset
-    /// learns it so.
     void actuate(const ::ros::Time& now) {
         const Setpoint& setpoint = session_.setpoint();
-        const bool same = said_.pump_on == static_cast<std::uint8_t>(setpoint.pump_on) &&
-                          said_.valve_open == static_cast<std::uint8_t>(setpoint.valve_open);
-        const double period_s = 1.0 / session_.setup().limits.mechanism_rate_Hz;
-        const double since_s = (now - said_.header.stamp).toSec();
-        if (!session_.drives_mechanism() || (same && since_s >= 0.0 && since_s < period_s)) {
+        if (!session_.drives_mechanism() ||
+            !pace_.due({.pump_on = setpoint.pump_on, .valve_open = setpoint.valve_open},
+                       session_.setup().limits.mechanism_rate_Hz, now.toSec())) {
             return;
         }
-        said_.header.stamp = now;
-        said_.pump_on = setpoint.pump_on ? 1 : 0;
-        said_.valve_open = setpoint.valve_open ? 1 : 0;
-        mechanism_.publish(said_);
+        limpet_ros::MechanismCommand command;
+        command.header.stamp = now;
+        command.pump_on = setpoint.pump_on ? 1 : 0;
+        command.valve_open = setpoint.valve_open ? 1 : 0;
+        mechanism_.publish(command);
     }
 
+    void tell(const Event& event) {
+        limpet_ros::PerchingEvent message = event_message(event);
+        message.header.stamp = ::ros::Time::now();
+        ROS_INFO("%s%s%s", message.name.c_str(), message.reason.empty() ? "" : ": ",
+                 message.reason.c_str());
+        event_.publish(message);
+    }
     void tell(const ::ros::Time& now) {
-        for (const Event& event : session_.events()) {
-            limpet_ros::PerchingEvent message = event_message(event);
-            message.header.stamp = now;
-            ROS_INFO("%s%s%s", message.name.c_str(), message.reason.empty() ? "" : ": ",
-                     message.reason.c_str());
-            event_.publish(message);
-        }
         const PerchingMemory& memory = session_.memory();
         limpet_ros::PerchingStatus status;
         status.header.stamp = now;
@@ -198,12 +202,6 @@ private:
             session_.outcome() ? std::string(limpet::to_string(*session_.outcome())) : "";
         status.reason = session_.reason();
         status_.publish(status);
-        if (status.phase != said_phase_ || status.obstacle != said_obstacle_) {
-            said_phase_ = status.phase;
-            said_obstacle_ = status.obstacle;
-            ROS_INFO("%s%s%s", status.phase.c_str(), status.obstacle.empty() ? "" : ": ",
-                     status.obstacle.c_str());
-        }
     }
 
     PerchingSession session_;
@@ -214,14 +212,12 @@ private:
     std::vector<::ros::Subscriber> subscribers_;
     std::vector<::ros::ServiceServer> services_;
     ::ros::Timer timer_;
-    limpet_ros::MechanismCommand said_;
-    std::string said_phase_;
-    std::string said_obstacle_;
+    MechanismPace pace_;
 };
 
 void perching_node() {
-    const PerchingArguments arguments = read_arguments();
-    PerchingNode node(arguments);
+    const SessionSetup setup = read_setup();
+    PerchingNode node(setup);
     ::ros::spin();
 }
 

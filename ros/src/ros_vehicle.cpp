@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "limpet/core/signals/new_sample.hpp"
 #include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
 
@@ -151,7 +150,7 @@ void RosVehicle::send(::ros::Publisher& to, Message message, double time_s) {
 template <class T, class Make>
 void RosVehicle::send_new(::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last,
                           Make make) {
-    if (is_new(sample, last)) {
+    if (sample.newer_than(last)) {
         send(to, make(sample.value), sample.time_s);
     }
 }

@@ -22,7 +22,8 @@ SuctionCup::SuctionCup(const Scenario& scenario) : scenario_(scenario) {
 void SuctionCup::start() {
     state_ = {};
     state_.random = RandomStream(scenario_.seed, 0, Stream::seal);
-    sensor_ = start_pressure(scenario_.sensors, RandomStream(scenario_.seed, 0, Stream::pressure));
+    sensor_ = start_unit<PressureSensor>(scenario_.sensors,
+                                         RandomStream(scenario_.seed, 0, Stream::pressure), {});
     reading_ = {};
     pump_on_ = valve_open_ = false;
     last_s_ = -1.0;
@@ -58,7 +59,7 @@ std::optional<Event> SuctionCup::feel(const LipContact& contact, double press_N,
     // Those that were due since the last time; one that is late is one of now.
     for (Tick due_tick = std::max(last_tick_ + 1, tick - kLongestGap); due_tick <= tick;
          ++due_tick) {
-        sense_pressure(scenario_.sensors, sensor_, truth, due_tick, reading_);
+        sense(scenario_.sensors, sensor_, {.truth = truth, .mounts = {}}, due_tick, reading_);
     }
     last_tick_ = tick;
     return event;

@@ -35,7 +35,7 @@ private:
 
     Scenario scenario_;
     CupState state_;
-    PressureState sensor_;
+    SensorUnit<PressureSensor> sensor_;
     Sample<PressureReading> reading_;
     bool pump_on_ = false;
     bool valve_open_ = false;

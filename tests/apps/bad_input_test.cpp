@@ -157,6 +157,18 @@ TEST(BadInput, OptionsThatWouldDoNothing) {
     expect_refused(bench, {"sim-io", "pendulum_concrete"}, {"mount"});
 }
 
+TEST(BadInput, OptionsSayWhatTheyTake) {
+    const Bench bench;
+    expect_refused(bench, {"campaign", "x", "--jobs", "0"},
+                   {"--jobs: Value 0 not in range 1 to 1024"});
+    expect_refused(bench, {"export", "iris", "--format", "foo"},
+                   {"--format: foo not in {mjcf,sdf,urdf,world}"});
+    expect_refused(bench, {"export", "iris", "--camera", "c", "--camera-rate", "nan"},
+                   {"--camera-rate: must be 0.1 to 1000, not 'nan'"});
+    expect_refused(bench, {"px4-params", "hover", "--mocap", "--gps"}, {"--mocap excludes --gps"});
+    expect_refused(bench, {"compare", "one.mcap"}, {"recordings: At least 2 required"});
+}
+
 TEST(BadInput, UnknownVerbAndOption) {
     const Bench bench;
     expect_refused(bench, {"flie"}, {"flie"});

@@ -39,6 +39,12 @@ TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
     }
 }
 
+TEST(Verbs, HelpEndsWithTheProgramsFooterUnlessAVerbHasItsOwn) {
+    const Bench bench;
+    EXPECT_THAT(bench.run({"list", "--help"}).out, HasSubstr("Start here:"));
+    EXPECT_THAT(bench.run({"check", "--help"}).out, Not(HasSubstr("Start here:")));
+}
+
 TEST(Verbs, Version) {
     const Finished version = Bench{}.run({"--version"});
     EXPECT_EQ(version.exit_code, 0);

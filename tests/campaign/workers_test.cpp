@@ -30,14 +30,17 @@ TEST(Workers, RowsDoNotDependOnTheirNumber) {
     const Bench bench;
     const Campaign campaign = campaign_of(bench, short_hovers(20));
     const auto one = table_of(fly_all(bench, campaign, "one", 1));
-    const auto three = table_of(fly_all(bench, campaign, "three", 3));
     ASSERT_EQ(one.size(), 20U);
-    EXPECT_EQ(one, three);
+    EXPECT_EQ(one, table_of(fly_all(bench, campaign, "two", 2)));
+    EXPECT_EQ(one, table_of(fly_all(bench, campaign, "four", 4)));
     std::set<std::string> hashes;
     for (const auto& row : one) {
         hashes.insert(row.back());
     }
     EXPECT_EQ(hashes.size(), 20U);  // every run is another flight
+    // Golden, as those of tests/simulation/golden_test.cpp.
+    EXPECT_EQ(one.front().back(), "2bd1ed6f01b8ef2f");
+    EXPECT_EQ(one.back().back(), "9d79f23a10748374");
 }
 
 TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
@@ -53,15 +56,13 @@ TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     EXPECT_EQ(row.state_hash, fly(build_model(scenario), {}, {}, 3).state_hash);
 }
 
-TEST(Workers, PlantsAreCompiledOnceForEachText) {
+TEST(Workers, PlantsAreMadeOnceForEachVehicleAndScene) {
     const Bench bench;
     const Campaign campaign = campaign_of(bench, short_hovers(4));
     PlantCache plants;
     const auto plant_of = [&](std::uint32_t run) {
         const auto sample = draw(campaign.keys, campaign.seed, run);
-        return build_model(scenario_of(campaign, sample),
-                           [&](const std::string& mjcf) { return plants.get(mjcf); })
-            ->plant;
+        return plants.get(scenario_of(campaign, sample));
     };
     EXPECT_EQ(plant_of(0), plant_of(2));  // the same vehicle
     EXPECT_NE(plant_of(0), plant_of(1));

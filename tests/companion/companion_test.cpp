@@ -68,7 +68,7 @@ TEST(Companion, WaitsForEachOfItsInputs) {
         Rehearsal r;
         breaks(r.stage);
         r.run(2.0);
-        EXPECT_EQ(r.companion->phase(), CompanionPhase::waiting) << what;
+        EXPECT_EQ(r.companion->phase(), SessionPhase::waiting) << what;
         EXPECT_TRUE(r.said(what)) << what << testing::PrintToString(r.lines);
         EXPECT_EQ(r.stage.autopilot.set_points, 0) << what;
     };
@@ -95,7 +95,7 @@ TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
         r.stage.step();
     }
     r.run(3.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::waiting);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::waiting);
     EXPECT_TRUE(r.said("the cup is not free (it holds 60")) << testing::PrintToString(r.lines);
     EXPECT_EQ(r.stage.sensors.commands, 0);
     EXPECT_TRUE(r.stage.mechanism.pump_on);
@@ -104,17 +104,17 @@ TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
 TEST(Companion, LeavesArmingAndModeToTheOperator) {
     Rehearsal r({"autopilot.asks_for_mode=false"});
     r.run(5.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::ready);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::ready);
     EXPECT_GT(r.stage.autopilot.set_points, 100) << "they must stream before OFFBOARD is chosen";
     r.stage.mode = Stage::kOffboard;
     r.run(1.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::ready) << "on the ground, disarmed";
+    EXPECT_EQ(r.companion->phase(), SessionPhase::ready) << "on the ground, disarmed";
     r.stage.armed = true;
     r.run(1.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::ready) << "on the ground";
+    EXPECT_EQ(r.companion->phase(), SessionPhase::ready) << "on the ground";
     r.stage.landed_state = 2;
     r.run(0.1);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.stage.autopilot.arms + r.stage.autopilot.disarms, 0);
     EXPECT_EQ(r.stage.autopilot.offboards, 0);
 }
@@ -126,10 +126,10 @@ TEST(Companion, ThatComesToAVehicleInTheAirNeverStopsItsMotors) {
     r.stage.mode = Stage::kOffboard;
     r.stage.puppet.force_works = false;
     r.run(1.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::waiting);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::waiting);
     r.stage.puppet.force_works = true;
     r.run(1.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.stage.autopilot.disarms, 0);
     EXPECT_EQ(r.stage.autopilot.drops, 0);
 }
@@ -144,8 +144,7 @@ TEST(Companion, WithAKeyHearsOnlyWhatIsSigned) {
             r.stage.sign_autopilot(signing);
         }
         r.run(2.0);
-        EXPECT_EQ(r.companion->phase(),
-                  stage_signs ? CompanionPhase::ready : CompanionPhase::waiting);
+        EXPECT_EQ(r.companion->phase(), stage_signs ? SessionPhase::ready : SessionPhase::waiting);
         EXPECT_EQ(r.wires.autopilot->count().unsigned_ > 0, !stage_signs);
     }
 }
@@ -187,7 +186,7 @@ TEST(DryRun, SendsNothingAndSaysWhatItWouldDo) {
     r.stage.puppet.estimate.p_WB_m.x() =
         Puppet::kWall_m - r.config.guidance.pre_distance_m - r.config.guidance.lidar_x_m;
     r.run(4.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.companion->memory().state, PerchingState::approaching);
     EXPECT_EQ(r.stage.autopilot.frames, 0);
     EXPECT_EQ(r.stage.sensors.frames, 0);

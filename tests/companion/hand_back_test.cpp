@@ -33,11 +33,11 @@ void expect_hold_in_the_approach(const std::function<void(Rehearsal&)>& wrong, d
     r.tick();
     wrong(r);
     const double begin_s = r.stage.time_s();
-    while (r.companion->phase() == CompanionPhase::flying && r.stage.time_s() < begin_s + 10.0) {
+    while (r.companion->phase() == SessionPhase::flying && r.stage.time_s() < begin_s + 10.0) {
         r.tick();
     }
     EXPECT_LT(r.stage.time_s() - begin_s, within_s) << why;
-    ASSERT_EQ(r.companion->phase(), CompanionPhase::leaving) << why;
+    ASSERT_EQ(r.companion->phase(), SessionPhase::handed_back) << why;
     r.stage.step();
     const Since since(r);
     ASSERT_TRUE(r.run_out(5.0)) << why;
@@ -72,10 +72,10 @@ TEST(HandBack, ALateTickOnTheWayToItsStartCountsToo) {
         r.tick();
     }
     r.run(0.5);
-    ASSERT_EQ(r.companion->phase(), CompanionPhase::ready);
+    ASSERT_EQ(r.companion->phase(), SessionPhase::ready);
     r.late_s = 0.4;
     r.tick();
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::leaving);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::handed_back);
     ASSERT_TRUE(r.run_out(5.0));
     EXPECT_EQ(r.stage.mode, Stage::kLoiter);
     EXPECT_EQ(r.result().end, CompanionEnd::handed_back);
@@ -86,7 +86,7 @@ TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
     ASSERT_TRUE(r.run_to(PerchingState::approaching));
     r.late_s = 0.29;
     r.tick();
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.result().late_ticks, 1U);
     EXPECT_DOUBLE_EQ(r.result().latest_s, 0.29);
 }
@@ -154,7 +154,7 @@ TEST(HandBack, OnTheCupASilentAutopilotThatHearsIsLandedFirst) {
     ASSERT_TRUE(r.run_to(PerchingState::pitching_up));
     r.stage.beats = false;
     r.run(3.2);
-    ASSERT_EQ(r.companion->phase(), CompanionPhase::flying);
+    ASSERT_EQ(r.companion->phase(), SessionPhase::flying);
     ASSERT_TRUE(r.said("autopilot silent, on the cup, motors on"));
     const Since since(r);
     r.run(1.0);
@@ -178,13 +178,13 @@ TEST(HandBack, AnOperatorWhoAnswersHoldWithAModeOfHisOwnKeepsIt) {
 
 TEST(HandBack, AModeTakenAwayBeforeTheStartEndsIt) {
     Rehearsal r({"autopilot.asks_for_mode=false"});
-    while (r.companion->phase() != CompanionPhase::ready && r.stage.time_s() < 10.0) {
+    while (r.companion->phase() != SessionPhase::ready && r.stage.time_s() < 10.0) {
         r.tick();
     }
-    ASSERT_EQ(r.companion->phase(), CompanionPhase::ready);
+    ASSERT_EQ(r.companion->phase(), SessionPhase::ready);
     r.stage.mode = Stage::kOffboard;  // disarmed, on the ground
     r.run(1.0);
-    ASSERT_EQ(r.companion->phase(), CompanionPhase::ready);
+    ASSERT_EQ(r.companion->phase(), SessionPhase::ready);
     r.stage.mode = Stage::kPosition;
     const Since since(r);
     ASSERT_TRUE(r.run_out(5.0)) << "it would wait without set-points, and OFFBOARD be refused";
@@ -232,7 +232,7 @@ TEST(HandBack, AtRestItIsOnlyOnceTheMotorsAreKnownToBeOff) {
     r.interrupted = true;
     const Since since(r);
     r.run(1.0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_GE(since.set_points(), 45) << "without them it would hold, motors on, and pry";
     r.stage.obeys_arming = true;
     ASSERT_TRUE(r.run_out(5.0));

@@ -144,8 +144,6 @@ TEST(Inputs, OfASourceThatIsNotChosenCountForNothing) {
     inputs.poll(wires, offboard, 2.0);
     EXPECT_NEAR((inputs.readings().motion_capture.value.p_WB_m - Vector3(1.0, 2.0, 3.0)).norm(),
                 0.0, 1e-6);
-    EXPECT_TRUE(inputs.pose_fresh(2.2));
-    EXPECT_FALSE(inputs.pose_fresh(2.3));
 }
 
 TEST(Inputs, OfAnotherVehicleOnTheAutopilotsWireCountForNothing) {

@@ -15,7 +15,7 @@ namespace limpet {
 /// The shipped companion for a simulation, on ports that the kernel chooses.
 inline CompanionConfig rehearsal_config(const std::vector<std::string>& overrides = {}) {
     CompanionConfig config =
-        load_companion(std::string(LIMPET_SOURCE_DIR) + "/companions/simulation.yaml", overrides);
+        load_companion(LIMPET_SOURCE_DIR "/companions/simulation.yaml", overrides);
     config.autopilot.port = 0;
     config.sensors->port = 0;
     return config;
@@ -45,10 +45,12 @@ struct Rehearsal {
     std::vector<std::string> lines;
     bool interrupted = false;
     double late_s = 0.0;
+    double behind_s = 0.0;  ///< the outside: all lateness so far
 
     void tick() {
         stage.step();
-        companion->tick(stage.time_s(), late_s, interrupted);
+        behind_s += late_s;
+        companion->tick(stage.time_s() + behind_s, late_s, interrupted);
         late_s = 0.0;
     }
     void run(double duration_s) {
@@ -61,8 +63,7 @@ struct Rehearsal {
     bool run_to(PerchingState state, double limit_s = 60.0) {
         for (const double end_s = stage.time_s() + limit_s;
              stage.time_s() < end_s && !companion->over();) {
-            if (companion->phase() == CompanionPhase::flying &&
-                companion->memory().state == state) {
+            if (companion->phase() == SessionPhase::flying && companion->memory().state == state) {
                 return true;
             }
             tick();

@@ -134,7 +134,7 @@ TEST(Run, AllocatesNothingInFlight) {
         during += allocations() - before;
     }
     EXPECT_EQ(during, 0);
-    EXPECT_EQ(r.companion->phase(), CompanionPhase::flying);
+    EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
 }
 
 TEST(SteadyClock, RunsAsFastAsItIsTold) {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Ray, MeasuresTheDistanceToASlantedWall) {
     Scene scene = test::wall_ahead();
-    scene.wall.q_WT = quaternion_from_euler({.yaw_rad = radians(20.0)});
+    scene.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(20.0)}).toRotationMatrix();
     MujocoPlant plant(test::compile(Airframe{}, scene));
     // The wall's plane through (1.5, 0) with normal (cos 20, sin 20): along x from y = +-0.2 it is
     // 1.5 -+ 0.2 tan 20 away. The vehicle, in the way, is transparent.
@@ -16,9 +16,33 @@ TEST(Ray, MeasuresTheDistanceToASlantedWall) {
     const double slant = 0.2 * std::tan(radians(20.0));
     EXPECT_NEAR(plant.ray({0.0, 0.2, 0.0}, north).value(), 1.5 - slant, 1e-12);
     EXPECT_NEAR(plant.ray({0.0, -0.2, 0.0}, north).value(), 1.5 + slant, 1e-12);
-    const Vector3 square_on = scene.wall.q_WT * north;
+    const Vector3 square_on = scene.wall.R_WT * north;
     EXPECT_NEAR(plant.ray(Vector3::Zero(), square_on).value(), 1.5 * std::cos(radians(20.0)),
                 1e-12);
+}
+
+/// A shape's distances and the body that stands for it in the engine are one wall.
+TEST(Ray, MeetsEveryShapeWhereItsTangentFrameIs) {
+    for (const WallShape* shape : wall_shapes()) {
+        Scene scene = test::wall_ahead();
+        scene.wall.shape = shape;
+        scene.wall.R_WT =
+            quaternion_from_euler({.pitch_rad = radians(10.0), .yaw_rad = radians(20.0)})
+                .toRotationMatrix();
+        const MujocoPlant plant(test::compile(Airframe{}, scene));
+        for (const double y : {-0.8, 0.0, 1.1}) {
+            for (const double z : {-0.7, 0.0, 0.9}) {
+                const Vector3 p_W_m(0.1, y, z);
+                const TangentFrame spot = tangent_frame(scene.wall, p_W_m);
+                const auto distance_m = plant.ray(p_W_m, spot.into_W());
+                ASSERT_TRUE(distance_m && spot.on_wall) << shape->name;
+                EXPECT_NEAR(*distance_m, spot.gap_m, 1e-9) << shape->name;
+            }
+        }
+        const Vector3 above_W_m = scene.wall.R_WT * Vector3(-1.0, 0.0, -2.1) + scene.wall.p_WT_m;
+        EXPECT_FALSE(tangent_frame(scene.wall, above_W_m).on_wall) << shape->name;
+        EXPECT_FALSE(plant.ray(above_W_m, scene.wall.R_WT.col(0))) << shape->name;
+    }
 }
 
 TEST(Ray, MissesWhatIsNotThere) {

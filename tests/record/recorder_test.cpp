@@ -299,6 +299,27 @@ TEST(Recorder, NewReadingsAreThoseSinceTheClockBegan) {
     EXPECT_EQ(recording.table("/sensors/motion_capture").time_s.size(), 1U);
 }
 
+TEST(Recorder, KeepsNumbersOfASensorThatNoTopicIsFor) {
+    const TestFolder folder;
+    constexpr std::array<std::string_view, 2> kColumns = {"air_degC", "slope_Pa"};
+    RecordingInfo info = sample_info();
+    info.columns = {{"/sensors/own", "limpet_msgs/msg/Own", kColumns}};
+    {
+        Recorder recorder(folder / "a.mcap", info);
+        const std::array<double, 2> numbers = {21.5, -3.0};
+        recorder.columns(0, Sample<int>{}, numbers);  // it has not come yet
+        recorder.columns(0, Sample<int>{.time_s = 0.01}, numbers);
+        recorder.columns(0, Sample<int>{.time_s = 0.01}, numbers);  // the same one
+        recorder.columns(0, Sample<int>{.time_s = 0.02}, std::array{22.0, 0.0});
+        recorder.finish("{}");
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    const Table& own = recording.table("/sensors/own");
+    EXPECT_EQ(own.time_s, (std::vector<double>{0.01, 0.02}));
+    EXPECT_EQ(own.find("air_degC")->values, (std::vector<double>{21.5, 22.0}));
+    EXPECT_EQ(own.find("slope_Pa")->values, (std::vector<double>{-3.0, 0.0}));
+}
+
 TEST(Recorder, ASampleThatNeverCameIsAMistake) {
     const TestFolder folder;
     Recorder recorder(folder / "a.mcap", sample_info());

@@ -3,15 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <fstream>
-#include <limits>
-#include <sstream>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
+#include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/figure_sketch.hpp"
-#include "png.hpp"
 
 namespace limpet {
 namespace {
@@ -40,59 +36,28 @@ bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-Figure figure_of(const Recording& flight, const Window& window) {
-    Figure figure;
-    figure.title = "title";
-    figure.window = window;
-    figure.panels = panels(flight, window);
-    figure.events = flight.events;
-    figure.phases = phases(flight);
-    return figure;
-}
-
-TEST(FigureData, is_what_the_recording_says) {
+TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
     const Recording flight = test::fly();
-    std::istringstream text(figure_data(figure_of(flight, {3.0, 5.0})));
-    const Series pressure = flight.series("/sensors/cup_pressure", "fluid_pressure");
-    std::string line;
-    std::size_t rows = 0;
-    for (std::size_t i = 0; i < pressure.values.size(); ++i) {
-        if (pressure.time_s[i] < 3.0 || pressure.time_s[i] > 5.0) {
-            continue;
+    const Chart chart = flight_chart(flight, {"overview", "whole flight", {0.0, 28.5}});
+    ASSERT_EQ(chart.panels.size(), 6u);
+    std::size_t curves = 0, named = 0;
+    for (const auto& any : chart.panels) {
+        const auto& panel = std::get<ChartPanel>(any);
+        curves += panel.series.size();
+        EXPECT_EQ(panel.moments.size(), flight.events.size()) << "they run through all panels";
+        EXPECT_EQ(panel.stretches.size(), phases(flight).size());
+        for (const ChartLine& moment : panel.moments) {
+            named += moment.label.empty() ? 0 : 1;
         }
-        ASSERT_TRUE(std::getline(text, line));
-        double time_s = 0.0, value = 0.0;
-        std::istringstream(line) >> time_s >> value;
-        ASSERT_DOUBLE_EQ(time_s, pressure.time_s[i]);
-        ASSERT_NEAR(value, 0.01 * pressure.values[i], 1e-6);
-        ++rows;
     }
-    EXPECT_GE(rows, 500u);
-    std::getline(text, line);
-    EXPECT_EQ(line, "") << "the block ends";
-}
-
-TEST(FigureData, parts_curves_by_two_empty_lines_and_gaps_by_one) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    Figure figure;
-    figure.panels = {
-        {.title = "",
-         .unit = "",
-         .curves = {{"a", Trace::truth, {0, 1, 2, 3, 4, 5}, {nan, 10, nan, nan, 11, nan}},
-                    {"b", Trace::truth, {0, 1}, {1, 2}}}}};
-    EXPECT_EQ(figure_data(figure), "1 10\n\n4 11\n\n\n0 1\n1 2\n\n\n");
-}
-
-TEST(FigureSketch, draws_every_curve_and_names_every_event) {
-    const Recording flight = test::fly();
-    const Figure figure = figure_of(flight, {0.0, 28.5});
-    const std::string script = figure_sketch(figure).script("stem");
-    EXPECT_TRUE(has(script, "index 8 "));
-    EXPECT_FALSE(has(script, "index 9 "));
-    EXPECT_TRUE(has(script, "\"impact  3.90\""));
-    EXPECT_TRUE(has(script, "\"pressure released  25.06\""));
-    EXPECT_TRUE(has(script, "\"resting\""));
-    EXPECT_TRUE(has(script, "\"cup pressure  [hPa]\""));
+    EXPECT_EQ(curves, 10u);
+    EXPECT_EQ(named, flight.events.size());
+    const test::Folder folder;
+    const std::string svg = read_text(draw_chart(chart, "stem", folder.path()).files.at(1));
+    for (const char* text : {"impact  3.90", "pressure released  25.06", "resting",
+                             "cup pressure  [hPa]", "P_land 870", "estimated"}) {
+        EXPECT_TRUE(has(svg, text)) << text;
+    }
 }
 
 TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {

@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
+#include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
-#include "png.hpp"
 
 namespace limpet {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet {

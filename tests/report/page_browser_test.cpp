@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 #include "limpet/report/page.hpp"
 #include "program_output.hpp"
 #include "sample_page.hpp"

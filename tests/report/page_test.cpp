@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/report/html.hpp"
+#include "limpet/draw/html.hpp"
 #include "sample_page.hpp"
 
 namespace limpet {

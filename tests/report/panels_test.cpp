@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 
 namespace limpet {
 namespace {
@@ -19,49 +19,55 @@ using testing::IsEmpty;
 
 constexpr Window kAll{0.0, 100.0};
 
-std::vector<std::string> titles(const std::vector<Panel>& panels) {
+/// Without its unit.
+std::string title(const ChartPanel& panel) {
+    return panel.y_label.substr(0, panel.y_label.find("  ["));
+}
+
+std::vector<std::string> titles(const std::vector<ChartPanel>& panels) {
     std::vector<std::string> names;
-    for (const Panel& panel : panels) {
-        names.push_back(panel.title);
+    for (const ChartPanel& panel : panels) {
+        names.push_back(title(panel));
     }
     return names;
 }
 
-const Curve& curve(const std::vector<Panel>& panels, const std::string& title,
-                   const std::string& label) {
-    for (const Panel& panel : panels) {
-        for (const Curve& found : panel.curves) {
-            if (panel.title == title && found.label == label) {
+const ChartSeries& curve(const std::vector<ChartPanel>& panels, const std::string& name,
+                         const std::string& label) {
+    for (const ChartPanel& panel : panels) {
+        for (const ChartSeries& found : panel.series) {
+            if (title(panel) == name && found.name == label) {
                 return found;
             }
         }
     }
-    throw std::out_of_range(title + ", " + label);
+    throw std::out_of_range(name + ", " + label);
 }
 
 /// The curve is the recording's column, scaled.
-void expect_column(const Recording& flight, const Curve& drawn, const char* topic,
+void expect_column(const Recording& flight, const ChartSeries& drawn, const char* topic,
                    const char* column, double scale) {
     const Series recorded = flight.series(topic, column);
-    ASSERT_EQ(drawn.values.size(), recorded.values.size());
-    for (std::size_t i = 0; i < drawn.values.size(); ++i) {
-        ASSERT_EQ(drawn.time_s[i], recorded.time_s[i]);
-        ASSERT_DOUBLE_EQ(drawn.values[i], scale * recorded.values[i]) << column << " " << i;
+    ASSERT_EQ(drawn.y.size(), recorded.values.size());
+    for (std::size_t i = 0; i < drawn.y.size(); ++i) {
+        ASSERT_EQ(drawn.x[i], recorded.time_s[i]);
+        ASSERT_DOUBLE_EQ(drawn.y[i], scale * recorded.values[i]) << column << " " << i;
     }
 }
 
 TEST(Panels, draw_the_pressures_at_which_this_flight_decided) {
     const auto all = panels(test::fly(), kAll);
     ASSERT_EQ(all[0].levels.size(), 2U);
-    EXPECT_DOUBLE_EQ(all[0].levels[0].value, 870.0);
+    EXPECT_DOUBLE_EQ(all[0].levels[0].at, 870.0);
     EXPECT_EQ(all[0].levels[1].label, "detach 970");
 }
 
 TEST(Panels, are_the_columns_of_the_recording) {
     const Recording flight = test::fly();
     const auto all = panels(flight, kAll);
-    EXPECT_THAT(titles(all), ElementsAre("cup pressure", "pitch", "force through the slider",
-                                         "total thrust", "distance of the LiDARs to the wall"));
+    EXPECT_THAT(titles(all),
+                ElementsAre("cup pressure", "pitch", "force through the slider", "total thrust",
+                            "distance of the LiDARs to the wall", "speed ahead"));
     expect_column(flight, curve(all, "cup pressure", "measured"), "/sensors/cup_pressure",
                   "fluid_pressure", 0.01);
     expect_column(flight, curve(all, "cup pressure", "true"), "/cup", "pressure_Pa", 0.01);
@@ -76,41 +82,42 @@ TEST(Panels, are_the_columns_of_the_recording) {
 TEST(Panels, keep_the_signs_of_the_house) {
     const Attempt attempt;
     const auto all = panels(test::fly(), kAll);
-    const Curve& pitch = curve(all, "pitch", "true");
-    const Curve& believed = curve(all, "pitch", "estimated");
-    const Curve& force = curve(all, "force through the slider", "measured");
-    for (std::size_t i = 0; i < pitch.values.size(); ++i) {
-        const double t = pitch.time_s[i];
-        ASSERT_NEAR(pitch.values[i], degrees(attempt.pitch_rad(t)), 1e-9);
-        ASSERT_NEAR(believed.values[i], pitch.values[i] + 0.3 * test::ripple(t), 1e-6);
-        ASSERT_NEAR(force.values[i], attempt.slider_force_N(t) + 0.4 * test::ripple(t), 1e-9);
+    const ChartSeries& pitch = curve(all, "pitch", "true");
+    const ChartSeries& believed = curve(all, "pitch", "estimated");
+    const ChartSeries& force = curve(all, "force through the slider", "measured");
+    for (std::size_t i = 0; i < pitch.y.size(); ++i) {
+        const double t = pitch.x[i];
+        ASSERT_NEAR(pitch.y[i], degrees(attempt.pitch_rad(t)), 1e-9);
+        ASSERT_NEAR(believed.y[i], pitch.y[i] + 0.3 * test::ripple(t), 1e-6);
+        ASSERT_NEAR(force.y[i], attempt.slider_force_N(t) + 0.4 * test::ripple(t), 1e-9);
     }
 }
 
 TEST(Panels, show_their_window_alone) {
     const auto all = panels(test::fly(), {3.0, 5.0});
-    for (const Panel& panel : all) {
-        for (const Curve& drawn : panel.curves) {
-            EXPECT_NEAR(drawn.time_s.front(), 3.0, 0.005);
-            EXPECT_NEAR(drawn.time_s.back(), 5.0, 0.005);
+    for (const ChartPanel& panel : all) {
+        for (const ChartSeries& drawn : panel.series) {
+            EXPECT_NEAR(drawn.x.front(), 3.0, 0.005);
+            EXPECT_NEAR(drawn.x.back(), 5.0, 0.005);
         }
     }
 }
 
 TEST(Panels, have_a_gap_where_a_lidar_sees_nothing) {
     const auto all = panels(test::fly(), kAll);
-    const Curve& left = curve(all, "distance of the LiDARs to the wall", "left");
+    const ChartSeries& left = curve(all, "distance of the LiDARs to the wall", "left");
     const Attempt attempt;
-    for (std::size_t i = 0; i < left.values.size(); ++i) {
-        const bool seen = attempt.pitch_rad(left.time_s[i]) < radians(50.0);
-        ASSERT_EQ(std::isnan(left.values[i]), !seen) << left.time_s[i];
+    for (std::size_t i = 0; i < left.y.size(); ++i) {
+        const bool seen = attempt.pitch_rad(left.x[i]) < radians(50.0);
+        ASSERT_EQ(std::isnan(left.y[i]), !seen) << left.x[i];
     }
 }
 
 TEST(Panels, of_a_hover_have_nothing_of_the_cup) {
     const Recording flight = test::fly({.cup = false});
-    EXPECT_THAT(titles(panels(flight, kAll)),
-                ElementsAre("pitch", "total thrust", "distance of the LiDARs to the wall"));
+    EXPECT_THAT(
+        titles(panels(flight, kAll)),
+        ElementsAre("pitch", "total thrust", "distance of the LiDARs to the wall", "speed ahead"));
     EXPECT_THAT(missing_topics(flight), IsEmpty());
 }
 
@@ -121,63 +128,76 @@ TEST(Panels, name_what_is_missing) {
         std::find_if(flight.tables.begin(), flight.tables.end(),
                      [](const Table& t) { return t.topic == "/sensors/range_left"; }));
     EXPECT_THAT(missing_topics(flight), ElementsAre(HasSubstr("/sensors/range_left")));
-    EXPECT_EQ(panels(flight, kAll).back().curves.size(), 1u);
+    EXPECT_EQ(panels(flight, kAll)[4].series.size(), 1u);
 }
 
-TEST(Thinned, keeps_every_peak_and_the_ends) {
-    Curve noisy{"noisy", Trace::measured, {}, {}};
-    for (int i = 0; i < 20000; ++i) {
-        noisy.time_s.push_back(1e-3 * i);
-        noisy.values.push_back(std::sin(0.37 * i) + (i == 7777 ? 50.0 : 0.0) -
-                               (i == 7779 ? 60.0 : 0.0));
+/// A flight in which guidance asks in every way.
+Recording asked_flight() {
+    const test::Folder folder;
+    Recorder recorder(folder.path() / "flight.mcap", test::recording_info({}));
+    for (int i = 0; i < 40; ++i) {
+        const double t = 0.1 * i;
+        Truth truth;
+        truth.time_s = t;
+        truth.base.p_WF_m = {1.0, 0.5, -1.5};
+        truth.base.v_WF_W_m_s = {0.0, 0.9, 0.0};
+        truth.base.q_WF = quaternion_from_euler({.yaw_rad = radians(90.0)});
+        recorder.truth(truth);
+        Estimate estimate;
+        estimate.time_s = t;
+        estimate.p_WB_m = truth.base.p_WF_m;
+        recorder.estimate(estimate);
+        recorder.range_left({t, {1.6, true}});
+        recorder.range_right({t, {1.4, true}});
+        Setpoint setpoint{.armed = true};  // at first it idles
+        if (i >= 30) {
+            setpoint.motion = AttitudeSetpoint{
+                .q_WB = quaternion_from_euler({.pitch_rad = radians(20.0)}), .thrust = 0.5};
+        } else if (i >= 20) {
+            setpoint.motion =
+                VelocitySetpoint{.v_W_m_s = {3.0, 1.1, 0.0}, .yaw_rad = radians(90.0)};
+        } else if (i >= 10) {
+            setpoint.motion = PositionSetpoint{.p_W_m = {9.0, 0.7, -1.5},
+                                               .yaw_rad = radians(90.0),
+                                               .feedforward_v_W_m_s = {0.0, 5.0, 0.0}};
+        }
+        recorder.setpoint(t, setpoint);
     }
-    const Curve thin = thinned(noisy, {0.0, 20.0}, 100);
-    EXPECT_LE(thin.values.size(), 404u);
-    EXPECT_GE(thin.values.size(), 350u);
-    EXPECT_EQ(*std::max_element(thin.values.begin(), thin.values.end()), noisy.values[7777]);
-    EXPECT_EQ(*std::min_element(thin.values.begin(), thin.values.end()), noisy.values[7779]);
-    EXPECT_EQ(thin.values.front(), noisy.values.front());
-    EXPECT_EQ(thin.values.back(), noisy.values.back());
-    EXPECT_TRUE(std::is_sorted(thin.time_s.begin(), thin.time_s.end()));
+    recorder.finish("{}");
+    return read_recording(folder.path() / "flight.mcap");
 }
 
-TEST(Thinned, leaves_short_curves_and_gaps_alone) {
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    const Curve few{"few", Trace::truth, {0.0, 1.0, 2.0}, {1.0, nan, 3.0}};
-    EXPECT_EQ(thinned(few, {0.0, 2.0}, 1).values.size(), 3u);
-    Curve gap{"gap", Trace::truth, {}, {}};
-    for (int i = 0; i < 1000; ++i) {
-        gap.time_s.push_back(i);
-        gap.values.push_back(i >= 400 && i < 410 ? nan : i);
+/// The series is `value` from one time on to another and nowhere else.
+void expect_only_between(const ChartSeries& series, double from_s, double to_s, double value) {
+    ASSERT_EQ(series.x.size(), 40u) << series.name;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        const double t = series.x[i];
+        if (t > from_s - 0.01 && t < to_s - 0.01) {
+            ASSERT_NEAR(series.y[i], value, 1e-6) << t;
+        } else {
+            ASSERT_TRUE(std::isnan(series.y[i])) << t;
+        }
     }
-    const Curve thin = thinned(gap, {0.0, 1000.0}, 10);
-    EXPECT_EQ(std::count_if(thin.values.begin(), thin.values.end(),
-                            [](double v) { return std::isnan(v); }),
-              10);
 }
 
-TEST(AxisRange, has_air_above_and_below) {
-    const Panel panel{
-        .title = "", .unit = "", .curves = {{"", Trace::truth, {0, 1}, {-10.0, 90.0}}}};
-    EXPECT_NEAR(axis_range(panel).low, -17.0, 1e-12);
-    EXPECT_NEAR(axis_range(panel).high, 97.0, 1e-12);
+TEST(Panels, show_what_guidance_asked_for_beside_what_came_of_it) {
+    const auto all = panels(asked_flight(), kAll);
+    // 0.2 m nearer to the wall than where the LiDARs see it 1.5 m away; to the east, as the yaw.
+    expect_only_between(curve(all, "distance of the LiDARs to the wall", "asked"), 1.0, 2.0, 1.3);
+    expect_only_between(curve(all, "speed ahead", "asked"), 2.0, 3.0, 1.1);
+    expect_only_between(curve(all, "pitch", "asked"), 3.0, 4.0, 20.0);
+    EXPECT_EQ(curve(all, "pitch", "asked").mark, ChartSeries::Mark::dashes);
+    for (const double speed : curve(all, "speed ahead", "true").y) {
+        EXPECT_NEAR(speed, 0.9, 1e-9);
+    }
 }
 
-TEST(AxisRange, does_not_fill_a_panel_with_noise) {
-    Panel panel{.title = "", .unit = "", .curves = {{"", Trace::truth, {0, 1}, {5.0, 5.2}}}};
-    panel.least_span = 10.0;
-    const Range range = axis_range(panel);
-    EXPECT_NEAR(0.5 * (range.low + range.high), 5.1, 1e-12);
-    EXPECT_GE(range.high - range.low, 10.0);
-}
-
-TEST(AxisRange, holds_the_levels_and_begins_at_zero_when_asked) {
-    Panel panel{.title = "", .unit = "", .curves = {{"", Trace::truth, {0, 1}, {30.0, 31.0}}}};
-    panel.from_zero = true;
-    EXPECT_DOUBLE_EQ(axis_range(panel).low, 0.0);
-    EXPECT_GT(axis_range(panel).high, 31.0);
-    panel.levels.push_back({"limit", 50.0});
-    EXPECT_GT(axis_range(panel).high, 50.0);
+TEST(Panels, show_no_setpoint_where_none_was_recorded) {
+    for (const ChartPanel& panel : panels(test::fly(), kAll)) {
+        for (const ChartSeries& series : panel.series) {
+            EXPECT_NE(series.name, "asked") << panel.y_label;
+        }
+    }
 }
 
 }  // namespace

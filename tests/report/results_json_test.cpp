@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "flights.hpp"
+#include "../support/flights.hpp"
 #include "limpet/report/page.hpp"
 #include "program_output.hpp"
 #include "sample_page.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "limpet/report/chart.hpp"
-#include "limpet/report/colours.hpp"
+#include "limpet/draw/chart.hpp"
+#include "limpet/draw/colours.hpp"
 #include "limpet/report/page.hpp"
 
 /// A page with everything that a page may hold, and texts that mean harm.

@@ -30,6 +30,22 @@ TEST_F(BadInput, OutOfRange) {
               "x.yaml:3: wall.surface.friction: -1 is out of range, allowed 0..3");
 }
 
+TEST_F(BadInput, NoPressureModel) {
+    EXPECT_EQ(hover_error("suction: {pressure_model: linear}\n"),
+              "x.yaml:3: suction.pressure_model: \"linear\" is none of first_order, pneumatic");
+    EXPECT_EQ(hover_error("suction: {pneumatic: 1}\n"),
+              "x.yaml:3: suction.pneumatic: is no key any more, say pressure_model: pneumatic");
+}
+
+TEST_F(BadInput, NamesOfRegistries) {
+    EXPECT_EQ(hover_error("simulation: {engine: mujocko}\n"),
+              "x.yaml:3: simulation.engine: \"mujocko\": no such engine (did you mean mujoco?); "
+              "there is mujoco");
+    EXPECT_EQ(hover_error("wall: {surface: stone, shape: sphere}\n"),
+              "x.yaml:3: wall.shape: \"sphere\": no such shape of a wall; there are plane, "
+              "cylinder");
+}
+
 TEST_F(BadInput, NotFinite) {
     for (const std::string value : {".nan", ".NaN", "nan", ".inf", "-.inf", "+inf", "Infinity"}) {
         EXPECT_EQ(hover_error("simulation: {hover_s: " + value + "}\n"),

@@ -67,6 +67,16 @@ TEST(Catalogue, PrintsTheRowsOfARoom) {
               "\"guidence\": no such room (did you mean guidance?);");
 }
 
+TEST(Catalogue, KnowsTheKeysThatTakeAName) {
+    const auto all = choices_of("");
+    ASSERT_EQ(all.size(), 2U);
+    EXPECT_EQ(all[0].section + "." + all[0].key, "wall.shape");
+    EXPECT_EQ(all[0].names.front().name, "plane");
+    ASSERT_EQ(choices_of("simulation").size(), 1U);
+    EXPECT_EQ(choices_of("simulation")[0].names.front().name, "mujoco");
+    EXPECT_TRUE(choices_of("guidance").empty());
+}
+
 TEST(DataRoot, IsWhereTheEnvironmentSays) {
     const TestData data;
     ::setenv("LIMPET_DATA", data.root().c_str(), 1);

@@ -64,10 +64,10 @@ TEST_F(Derived, TheWallStandsAhead) {
     const Scenario s = load({"simulation.start_distance_m=2", "simulation.start_offset_m=0.1",
                              "simulation.start_yaw_deg=6", "simulation.start_height_m=1.2",
                              "wall.width_m=3", "wall.height_m=2"});
-    EXPECT_EQ(s.wall.plane.p_WT_m, Vector3(2.0, 0.0, 0.0));
-    EXPECT_EQ(s.wall.plane.R_WT, Matrix3::Identity());
-    EXPECT_EQ(s.wall.plane.half_width_m, 1.5);
-    EXPECT_EQ(s.wall.plane.half_height_m, 1.0);
+    EXPECT_EQ(s.wall.geometry.p_WT_m, Vector3(2.0, 0.0, 0.0));
+    EXPECT_EQ(s.wall.geometry.R_WT, Matrix3::Identity());
+    EXPECT_EQ(s.wall.geometry.half_width_m, 1.5);
+    EXPECT_EQ(s.wall.geometry.half_height_m, 1.0);
     EXPECT_EQ(s.start.p_WB_m, Vector3(0.0, 0.1, 0.0));
     EXPECT_DOUBLE_EQ(s.start.yaw_rad, radians(6.0));
     EXPECT_EQ(s.start.ground_z_W_m, 1.2);
@@ -76,16 +76,17 @@ TEST_F(Derived, TheWallStandsAhead) {
 TEST_F(Derived, TheHeadingTurnsWallAndStartAlike) {
     const Scenario s = load({"simulation.start_distance_m=2", "simulation.start_offset_m=0.1",
                              "simulation.start_yaw_deg=10", "wall.heading_deg=90"});
-    EXPECT_TRUE(s.wall.plane.p_WT_m.isApprox(Vector3(0.0, 2.0, 0.0), 1e-15));
-    EXPECT_TRUE(s.wall.plane.R_WT.col(0).isApprox(Vector3::UnitY(), 1e-15));  // into the wall: east
-    EXPECT_TRUE(s.wall.plane.R_WT.col(1).isApprox(-Vector3::UnitX(), 1e-15));  // right: south
+    EXPECT_TRUE(s.wall.geometry.p_WT_m.isApprox(Vector3(0.0, 2.0, 0.0), 1e-15));
+    EXPECT_TRUE(
+        s.wall.geometry.R_WT.col(0).isApprox(Vector3::UnitY(), 1e-15));  // into the wall: east
+    EXPECT_TRUE(s.wall.geometry.R_WT.col(1).isApprox(-Vector3::UnitX(), 1e-15));  // right: south
     EXPECT_TRUE(s.start.p_WB_m.isApprox(Vector3(-0.1, 0.0, 0.0), 1e-15));
     EXPECT_NEAR(s.start.yaw_rad, radians(100.0), 1e-15);
 }
 
 TEST_F(Derived, ALeaningWallsNormalPointsUp) {
     const Scenario s = load({"wall.lean_deg=10", "wall.heading_deg=30"});
-    const Matrix3& R_WT = s.wall.plane.R_WT;
+    const Matrix3& R_WT = s.wall.geometry.R_WT;
     const Vector3 normal_W = -R_WT.col(0);
     EXPECT_NEAR(normal_W.z(), -std::sin(radians(10.0)), 1e-15);
     const Vector3 heading_W(std::cos(radians(30.0)), std::sin(radians(30.0)), 0.0);

@@ -16,16 +16,19 @@ protected:
 
 TEST_F(Overrides, ReachEveryRoom) {
     const Scenario s = data_.load(
-        "first", {"guidance.hold_s=0.6", "autopilot.MPC_XY_P=0.8", "sensors.lidar_noise_m=0",
-                  "suction.valve_fitted=true", "suction.tilt_stiffness_N_m_rad=30",
-                  "simulation.hover_s=7", "wall.heading_deg=90", "wall.surface.friction=0.5",
-                  "vehicle.mass_kg=2.5", "vehicle.slider.stiffness_N_m=400", "seed=7",
-                  "mission=perch", "vehicle.inertia_kg_m2=[0.04, 0.09, 0.12]",
-                  "vehicle.lidar.x_m=0.3", "description=by hand"});
+        "first",
+        {"guidance.hold_s=0.6", "autopilot.MPC_XY_P=0.8", "sensors.lidar_noise_m=0",
+         "suction.valve_fitted=true", "suction.tilt_stiffness_N_m_rad=30",
+         "suction.pressure_model=pneumatic", "simulation.hover_s=7", "wall.heading_deg=90",
+         "wall.surface.friction=0.5", "vehicle.mass_kg=2.5", "vehicle.slider.stiffness_N_m=400",
+         "seed=7", "mission=perch", "vehicle.inertia_kg_m2=[0.04, 0.09, 0.12]",
+         "vehicle.lidar.x_m=0.3", "description=by hand"});
     EXPECT_EQ(s.guidance.hold_s, 0.6);
     EXPECT_EQ(s.autopilot.MPC_XY_P, 0.8);
     EXPECT_EQ(s.sensors.lidar_noise_m, 0.0);
     EXPECT_EQ(s.cup.valve_fitted, true);
+    EXPECT_EQ(pressure_models()[s.cup.pressure_model].name, "pneumatic");
+    EXPECT_EQ(data_.load_text(s.yaml).cup.pressure_model, s.cup.pressure_model);
     EXPECT_EQ(s.cup.lip.tilt_stiffness_N_m_rad, 30.0);
     EXPECT_EQ(s.simulation.hover_s, 7.0);
     EXPECT_EQ(s.wall.heading_deg, 90.0);

@@ -33,7 +33,8 @@ protected:
         surface.seal_threshold_median_N = 10.0;
         surface.seal_threshold_sigma = 0.0;
         CupModel model;
-        model.parameters.pneumatic = true;
+        model.parameters.pressure_model = 1;
+        EXPECT_EQ(pressure_models()[1].name, Pneumatic::kName);
         CupState state;
         state.random = RandomStream(1, 0, Stream::seal);
         Kinematics cup;

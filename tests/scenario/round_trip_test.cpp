@@ -32,8 +32,10 @@ void expect_same(Scenario a, Scenario b) {
     EXPECT_EQ(a.airframe.rotor_p_B_m, b.airframe.rotor_p_B_m);
     EXPECT_EQ(a.airframe.rotor_direction, b.airframe.rotor_direction);
     EXPECT_EQ(a.wall.present, b.wall.present);
-    EXPECT_EQ(a.wall.plane.p_WT_m, b.wall.plane.p_WT_m);
-    EXPECT_EQ(a.wall.plane.R_WT, b.wall.plane.R_WT);
+    EXPECT_EQ(a.wall.geometry.shape, b.wall.geometry.shape);
+    EXPECT_EQ(a.engine, b.engine);
+    EXPECT_EQ(a.wall.geometry.p_WT_m, b.wall.geometry.p_WT_m);
+    EXPECT_EQ(a.wall.geometry.R_WT, b.wall.geometry.R_WT);
     EXPECT_EQ(a.start.p_WB_m, b.start.p_WB_m);
     EXPECT_EQ(a.start.yaw_rad, b.start.yaw_rad);
     expect_same_surface(a.wall.surface, b.wall.surface);

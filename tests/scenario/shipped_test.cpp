@@ -146,7 +146,7 @@ TEST(Scenarios, WaitLongEnoughForTheReleaseWhereOneComes) {
     for (const char* name : {"perch_concrete", "perch_cinder_block", "perch_turbine_blade"}) {
         const Scenario s = shipped(name);
         const double release_s =
-            time_to_pressure_s(s.wall.surface, s.cup.vent, Airflow::unsealing,
+            time_to_pressure_s(s.wall.surface, s.cup.pressure, Airflow::unsealing,
                                s.wall.surface.vacuum_pressure_Pa, s.guidance.detach_pressure_Pa);
         EXPECT_LT(1.2 * release_s, s.guidance.release_limit_s) << name;
     }

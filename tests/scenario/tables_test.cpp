@@ -51,7 +51,9 @@ TEST(Tables, NameEveryNumberOnce) {
 TEST(Tables, ForgetNoField) {
     test::expect_whole(perching_table(), "guidance");
     test::expect_whole(autopilot_table(), "autopilot");
-    test::expect_whole(sensor_table(), "sensors");
+    for_each_type(Sensors{}, [](auto sensor) {
+        test::expect_whole(decltype(sensor)::type::table(), "sensors");
+    });
     test::expect_whole(simulation_table(), "simulation");
     test::expect_whole(lip_table(), "lip");
     test::expect_whole(rotor_table(), "rotor");
@@ -63,11 +65,13 @@ TEST(Tables, ForgetNoField) {
     test::expect_whole(pendulum_table(), "pendulum");
     test::expect_whole(press_rig_table(), "press_rig");
     test::expect_whole(wall_air_table(), "wall_air");
+    for_each_type(PressureModels{}, [](auto model) {
+        using Model = typename decltype(model)::type;
+        test::expect_whole(Model::table(), Model::kName.data());
+    });
     CupParameters cup;
-    auto rows = bind(cup_table(), cup);
-    for (const auto& more : {bind(pneumatic_table(), cup.pneumatics), bind(lip_table(), cup.lip)}) {
-        rows.insert(rows.end(), more.begin(), more.end());
-    }
+    auto rows = suction_rows(cup);
+    rows.push_back({.name = "pressure_model", .value = &cup.pressure_model});  // given by its name
     test::expect_whole(cup, rows, "suction");
 }
 

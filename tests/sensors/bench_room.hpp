@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "limpet/plant/plant.hpp"
 #include "limpet/sensors/suite.hpp"
 
 namespace limpet::test {

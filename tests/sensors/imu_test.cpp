@@ -24,12 +24,15 @@ struct ImuLog {
 template <class TruthAt>
 ImuLog run_imu(const SensorParameters& parameters, Tick ticks, TruthAt truth_at,
                std::uint32_t number = 0) {
-    ImuState state = start_imu(parameters, truth_at(0), RandomStream(7, number, Stream::imu));
+    auto unit =
+        start_unit<ImuSensor>(parameters, RandomStream(7, number, Stream::imu), truth_at(0));
+    const SensorMounts mounts;
     Sample<ImuReading> reading;
     ImuLog log;
     for (Tick tick = 0; tick < ticks; ++tick) {
         const double last_s = reading.time_s;
-        sense_imu(parameters, state, truth_at(tick), tick, reading);
+        const Truth truth = truth_at(tick);
+        sense(parameters, unit, {.truth = truth, .mounts = mounts}, tick, reading);
         if (reading.time_s > last_s) {
             log.samples.push_back(reading.value);
             log.times_s.push_back(reading.time_s);

@@ -120,7 +120,8 @@ TEST(Lidar, BiasesOfManyUnitsScatterAsAsked) {
     std::vector<double> biases;
     for (std::uint32_t number = 0; number < 2000; ++number) {
         biases.push_back(
-            start_lidar(parameters, RandomStream(3, number, Stream::lidar_left)).bias_m);
+            start_unit<LidarSensor>(parameters, RandomStream(3, number, Stream::lidar_left), {})
+                .state.bias);
     }
     EXPECT_NEAR(test::statistics(biases).deviation, 0.05, 0.005);
     EXPECT_NEAR(test::statistics(biases).mean, 0.0, 0.006);

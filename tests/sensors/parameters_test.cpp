@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/sensors/parameters.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string_view>
 
+#include "limpet/sensors/registry.hpp"
 #include "tests/core/whole_table.hpp"
 #include "tests/sensors/bench_room.hpp"
 
@@ -13,23 +12,25 @@ namespace limpet {
 namespace {
 
 TEST(SensorParameters, TableCoversEveryFieldOnce) {
-    const SensorParameters values;
+    SensorParameters values;
     std::set<std::string_view> names;
-    for (const auto& row : sensor_table()) {
+    for (const auto& row : sensor_rows(values)) {
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
-        EXPECT_LE(row.minimum, row.get(values)) << row.name;
-        EXPECT_GE(row.maximum, row.get(values)) << row.name;
+        EXPECT_LE(row.minimum, row.value.get()) << row.name;
+        EXPECT_GE(row.maximum, row.value.get()) << row.name;
         EXPECT_FALSE(row.description.empty()) << row.name;
         EXPECT_FALSE(row.source.empty()) << row.name;
     }
-    test::expect_whole(sensor_table(), "sensors");
+    for_each_type(Sensors{}, [](auto sensor) {
+        test::expect_whole(decltype(sensor)::type::table(), "sensors");
+    });
 }
 
 TEST(SensorParameters, LimitsKeepTheDelayLinesFromOverflowing) {
     SensorsModel model;
-    for (const auto& row : sensor_table()) {
+    for (const auto& row : sensor_rows(model.parameters)) {
         if (row.name.ends_with("latency_s") || row.name.ends_with("rate_Hz")) {
-            row.of(model.parameters).set(row.maximum);
+            row.value.set(row.maximum);
         }
     }
     EXPECT_NO_THROW(test::run(model, 3000, test::at_rest, [](Tick, const Readings&) {}));
@@ -37,9 +38,9 @@ TEST(SensorParameters, LimitsKeepTheDelayLinesFromOverflowing) {
 
 TEST(SensorParameters, ARateOfZeroMeansNotFitted) {
     SensorsModel model;
-    for (const auto& row : sensor_table()) {
+    for (const auto& row : sensor_rows(model.parameters)) {
         if (row.name.ends_with("rate_Hz")) {
-            row.of(model.parameters).set(0.0);
+            row.value.set(0.0);
         }
     }
     test::run(model, 1000, test::at_rest, [](Tick, const Readings& r) {

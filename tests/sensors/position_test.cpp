@@ -112,12 +112,16 @@ TEST(Gps, WanderKeepsItsDeviationFromTheStart) {
     std::vector<double> down;
     std::vector<double> speed;
     for (std::uint32_t number = 0; number < 1500; ++number) {
-        GpsState state = start_gps(parameters, RandomStream(5, number, Stream::gps));
+        auto unit = start_unit<GpsSensor>(parameters, RandomStream(5, number, Stream::gps), {});
+        const auto look = [&](Tick tick, Sample<GpsReading>& reading) {
+            const Truth truth = at_rest(tick);
+            sense(parameters, unit, {.truth = truth, .mounts = {}}, tick, reading);
+        };
         Sample<GpsReading> reading;
-        sense_gps(parameters, state, at_rest(0), 0, reading);
+        look(0, reading);
         first.push_back(reading.value.p_WB_m.y());
         for (Tick tick = 200; tick <= 10000; tick += 200) {
-            sense_gps(parameters, state, at_rest(tick), tick, reading);
+            look(tick, reading);
         }
         last.push_back(reading.value.p_WB_m.y());
         down.push_back(reading.value.p_WB_m.z());

@@ -75,9 +75,9 @@ TEST_P(SavedAt, AResumedRunEndsWithTheSameHash) {
     while (!other.ended()) {
         other.tick();
     }
-    EXPECT_EQ(other.state().hash, flight.state().hash);
+    EXPECT_EQ(other.seen().hash, flight.seen().hash);
     EXPECT_EQ(other.state().tick, flight.state().tick);
-    EXPECT_EQ(flight.state().hash, flown("perch_concrete").result.state_hash);
+    EXPECT_EQ(flight.seen().hash, flown("perch_concrete").result.state_hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(Times, SavedAt, testing::Values(1.0, 4.5, 5.2, 11.5, 15.0, 26.9));

@@ -21,7 +21,7 @@ TEST(WindInTheLoop, AHoverLeansIntoTheWindByWhatTheRotorsDragAsks) {
             ++count;
         }
     }
-    const Airframe& airframe = model->scenario.airframe;
+    const Airframe& airframe = model->scenario->airframe;
     const double weight_N = airframe.mass_kg * kGravity_m_s2;
     const double speed_rad_s = std::sqrt(weight_N / 4.0 / airframe.rotor.motor_constant_kg_m);
     const double drag_N = 4.0 * airframe.rotor.drag_constant_kg * speed_rad_s * 2.0;
@@ -56,7 +56,7 @@ TEST(WindInTheLoop, AResumedRunGoesOnInTheSameGusts) {
     while (!other.ended()) {
         other.tick();
     }
-    EXPECT_EQ(other.state().hash, flight.state().hash);
+    EXPECT_EQ(other.seen().hash, flight.seen().hash);
 }
 
 TEST(WallInTheLoop, PerchesWithTheAirOfTheWall) {

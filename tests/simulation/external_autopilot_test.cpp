@@ -22,7 +22,7 @@ using testing::HasSubstr;
 /// what it measures, and, when told to, an end.
 class Outsider final : public ExternalAutopilot {
 public:
-    explicit Outsider(const SimulationModel& model, double boot_s = 1.0)
+    explicit Outsider(const FlightModel& model, double boot_s = 1.0)
         : model_(model.autopilot), boot_s_(boot_s) {}
 
     /// Fails that long after the vehicle has been armed.
@@ -87,7 +87,7 @@ TEST(BringUp, BeginsTheFlightInHoverAtTheStartWithAllClocksAtZero) {
     const Snapshot first = bring_up(*model, {.autopilot = &outsider}, options);
     EXPECT_EQ(first.state.tick, 0);
     EXPECT_EQ(first.state.truth.time_s, 0.0);
-    EXPECT_LT((first.state.truth.base.p_WF_m - model->scenario.start.p_WB_m).norm(), 0.15);
+    EXPECT_LT((first.state.truth.base.p_WF_m - model->scenario->start.p_WB_m).norm(), 0.15);
     EXPECT_LT(first.state.truth.base.v_WF_W_m_s.norm(), 0.1);
     EXPECT_TRUE(first.state.command.armed);
     EXPECT_FALSE(first.state.sensors.readings.imu.ever());

@@ -14,9 +14,9 @@
 
 namespace limpet {
 
-inline std::shared_ptr<const SimulationModel> model_of(
-    const std::string& scenario, const std::vector<std::string>& overrides = {},
-    std::uint64_t seed = 1) {
+inline std::shared_ptr<const FlightModel> model_of(const std::string& scenario,
+                                                   const std::vector<std::string>& overrides = {},
+                                                   std::uint64_t seed = 1) {
     return build_model(load_scenario(scenario, {.overrides = overrides, .seed = seed}));
 }
 
@@ -59,7 +59,7 @@ inline double pitch_deg(const Truth& truth) {
     return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
 }
 
-inline Trace trace(const std::shared_ptr<const SimulationModel>& model) {
+inline Trace trace(const std::shared_ptr<const FlightModel>& model) {
     Trace trace;
     Flight flight(model);
     while (!flight.ended()) {
@@ -74,10 +74,10 @@ inline Trace trace(const std::shared_ptr<const SimulationModel>& model) {
         }
     }
     trace.result.outcome = flight.state().ending->outcome;
-    trace.result.reason = flight.state().ending->reason;
-    trace.result.attempts = flight.state().metrics.attempts;
-    trace.result.metrics = flight.state().metrics;
-    trace.result.state_hash = flight.state().hash;
+    trace.result.reason = flight.state().ending->reason.view();
+    trace.result.attempts = flight.seen().metrics.attempts;
+    trace.result.metrics = flight.seen().metrics;
+    trace.result.state_hash = flight.seen().hash;
     return trace;
 }
 

@@ -53,7 +53,7 @@ private:
 /// The simulator's wires with a stand-in at their end.
 class Loopback {
 public:
-    explicit Loopback(const SimulationModel& model, StandInOptions options = perching())
+    explicit Loopback(const FlightModel& model, StandInOptions options = perching())
         : hil_(listen(Medium::tcp)), offboard_(listen(Medium::udp)), options_(std::move(options)) {
         options_.hil = hil_.transport().address();
         options_.onboard.port = 0;
@@ -69,7 +69,7 @@ public:
         return options;
     }
 
-    void start_stand_in(const SimulationModel& model) {
+    void start_stand_in(const FlightModel& model) {
         stand_in_ = std::make_unique<StandInThread>(model.autopilot, options_);
     }
     void kill_stand_in() { stand_in_.reset(); }
@@ -86,7 +86,7 @@ private:
         return {open_transport({.medium = medium, .port = 0}, Role::listen),
                 {.system = 255, .component = mavlink::kCompanionComponent}};
     }
-    void connect(const SimulationModel& model) {
+    void connect(const FlightModel& model) {
         if (!hil_.wait_for_peer(10s)) {
             throw std::runtime_error("the stand-in does not come");
         }

@@ -28,8 +28,8 @@ std::vector<EventName> names(const FlightResult& result) {
     return list;
 }
 
-FlightResult fly_behind_wire(const std::shared_ptr<const SimulationModel>& model,
-                             Loopback& loopback, const std::filesystem::path& recording = {},
+FlightResult fly_behind_wire(const std::shared_ptr<const FlightModel>& model, Loopback& loopback,
+                             const std::filesystem::path& recording = {},
                              const FlightWatch& watch = {}) {
     return fly(model, recording, watch, 0, {.outside = {.autopilot = &loopback.autopilot()}});
 }

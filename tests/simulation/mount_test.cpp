@@ -20,7 +20,8 @@ class SwingAt : public testing::TestWithParam<double> {};
 TEST_P(SwingAt, MeetsTheWallWithTheSpeedOfItsHeight) {
     const auto model = model_of("pendulum_concrete", swing_at(GetParam()));
     const Trace trial = trace(model);
-    const double height_m = touching_p_WB_m(model->scenario).z() - model->scenario.start.p_WB_m.z();
+    const double height_m =
+        touching_p_WB_m(*model->scenario).z() - model->scenario->start.p_WB_m.z();
     EXPECT_NEAR(std::sqrt(2.0 * kGravity_m_s2 * height_m), GetParam(), 1e-6);
     EXPECT_NEAR(trial.result.metrics.impact_speed_m_s, GetParam(), 0.01 * GetParam());
     const double angle_rad = swing_angle_rad(GetParam(), 5.0);
@@ -45,11 +46,11 @@ TEST(PendulumTrial, KeepsItsEnergyAndItsAttitudeUntilTheWall) {
     const auto model =
         model_of("pendulum_concrete", {"pendulum.pitch_deg=5", "pendulum.yaw_deg=-8"});
     Flight flight(model);
-    const double mass_kg = model->scenario.airframe.mass_kg;
+    const double mass_kg = model->scenario->airframe.mass_kg;
     const auto energy_J = [&] {
         const Kinematics& base = flight.state().truth.base;
         return 0.5 * mass_kg * base.v_WF_W_m_s.squaredNorm() -
-               mass_kg * kGravity_m_s2 * (base.p_WF_m.z() - touching_p_WB_m(model->scenario).z());
+               mass_kg * kGravity_m_s2 * (base.p_WF_m.z() - touching_p_WB_m(*model->scenario).z());
     };
     const double at_first_J = energy_J();
     EXPECT_NEAR(at_first_J, 0.5 * mass_kg * 1.1 * 1.1, 1e-6);
@@ -111,14 +112,14 @@ TEST(PendulumTrial, PerchesAndHoldsForHalfASecond) {
 
 TEST(PressRigTrial, PressureIsEquationsFiveAndSix) {
     const auto model = model_of("press_concrete");
-    const Surface& surface = model->scenario.wall.surface;
+    const Surface& surface = model->scenario->wall.surface;
     Flight flight(model);
     double seal_s = -1.0;
     double leak_s = -1.0;
     double leak_from_Pa = 0.0;
     while (!flight.ended()) {
         flight.tick();
-        const SimulationState& state = flight.state();
+        const FlightState& state = flight.state();
         const double now_s = seconds(state.tick);
         const double p_Pa = state.cup.mean_pressure_Pa;
         if (state.cup.status.phase == CupPhase::sealing && seal_s < 0.0) {
@@ -183,7 +184,7 @@ TEST(MountedTrial, ResumesBitExactly) {
         while (!other.ended()) {
             other.tick();
         }
-        EXPECT_EQ(other.state().hash, flown(scenario).result.state_hash) << cut_s;
+        EXPECT_EQ(other.seen().hash, flown(scenario).result.state_hash) << cut_s;
     }
 }
 

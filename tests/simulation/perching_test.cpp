@@ -128,7 +128,7 @@ TEST(PerchConcrete, StaticsOfTheHangingVehicleByHand) {
     }
     ASSERT_NE(last, nullptr);
     const auto model = model_of("perch_concrete");
-    const LegParameters& legs = model->scenario.airframe.legs;
+    const LegParameters& legs = model->scenario->airframe.legs;
     const Vector3 tip_W = last->base.p_WF_m +
                           last->base.q_WF * Vector3(legs.tip_x_m, 0.0, legs.tip_z_m) +
                           Vector3(legs.tip_radius_m, 0.0, 0.0);
@@ -287,7 +287,7 @@ TEST(Touches, OneDockIsOneTouch) {
             while (!flight.ended()) {
                 flight.tick();
             }
-            EXPECT_EQ(flight.state().cup.touches, flight.state().metrics.attempts)
+            EXPECT_EQ(flight.state().cup.touches, flight.seen().metrics.attempts)
                 << scenario << " " << seed;
         }
     }

@@ -9,7 +9,7 @@ namespace {
 using enum EventName;
 
 Trace pneumatic(const std::string& scenario, std::vector<std::string> overrides = {}) {
-    overrides.emplace_back("suction.pneumatic=1");
+    overrides.emplace_back("suction.pressure_model=pneumatic");
     return trace(model_of(scenario, overrides));
 }
 

@@ -42,10 +42,10 @@ TEST(SetAutopilot, FliesAsAScenarioThatHasThemFromTheStart) {
     Flight untouched(model);
     EXPECT_TRUE(fly_on(untouched, 3000).empty());
 
-    EXPECT_EQ(set.state().hash, from_start.state().hash);
-    EXPECT_NE(set.state().hash, untouched.state().hash) << "the shared model has changed";
+    EXPECT_EQ(set.seen().hash, from_start.seen().hash);
+    EXPECT_NE(set.seen().hash, untouched.seen().hash) << "the shared model has changed";
     EXPECT_EQ(told, (std::map<std::string, double>{{"MC_PITCHRATE_P", 0.11}, {"MPC_XY_P", 0.7}}));
-    EXPECT_EQ(set.model().scenario.autopilot.MPC_XY_P, 0.7);
+    EXPECT_EQ(set.model().autopilot.parameters.MPC_XY_P, 0.7);
 }
 
 TEST(SetAutopilot, TellsOfMoreThanOneTickCanReport) {

@@ -31,7 +31,7 @@ TEST(SteadyState, NorDoesATrialOnAMount) {
 }
 
 TEST(SteadyState, NorDoesThePneumaticCup) {
-    Flight flight(model_of("perch_concrete", {"suction.pneumatic=1"}));
+    Flight flight(model_of("perch_concrete", {"suction.pressure_model=pneumatic"}));
     flight.tick();
     const long before = allocations();
     while (!flight.ended()) {

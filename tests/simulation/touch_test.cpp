@@ -65,7 +65,7 @@ class ImpactAt : public testing::TestWithParam<double> {};
 TEST_P(ImpactAt, AgreesWithTwoMasses) {
     const auto model = model_of("perch_concrete", touch_at(GetParam()));
     const Metrics m = trace(model).result.metrics;
-    const TwoMasses reference = two_masses(model->scenario, m.impact_speed_m_s);
+    const TwoMasses reference = two_masses(*model->scenario, m.impact_speed_m_s);
     EXPECT_NEAR(m.impact_force_N, reference.slider_peak_N, 0.05 * reference.slider_peak_N);
     EXPECT_NEAR(m.cup_press_max_N, reference.lip_peak_N, 0.10 * reference.lip_peak_N);
 }

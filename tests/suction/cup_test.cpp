@@ -117,7 +117,7 @@ TEST_F(CupOnTheWall, OnMetalThePumpRestsAndTheVacuumStays) {
     for (int k = 0; k < 10000; ++k) {
         hold(0.001, 60.0, kStep_s);
         running += state_.status.pump_running ? 1 : 0;
-        ASSERT_LT(state_.mean_pressure_Pa, 27500.0 + model_.parameters.pump_restart_band_Pa + 10.0);
+        ASSERT_LT(state_.mean_pressure_Pa, 27500.0 + model_.parameters.pressure.pump_restart_band_Pa + 10.0);
     }
     EXPECT_GT(running, 0);
     EXPECT_LT(running, 9000);

@@ -125,7 +125,7 @@ TEST(HeldLoad, HasTheLimitsOfTheLaw) {
 }
 
 TEST(LipMotion, IsRelativeToATurnedWall) {
-    WallPlane wall;
+    WallGeometry wall;
     wall.p_WT_m = {1.0, 2.0, 0.0};
     wall.R_WT = quaternion_from_euler({.yaw_rad = kPi / 2.0}).toRotationMatrix();  // faces west
     Kinematics cup;
@@ -142,8 +142,29 @@ TEST(LipMotion, IsRelativeToATurnedWall) {
     EXPECT_TRUE(motion.faces_wall);
 }
 
+TEST(LipMotion, OverABulgeIsThatOfTheSpotBelow) {
+    const WallGeometry wall{.radius_m = 2.0, .shape = wall_shapes()[1]};
+    ASSERT_EQ(wall.shape->name, "cylinder");
+    // 30 deg around the pillar to the right, 0.1 m off, going right and turning as it should.
+    const double around_rad = radians(30.0), speed_m_s = 0.3;
+    Kinematics cup;
+    cup.q_WF = quaternion_from_euler({.yaw_rad = -around_rad});
+    cup.p_WF_m = Vector3(2.0, 0.0, 0.0) + cup.q_WF * Vector3(-2.1, 0.0, 0.2);
+    cup.v_WF_W_m_s = cup.q_WF * Vector3(0.0, speed_m_s, 0.0);
+    cup.w_WF_F_rad_s = {0.0, 0.0, -speed_m_s / 2.1};
+    const LipMotion motion = lip_motion(wall, cup);
+    EXPECT_NEAR(motion.gap_m, 0.1, 1e-12);
+    EXPECT_NEAR(motion.gap_rate_m_s, 0.0, 1e-12);
+    EXPECT_NEAR(motion.y_m, 2.0 * around_rad, 1e-12);
+    EXPECT_NEAR(motion.z_m, 0.2, 1e-12);
+    EXPECT_NEAR(motion.y_rate_m_s, speed_m_s * 2.0 / 2.1, 1e-12);
+    EXPECT_NEAR(motion.rotation_rad.norm(), 0.0, 1e-12);
+    EXPECT_NEAR(motion.rate_rad_s.norm(), 0.0, 1e-12);
+    EXPECT_TRUE(motion.faces_wall);
+}
+
 TEST(LipMotion, BesideTheWallItFacesNothing) {
-    WallPlane wall;
+    WallGeometry wall;
     wall.half_width_m = 0.5;
     Kinematics cup;
     cup.p_WF_m = {0.0, 0.6, 0.0};

@@ -70,7 +70,7 @@ std::pair<Vector3, Vector3> face_of(const Written& world) {
     return {pose * Vector3(-0.5 * size.at(0), 0.0, 0.0), -pose.linear().col(0)};
 }
 
-TEST(GazeboWorld, TheWallsFaceIsWhereThePlaneIs) {
+TEST(GazeboWorld, TheWallsFaceIsWhereTheScenesIs) {
     const Written world(flight());
     const auto [point, normal] = face_of(world);
     EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
@@ -78,10 +78,23 @@ TEST(GazeboWorld, TheWallsFaceIsWhereThePlaneIs) {
     EXPECT_STREQ(world.model("wall").child("static").text().get(), "true");
 }
 
+TEST(GazeboWorld, ARoundWallStandsARadiusBehindItsFace) {
+    GazeboWorld round = flight();
+    WallScene& face = round.walls[0].face;
+    face.shape = wall_shapes()[1];
+    face.radius_m = 3.0;
+    const Written world(round);
+    const auto wall = world.model("wall");
+    const auto shape = wall.child("link").child("collision").child("geometry").child("cylinder");
+    EXPECT_EQ(shape.child("radius").text().as_double(), 3.0);
+    EXPECT_EQ(shape.child("length").text().as_double(), 2.0 * face.half_height_m);
+    EXPECT_LT((pose_of(wall).translation() - Vector3(5.2, 0.0, 0.0)).norm(), 1e-12);
+}
+
 TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
     GazeboWorld east = flight();
     east.walls[0].face.p_WT_m = {0.0, 2.2, -0.3};
-    east.walls[0].face.q_WT = quaternion_from_euler({.yaw_rad = radians(90.0)});
+    east.walls[0].face.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
     const auto [point, normal] = face_of(Written(east));
     // East is minus west, up is minus down.
     EXPECT_LT((point - Vector3(0.0, -2.2, 0.3)).norm(), 1e-12);
@@ -91,7 +104,8 @@ TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
 TEST(GazeboWorld, AWallThatLeansAwayLooksUp) {
     GazeboWorld leaning = flight();
     // T's x, into the wall, turned down by 20 deg.
-    leaning.walls[0].face.q_WT = Eigen::AngleAxisd(radians(-20.0), Vector3::UnitY());
+    leaning.walls[0].face.R_WT =
+        Eigen::AngleAxisd(radians(-20.0), Vector3::UnitY()).toRotationMatrix();
     const auto [point, normal] = face_of(Written(leaning));
     EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
     EXPECT_NEAR(normal.x(), -0.9396926207859084, 1e-12);
@@ -197,7 +211,7 @@ TEST(GazeboWorld, EveryTexturedWallFindsItsMaterialAndItsTexture) {
     GazeboWorld world = flight();
     world.textures = true;
     world.walls[0].face.surface = "cinder_block";
-    world.walls.push_back({.name = "second", .face = {.surface = "metal"}});
+    world.walls.push_back({.name = "second", .face = {{}, true, "metal"}});
     const Written written(world);
     const auto files = write_wall_looks(world);
     std::string script;

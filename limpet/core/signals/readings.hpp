@@ -16,6 +16,10 @@ struct Sample {
     T value{};
 
     [[nodiscard]] bool ever() const { return time_s >= 0.0; }
+    /// Whether it is news to who has seen one of `seen_s`. The one meaning of a new sample; where a
+    /// clock starts again, what was seen is forgotten (began_anew).
+    [[nodiscard]] bool newer_than(double seen_s) const { return ever() && time_s > seen_s; }
+    [[nodiscard]] bool newer_than(const Sample& seen) const { return newer_than(seen.time_s); }
     [[nodiscard]] bool fresh(double now_s, double limit_s) const {
         return now_s - time_s <= limit_s;
     }
@@ -78,5 +82,10 @@ struct Readings {
     Sample<PressureReading> cup_pressure;
     Sample<BatteryReading> battery;
 };
+
+/// Stamps start again when a flight begins: nothing of `last` is known any more.
+[[nodiscard]] inline bool began_anew(const Readings& readings, const Readings& last) {
+    return readings.imu.time_s < last.imu.time_s;
+}
 
 }  // namespace limpet

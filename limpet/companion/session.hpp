@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "limpet/companion/parameters.hpp"
+#include "limpet/companion/watchdog.hpp"
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/guidance/perching.hpp"
+
+namespace limpet {
+
+// Guidance beside an autopilot that is not ours: when it may begin, when control is handed back
+// (watchdog.hpp), what becomes of the pump. `limpet companion` feeds it from wires, the ROS node
+// from topics and services. Time is injected.
+//
+//   waiting ── all inputs fresh, poses agree, cup free ──► ready ── wanted, flown, at its start ──┐
+//      ▲  ▲                                                │  ▲ │                                ▼
+//      │  └───────────── an input went away ───────────────┘  │ │ watchdog, limits flying │ │ │
+//      mission over in the air     │ │ └─┼────────────────────────────────┤ └─────────────────
+//      perch asked ──────── handed_back ◄────┴── mission over, watchdog ──────┘
+//
+// Who flies by request (perch, take_off, abort) is ready again after a mission that ends in the
+// air, and one that ends at rest on the wall goes on watching the vacuum; else a mission's end
+// hands control back for good. Set-points go in ready and flying; they never stop while the cup
+// holds and the motors turn.
+enum class SessionPhase {
+    waiting,      ///< for inputs; no set-points go
+    ready,        ///< set-points say: stay; waits for OFFBOARD, armed, in the air (or rises itself)
+    flying,       ///< guidance
+    handed_back,  ///< set-points have stopped
+};
+[[nodiscard]] std::string_view to_string(SessionPhase phase);
+
+/// Why control went back.
+enum class CompanionEnd {
+    mission_over,  ///< guidance came to its end
+    handed_back,   ///< by the watchdog
+    interrupted,   ///< by Ctrl-C, or an abort
+    absent,        ///< what it needs did not come in time; nothing was flown
+};
+
+[[nodiscard]] CompanionEnd ended_by(Cause cause);
+
+struct SessionSetup {
+    PerchingTask task;
+    PerchingParameters guidance;
+    CompanionLimits limits;
+    bool by_request = false;     ///< begins when asked to perch, and waits for that without limit
+    bool rises = false;          ///< arms, and rises off its stand, itself
+    bool asks_for_mode = false;  ///< wants OFFBOARD once perch is asked; else an operator chooses
+    /// Motion capture is ours to watch; false: the autopilot's business.
+    bool watches_motion_capture = true;
+    /// Pump and valve are ours, once the cup is known to be free.
+    bool has_mechanism = true;
+};
+
+/// What is heard of the autopilot.
+struct AutopilotWord {
+    bool connected = false;
+    bool armed = false;
+    bool offboard = false;
+    bool in_air = true;  ///< also where nothing tells
+};
+
+/// What has come, stamped with the time at which it was measured.
+struct SessionInputs {
+    Readings readings;         ///< motion capture, LiDARs, force, cup pressure, battery
+    Sample<PoseReading> pose;  ///< the autopilot's estimate
+    Sample<Vector3> velocity_W_m_s{.value = Vector3::Zero()};
+    Sample<Vector3> rate_B_rad_s{.value = Vector3::Zero()};
+    Sample<AutopilotWord> autopilot;
+    std::string mechanism;  ///< why pump and valve will not do as they are told; empty: they will
+    std::string waits_for;  ///< what it takes to be flown, once ready: "not armed yet"
+};
+
+/// How it is watched; empty members watch nothing.
+struct CompanionWatch {
+    std::function<void(const Event&)> on_event;
+    /// A line for people: what it waits for, what it does, what was said.
+    std::function<void(double time_s, const std::string& text)> on_line;
+};
+
+/// To who asked for something.
+struct Answer {
+    bool done = false;
+    std::string message;
+};
+
+/// Allocates nothing while it flies.
+class PerchingSession {
+public:
+    PerchingSession(const SessionSetup& setup, CompanionWatch watch);
+
+    [[nodiscard]] SessionInputs& inputs() { return inputs_; }
+
+    // Words of an operator.
+
+    [[nodiscard]] Answer perch(double time_s);
+    [[nodiscard]] Answer take_off(double time_s);
+    [[nodiscard]] Answer abort();
+    /// The process is to end: also at rest on the wall.
+    void interrupt() { interrupted_ = true; }
+
+    /// One tick of guidance, guidance_rate_Hz times a second; time that runs back starts it anew.
+    void tick(double time_s);
+
+    // What shall be so after a tick.
+
+    [[nodiscard]] SessionPhase phase() const { return phase_; }
+    [[nodiscard]] double since_s() const { return phase_s_; }
+    [[nodiscard]] const Setpoint& setpoint() const { return setpoint_; }
+    [[nodiscard]] bool streams() const {
+        return phase_ == SessionPhase::ready || phase_ == SessionPhase::flying;
+    }
+    /// Pump and valve are told nothing until the cup is known to be free: it may hold a vehicle
+    /// that hangs there since the last time (docs/decisions/0013).
+    [[nodiscard]] bool drives_mechanism() const { return drives_mechanism_; }
+    /// Mode to ask the autopilot for, "" for none, until it is so.
+    [[nodiscard]] std::string_view wanted_mode() const;
+    /// Whether to ask it to arm or disarm.
+    [[nodiscard]] std::optional<bool> wanted_armed() const;
+
+    [[nodiscard]] const PerchingMemory& memory() const { return memory_; }
+    [[nodiscard]] Place place() const;
+    /// What keeps it from beginning or from carrying on; empty: nothing.
+    [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
+    [[nodiscard]] const std::optional<Outcome>& outcome() const { return outcome_; }
+    /// Of the outcome, or why control went back.
+    [[nodiscard]] const std::string& reason() const { return reason_; }
+    [[nodiscard]] const SessionSetup& setup() const { return setup_; }
+
+    // Of handed_back.
+
+    [[nodiscard]] CompanionEnd end() const { return end_; }
+    [[nodiscard]] Action left_by() const { return left_by_; }
+    [[nodiscard]] bool flew() const { return flew_; }  ///< guidance, before that
+
+private:
+    [[nodiscard]] bool heard(double time_s) const;
+    [[nodiscard]] bool pose_fresh(double time_s) const;
+    [[nodiscard]] std::string_view stale_estimate(double time_s) const;
+    [[nodiscard]] Estimate believe(double time_s) const;
+    [[nodiscard]] bool steers() const;
+    [[nodiscard]] std::string missing(double time_s) const;
+    [[nodiscard]] std::string disagreement() const;
+    [[nodiscard]] Signs look(double time_s) const;
+    void go(SessionPhase phase, double time_s);
+    void wait(double time_s);
+    void stay(double time_s);
+    void stand_ready(double time_s);
+    [[nodiscard]] bool at_start(double time_s);
+    void be_patient(double time_s);
+    void begin(double time_s);
+    void fly(double time_s);
+    void take_in(const Judgement& verdict, double time_s);
+    void come_to_end(double time_s);
+    void hand_back(Action action, CompanionEnd end, std::string reason, double time_s);
+    void report(const Event& event);
+    void say(double time_s, const std::string& text) const;
+
+    SessionSetup setup_;
+    CompanionWatch watch_;
+    SessionInputs inputs_;
+    SessionPhase phase_ = SessionPhase::waiting;
+    double last_s_ = -1.0;  ///< of the last tick; < 0: there was none
+    double phase_s_ = 0.0;  ///< since when in this phase
+    bool asked_ = false;    ///< for a flight
+    PerchingMemory memory_;
+    PerchingTask task_;
+    bool interrupted_ = false;
+    bool late_ = false;
+    bool engaged_ = false;  ///< the autopilot has flown our set-points
+    ArmingWatch arming_;
+    Judgement pending_;  ///< why it finishes, where it does
+    double steady_since_s_ = -1.0;
+    Setpoint setpoint_;  ///< what autopilot and mechanism are told
+    bool drives_mechanism_ = false;
+    CompanionEnd end_ = CompanionEnd::absent;
+    Action left_by_ = Action::let_go;
+    bool flew_ = false;
+    std::string obstacle_;
+    std::string told_obstacle_;
+    double told_obstacle_s_ = -1e9;
+    std::optional<Outcome> outcome_;
+    std::string reason_;
+};
+
+}  // namespace limpet

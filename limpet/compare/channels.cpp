@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/compare/channels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "limpet/core/frames.hpp"
+#include "limpet/record/ros_frames.hpp"
+#include "limpet/record/story.hpp"
+#include "limpet/record/topics.hpp"
+#include "limpet/record/units.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDeg = 180.0 / kPi;
+constexpr double kTurn_deg = 360.0;
+/// Samples further apart than so many usual steps have a gap between them. A reading that comes
+/// late by one step is none.
+constexpr double kGapSteps = 3.5;
+
+/// Where a channel comes from and what its numbers are multiplied by.
+struct ChannelSource {
+    std::string_view name;
+    std::string_view group;
+    std::string_view title;
+    std::string_view unit;
+    std::string_view topic;
+    std::string_view column;
+    double scale = 1.0;
+    ChannelKind kind = ChannelKind::number;
+};
+
+constexpr auto kAngle = ChannelKind::angle;
+constexpr auto kState = ChannelKind::state;
+
+/// ROS's "map" is east-north-up, its "base_link" forward-left-up: y and z of ours change.
+constexpr ChannelSource kChannelSources[] = {
+    {"cup_pressure_hPa", "cup", "pressure in the cup", "hPa", "/cup", "pressure_Pa",
+     hectopascals(1.0)},
+    {"cup_pressure_measured_hPa", "cup", "pressure in the cup, measured", "hPa",
+     "/sensors/cup_pressure", "fluid_pressure", hectopascals(1.0)},
+    {"cup_pull_N", "cup", "pull on the cup", "N", "/cup", "pull_N"},
+    {"cup_shear_N", "cup", "shear on the cup", "N", "/cup", "shear_N"},
+    {"cup_peel_N_m", "cup", "peel on the cup", "N m", "/cup", "peel_N_m"},
+    {"cup_phase", "cup", "phase of the cup", "", "/cup", "phase", 1.0, kState},
+    {"pump_running", "cup", "pump", "", "/cup", "pump_running", 1.0, kState},
+    {"valve_open", "cup", "valve", "", "/cup", "valve_open", 1.0, kState},
+    {"slider_force_N", "force", "force through the slider", "N", "/truth/vehicle",
+     "slider_force_N"},
+    {"slider_force_measured_N", "force", "force through the slider, measured", "N",
+     "/sensors/force", "wrench.force.x"},
+    {"slider_mm", "force", "slider", "mm", "/truth/vehicle", "slider_position_m", 1e3},
+    {"legs_force_north_N", "force", "force of the wall on the legs, north", "N", "/truth/vehicle",
+     "legs_force_north_N"},
+    {"legs_force_down_N", "force", "force of the wall on the legs, down", "N", "/truth/vehicle",
+     "legs_force_down_N"},
+    {"pitch_deg", "attitude", "pitch", "deg", "/truth/vehicle", "pitch_rad", kDeg, kAngle},
+    {"roll_deg", "attitude", "roll", "deg", "/truth/vehicle", "roll_rad", kDeg, kAngle},
+    {"yaw_deg", "attitude", "yaw", "deg", "/truth/vehicle", "yaw_rad", kDeg, kAngle},
+    {"cup_pitch_deg", "attitude", "cup on its joint, pitch", "deg", "/truth/vehicle",
+     "cup_pitch_rad", kDeg, kAngle},
+    {"cup_yaw_deg", "attitude", "cup on its joint, yaw", "deg", "/truth/vehicle", "cup_yaw_rad",
+     kDeg, kAngle},
+    {"rate_pitch_deg_s", "rates", "pitch rate", "deg/s", "/truth/vehicle", "rate_right_rad_s",
+     kDeg},
+    {"rate_roll_deg_s", "rates", "roll rate", "deg/s", "/truth/vehicle", "rate_forward_rad_s",
+     kDeg},
+    {"rate_yaw_deg_s", "rates", "yaw rate", "deg/s", "/truth/vehicle", "rate_down_rad_s", kDeg},
+    {"north_m", "position", "north", "m", "/truth/pose", "pose.position.y"},
+    {"east_m", "position", "east", "m", "/truth/pose", "pose.position.x"},
+    {"down_m", "position", "down", "m", "/truth/pose", "pose.position.z", -1.0},
+    {"estimated_north_m", "position", "north, estimated", "m", "/estimate/pose", "pose.position.y"},
+    {"estimated_east_m", "position", "east, estimated", "m", "/estimate/pose", "pose.position.x"},
+    {"estimated_down_m", "position", "down, estimated", "m", "/estimate/pose", "pose.position.z",
+     -1.0},
+    {"velocity_north_m_s", "speed", "speed north", "m/s", "/truth/vehicle", "velocity_north_m_s"},
+    {"velocity_east_m_s", "speed", "speed east", "m/s", "/truth/vehicle", "velocity_east_m_s"},
+    {"velocity_down_m_s", "speed", "speed down", "m/s", "/truth/vehicle", "velocity_down_m_s"},
+    {"estimated_speed_forward_m_s", "speed", "speed forward, estimated", "m/s", "/estimate/twist",
+     "twist.linear.x"},
+    {"estimated_speed_right_m_s", "speed", "speed to the right, estimated", "m/s",
+     "/estimate/twist", "twist.linear.y", -1.0},
+    {"estimated_speed_down_m_s", "speed", "speed down the body, estimated", "m/s",
+     "/estimate/twist", "twist.linear.z", -1.0},
+    {"lidar_left_m", "distance", "LiDAR, left", "m", "/sensors/range_left", "range"},
+    {"lidar_right_m", "distance", "LiDAR, right", "m", "/sensors/range_right", "range"},
+    {"thrust_N", "rotors", "total thrust", "N", "/truth/vehicle", "thrust_N"},
+    {"rotor_0_rad_s", "rotors", "rotor front right", "rad/s", "/truth/vehicle",
+     "rotor_speed_rad_s[0]"},
+    {"rotor_1_rad_s", "rotors", "rotor rear left", "rad/s", "/truth/vehicle",
+     "rotor_speed_rad_s[1]"},
+    {"rotor_2_rad_s", "rotors", "rotor front left", "rad/s", "/truth/vehicle",
+     "rotor_speed_rad_s[2]"},
+    {"rotor_3_rad_s", "rotors", "rotor rear right", "rad/s", "/truth/vehicle",
+     "rotor_speed_rad_s[3]"},
+    {"battery_V", "battery", "battery", "V", "/truth/vehicle", "battery_voltage_V"},
+    {"battery_A", "battery", "current", "A", "/truth/vehicle", "battery_current_A"},
+    {"battery_measured_V", "battery", "battery, measured", "V", "/sensors/battery", "voltage"},
+    {"setpoint_north_m", "setpoint", "asked: north", "m", "/setpoint", "position_north_m"},
+    {"setpoint_east_m", "setpoint", "asked: east", "m", "/setpoint", "position_east_m"},
+    {"setpoint_down_m", "setpoint", "asked: down", "m", "/setpoint", "position_down_m"},
+    {"setpoint_speed_north_m_s", "setpoint", "asked: speed north", "m/s", "/setpoint",
+     "velocity_north_m_s"},
+    {"setpoint_pitch_deg", "setpoint", "asked: pitch", "deg", "/setpoint", "pitch_rad", kDeg,
+     kAngle},
+    {"setpoint_yaw_deg", "setpoint", "asked: yaw", "deg", "/setpoint", "yaw_rad", kDeg, kAngle},
+    {"setpoint_thrust", "setpoint", "asked: thrust", "share", "/setpoint", "thrust"},
+    {"setpoint_mode", "setpoint", "mode", "", "/setpoint", "mode", 1.0, kState},
+    {"setpoint_armed", "setpoint", "armed", "", "/setpoint", "armed", 1.0, kState},
+    {"setpoint_pump", "setpoint", "asked: pump", "", "/setpoint", "pump_on", 1.0, kState},
+    {"setpoint_valve", "setpoint", "asked: valve", "", "/setpoint", "valve_open", 1.0, kState},
+};
+
+/// Times ascend, gap_s is known. Recorders write in order; other people's files need not.
+void finish(FlightChannel& channel) {
+    auto& t = channel.time_s;
+    if (!std::is_sorted(t.begin(), t.end())) {
+        std::vector<std::size_t> order(t.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&t](std::size_t a, std::size_t b) { return t[a] < t[b]; });
+        const FlightChannel before = channel;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            t[i] = before.time_s[order[i]];
+            channel.values[i] = before.values[order[i]];
+        }
+    }
+    if (t.size() < 2) {
+        return;
+    }
+    std::vector<double> steps(t.size());
+    std::adjacent_difference(t.begin(), t.end(), steps.begin());
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(1 + (steps.size() - 1) / 2);
+    std::nth_element(steps.begin() + 1, middle, steps.end());
+    channel.gap_s = kGapSteps * *middle;
+}
+
+void add(std::vector<FlightChannel>& channels, FlightChannel channel) {
+    for (double& value : channel.values) {
+        value = std::isfinite(value) ? value : kNaN;
+    }
+    const bool any = std::any_of(channel.values.begin(), channel.values.end(),
+                                 [](double value) { return !std::isnan(value); });
+    if (any) {
+        finish(channel);
+        channels.push_back(std::move(channel));
+    }
+}
+
+FlightChannel channel_of(const Table& table, const ChannelSource& source,
+                         const std::vector<double>& values) {
+    FlightChannel channel{.name = std::string(source.name),
+                          .group = std::string(source.group),
+                          .title = std::string(source.title),
+                          .unit = std::string(source.unit),
+                          .kind = source.kind,
+                          .time_s = table.time_s,
+                          .values = values};
+    for (double& value : channel.values) {
+        value *= source.scale;
+    }
+    return channel;
+}
+
+/// The autopilot's attitude as angles.
+void add_estimated_attitude(std::vector<FlightChannel>& channels, const Recording& recording) {
+    const Table* table = find_table(recording, "/estimate/pose");
+    if (table == nullptr) {
+        return;
+    }
+    constexpr std::array kParts = {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y",
+                                   "pose.orientation.z"};
+    std::array<const Column*, kParts.size()> q{};
+    std::transform(kParts.begin(), kParts.end(), q.begin(),
+                   [table](const char* part) { return table->find(part); });
+    if (std::find(q.begin(), q.end(), nullptr) != q.end()) {
+        return;
+    }
+    std::vector<double> roll(table->time_s.size());
+    std::vector<double> pitch = roll;
+    std::vector<double> yaw = roll;
+    for (std::size_t i = 0; i < roll.size(); ++i) {
+        const Quaternion q_ros(q[0]->values[i], q[1]->values[i], q[2]->values[i], q[3]->values[i]);
+        const Euler angles = euler_from_quaternion(ros::enu_flu_from_ned_frd(q_ros));
+        roll[i] = angles.roll_rad;
+        pitch[i] = angles.pitch_rad;
+        yaw[i] = angles.yaw_rad;
+    }
+    for (const auto& [name, title, values] :
+         {std::tuple{"estimated_pitch_deg", "pitch, estimated", &pitch},
+          std::tuple{"estimated_roll_deg", "roll, estimated", &roll},
+          std::tuple{"estimated_yaw_deg", "yaw, estimated", &yaw}}) {
+        add(channels,
+            channel_of(*table, {name, "attitude", title, "deg", {}, {}, kDeg, kAngle}, *values));
+    }
+}
+
+void add_guidance_state(std::vector<FlightChannel>& channels, const Recording& recording,
+                        StateNumbers& numbers) {
+    const Table* table = find_table(recording, "/guidance");
+    const TextColumn* states = table == nullptr ? nullptr : table->find_text("state");
+    if (states == nullptr) {
+        return;
+    }
+    std::vector<double> values;
+    for (const std::string& state : states->values) {
+        const auto next = static_cast<double>(numbers.size());
+        values.push_back(numbers.try_emplace(state, next).first->second);
+    }
+    add(channels,
+        channel_of(*table,
+                   {"guidance_state", "setpoint", "state of guidance", "", {}, {}, 1.0, kState},
+                   values));
+}
+
+bool is_ours(const Table& table) {
+    return std::any_of(kTopics.begin(), kTopics.end(),
+                       [&table](const TopicInfo& topic) { return topic.name == table.topic; });
+}
+
+}  // namespace
+
+std::vector<FlightChannel> flight_channels(const Recording& recording, StateNumbers& numbers) {
+    std::vector<FlightChannel> channels;
+    for (const ChannelSource& source : kChannelSources) {
+        const Table* table = find_table(recording, source.topic);
+        const Column* column = table == nullptr ? nullptr : table->find(source.column);
+        if (column != nullptr) {
+            add(channels, channel_of(*table, source, column->values));
+        }
+    }
+    add_estimated_attitude(channels, recording);
+    add_guidance_state(channels, recording, numbers);
+    for (const Table& table : recording.tables) {
+        for (const Column& column : table.columns) {
+            if (!is_ours(table) && column.name.find("stamp") == std::string::npos) {
+                const std::string name =
+                    table.topic + "/" + column_name_with_unit(table.type, column.name);
+                add(channels, channel_of(table, {name, "others", name, "", {}, {}}, column.values));
+            }
+        }
+    }
+    return channels;
+}
+
+const FlightChannel* find_channel(const std::vector<FlightChannel>& channels,
+                                  std::string_view name) {
+    const auto found = std::find_if(channels.begin(), channels.end(),
+                                    [name](const FlightChannel& c) { return c.name == name; });
+    return found == channels.end() ? nullptr : &*found;
+}
+
+double difference_of(ChannelKind kind, double reference, double other) {
+    switch (kind) {
+        case ChannelKind::number: return other - reference;
+        case ChannelKind::angle: {
+            const double turned = other - reference;
+            return turned - kTurn_deg * std::floor((turned + 0.5 * kTurn_deg) / kTurn_deg);
+        }
+        case ChannelKind::state:
+            return std::isnan(reference) || std::isnan(other) ? kNaN
+                   : reference == other                       ? 0.0
+                                                              : 1.0;
+    }
+    return kNaN;
+}
+
+double value_at(const FlightChannel& channel, double time_s) {
+    constexpr double kSame_s = 1e-9;  // recorded times are whole nanoseconds
+    const auto& t = channel.time_s;
+    const auto after = std::lower_bound(t.begin(), t.end(), time_s - kSame_s);
+    if (after == t.end()) {
+        return kNaN;
+    }
+    const auto right = static_cast<std::size_t>(after - t.begin());
+    if (t[right] <= time_s + kSame_s) {
+        return channel.values[right];
+    }
+    if (right == 0 || t[right] - t[right - 1] > channel.gap_s) {
+        return kNaN;
+    }
+    const double left_value = channel.values[right - 1];
+    if (channel.kind == ChannelKind::state) {
+        return left_value;
+    }
+    const double share = (time_s - t[right - 1]) / (t[right] - t[right - 1]);
+    return left_value + share * difference_of(channel.kind, left_value, channel.values[right]);
+}
+
+}  // namespace limpet

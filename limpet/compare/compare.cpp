@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/compare/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "limpet/compare/rest.hpp"
+#include "limpet/core/errors.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+FlightIdentity identity(const FlightTrace& flight) {
+    const Window whole = whole_flight(*flight.recording);
+    return {flight.label, flight.recording->path.string(), summary(*flight.recording), whole.from_s,
+            whole.to_s};
+}
+
+Extremes extremes(const FlightChannel& channel) {
+    Extremes found{kNaN, kNaN};
+    for (const double value : channel.values) {
+        found.lowest = std::fmin(found.lowest, value);
+        found.highest = std::fmax(found.highest, value);
+    }
+    return found;
+}
+
+/// Names for instants of the reference.
+class PhaseNames {
+public:
+    PhaseNames(const Recording& recording, const std::vector<Piece>& pieces)
+        : phases_(phases(recording)), pieces_(pieces) {}
+    [[nodiscard]] std::string at(double time_s) const {
+        for (const Phase& phase : phases_) {
+            if (phase.window.holds(time_s) && time_s < phase.window.to_s) {
+                return phase.state;
+            }
+        }
+        std::string name = "start";
+        for (const Piece& piece : pieces_) {
+            name = piece.window.from_s <= time_s ? piece.from : name;
+        }
+        return phases_.empty() ? name : phases_.back().state;
+    }
+
+private:
+    std::vector<Phase> phases_;
+    const std::vector<Piece>& pieces_;
+};
+
+ChannelDifference compare_channel(const FlightChannel& reference, const FlightChannel& other,
+                                  const std::vector<Piece>& pieces, const PhaseNames& names) {
+    ChannelDifference result{.name = reference.name,
+                             .unit = reference.unit,
+                             .kind = reference.kind,
+                             .reference = extremes(reference),
+                             .other = extremes(other)};
+    double squares = 0.0;
+    const auto& t = reference.time_s;
+    for (const Piece& piece : pieces) {
+        const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
+        for (auto i = static_cast<std::size_t>(first - t.begin());
+             i < t.size() && t[i] < piece.window.to_s; ++i) {
+            const double difference = std::abs(difference_of(
+                reference.kind, reference.values[i], value_at(other, t[i] + piece.shift_s)));
+            if (std::isnan(difference)) {
+                continue;
+            }
+            if (result.samples == 0 || difference > result.largest) {
+                result.largest = difference;
+                result.at_s = t[i];
+            }
+            squares += difference * difference;
+            ++result.samples;
+        }
+    }
+    if (result.samples > 0) {
+        result.rms = std::sqrt(squares / static_cast<double>(result.samples));
+        result.phase = names.at(result.at_s);
+    }
+    return result;
+}
+
+/// The numbers of a flight's own summary.
+std::vector<std::pair<std::string, double>> metrics(const Recording& recording) {
+    std::vector<std::pair<std::string, double>> found;
+    const mcap::Attachment* attached = recording.attachment("summary.json");
+    if (attached == nullptr) {
+        return found;
+    }
+    const auto json = nlohmann::ordered_json::parse(attached->text, nullptr, false);
+    if (!json.is_object() || !json.contains("metrics") || !json["metrics"].is_object()) {
+        return found;
+    }
+    for (const auto& [name, value] : json["metrics"].items()) {
+        if (value.is_number()) {
+            found.emplace_back(name, value.get<double>());
+        }
+    }
+    return found;
+}
+
+void add_rest(std::vector<FlightFigure>& figures, const Recording& reference,
+              const Recording& other) {
+    const auto a = rest_of(reference);
+    const auto b = rest_of(other);
+    if (!a && !b) {
+        return;
+    }
+    const auto row = [&](const char* name, double Rest::*field) {
+        figures.push_back({name, a ? (*a).*field : kNaN, b ? (*b).*field : kNaN});
+    };
+    row("rest_pitch_deg", &Rest::pitch_deg);
+    row("rest_roll_deg", &Rest::roll_deg);
+    row("rest_slider_mm", &Rest::slider_mm);
+    row("rest_cup_pull_N", &Rest::cup_pull_N);
+    row("rest_cup_shear_N", &Rest::cup_shear_N);
+    row("rest_wall_push_N", &Rest::wall_push_N);
+    row("rest_hanging_load_N", &Rest::hanging_load_N);
+    row("weight_N", &Rest::weight_N);
+    const auto share_off = [](const std::optional<Rest>& rest) {
+        return rest ? rest->hanging_load_N / rest->weight_N - 1.0 : kNaN;
+    };
+    figures.push_back({"rest_hanging_load_off_weight", share_off(a), share_off(b), true});
+}
+
+std::vector<FlightFigure> figures_of(const Recording& reference, const Recording& other) {
+    std::vector<FlightFigure> figures;
+    for (const auto& [name, value] : metrics(reference)) {
+        figures.push_back({name, value, kNaN});
+    }
+    for (const auto& [name, value] : metrics(other)) {
+        const auto same = std::find_if(figures.begin(), figures.end(),
+                                       [&n = name](const FlightFigure& f) { return f.name == n; });
+        if (same != figures.end()) {
+            same->other = value;
+        } else {
+            figures.push_back({name, kNaN, value});
+        }
+    }
+    add_rest(figures, reference, other);
+    return figures;
+}
+
+/// Without an InputError's file nobody knows which of the flights is meant.
+std::string both(const FlightComparison& comparison) {
+    return comparison.reference.path + " and " + comparison.other.path;
+}
+
+void compare_channels(FlightComparison& comparison, const FlightTrace& reference,
+                      const FlightTrace& other) {
+    const PhaseNames names(*reference.recording, comparison.pieces);
+    for (const FlightChannel& channel : reference.channels) {
+        const FlightChannel* same = find_channel(other.channels, channel.name);
+        if (same == nullptr) {
+            comparison.only_in_reference.push_back(channel.name);
+        } else {
+            comparison.channels.push_back(
+                compare_channel(channel, *same, comparison.pieces, names));
+        }
+    }
+    for (const FlightChannel& channel : other.channels) {
+        if (find_channel(reference.channels, channel.name) == nullptr) {
+            comparison.only_in_other.push_back(channel.name);
+        }
+    }
+    if (comparison.channels.empty()) {
+        throw InputError(both(comparison) + ": no channel in common");
+    }
+}
+
+}  // namespace
+
+double FlightFigure::off() const {
+    return against_zero ? std::abs(other) : std::abs(other - reference);
+}
+
+double FlightComparison::event_difference_s(const EventPair& event) const {
+    return event.other_s - event.reference_s - base_shift_s;
+}
+
+FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
+                         const Alignment& alignment) {
+    FlightComparison comparison{.reference = identity(reference), .other = identity(other)};
+    const Window of_reference{comparison.reference.from_s, comparison.reference.to_s};
+    const Window of_other{comparison.other.from_s, comparison.other.to_s};
+    comparison.events = pair_events(*reference.recording, *other.recording);
+    try {
+        comparison.pieces = align(comparison.events, of_reference, of_other, alignment);
+        comparison.base_shift_s =
+            base_shift_s(comparison.events, of_reference, of_other, alignment);
+    } catch (const InputError& problem) {
+        throw InputError(fmt::format("{}: {}", both(comparison), problem.what()));
+    }
+    comparison.figures = figures_of(*reference.recording, *other.recording);
+    comparison.contacts = compare_contacts(*reference.recording, reference.channels,
+                                           *other.recording, other.channels);
+    compare_channels(comparison, reference, other);
+    return comparison;
+}
+
+}  // namespace limpet

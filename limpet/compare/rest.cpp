@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/compare/rest.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
+#include "limpet/draw/mjcf.hpp"
+#include "limpet/record/ros_frames.hpp"
+#include "limpet/record/story.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kLeastRest_s = 1.0;
+constexpr double kMillimetres = 1e3;
+
+/// Weight of all that hangs on "base" [N].
+double weight_N(const Recording& recording) {
+    const mcap::Attachment* attached = recording.attachment("model.xml");
+    if (attached == nullptr) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    const MujocoModel model = compile_mjcf(attached->text);
+    const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
+    return base < 0 ? std::numeric_limits<double>::quiet_NaN()
+                    : model->body_subtreemass[base] * kGravity_m_s2;
+}
+
+/// Columns of one table by name; empty when one is missing.
+template <std::size_t N>
+std::array<const Column*, N> columns(const Table* table, const std::array<const char*, N>& names) {
+    std::array<const Column*, N> found{};
+    for (std::size_t i = 0; i < N; ++i) {
+        found[i] = table == nullptr ? nullptr : table->find(names[i]);
+        if (found[i] == nullptr) {
+            return {};
+        }
+    }
+    return found;
+}
+
+/// The last rest but its first half.
+std::optional<Window> settled(const Recording& recording) {
+    std::optional<Window> window;
+    for (const Phase& phase : phases(recording)) {
+        if (phase.state == "resting" && phase.window.span_s() >= kLeastRest_s) {
+            window = {0.5 * (phase.window.from_s + phase.window.to_s), phase.window.to_s};
+        }
+    }
+    return window;
+}
+
+}  // namespace
+
+std::optional<Rest> rest_of(const Recording& recording) {
+    const auto window = settled(recording);
+    const Table* truth = find_table(recording, "/truth/vehicle");
+    const Table* wrench = find_table(recording, "/truth/cup_wrench");
+    const Table* cup = find_table(recording, "/cup");
+    const auto v =
+        columns<8>(truth, {"roll_rad", "pitch_rad", "yaw_rad", "cup_pitch_rad", "cup_yaw_rad",
+                           "slider_position_m", "legs_force_north_N", "legs_force_down_N"});
+    const auto w = columns<3>(wrench, {"wrench.force.x", "wrench.force.y", "wrench.force.z"});
+    const auto c = columns<2>(cup, {"pull_N", "shear_N"});
+    // The three are written together: one row of each an instant.
+    if (!window || v[0] == nullptr || w[0] == nullptr || c[0] == nullptr ||
+        truth->time_s != wrench->time_s || truth->time_s != cup->time_s) {
+        return std::nullopt;
+    }
+    Rest sum;
+    double samples = 0.0;
+    for (std::size_t i = 0; i < truth->time_s.size(); ++i) {
+        if (!window->holds(truth->time_s[i])) {
+            continue;
+        }
+        const auto at = [i](const Column* column) { return column->values[i]; };
+        const Quaternion q_WB = quaternion_from_euler(
+            {.roll_rad = at(v[0]), .pitch_rad = at(v[1]), .yaw_rad = at(v[2])});
+        const Quaternion q_BC = Eigen::AngleAxisd(at(v[3]), Vector3::UnitY()) *
+                                Eigen::AngleAxisd(at(v[4]), Vector3::UnitZ());
+        const Vector3 cup_W = q_WB * q_BC * ros::flu_from_frd({at(w[0]), at(w[1]), at(w[2])});
+        sum.pitch_deg += degrees(at(v[1]));
+        sum.roll_deg += degrees(at(v[0]));
+        sum.slider_mm += kMillimetres * at(v[5]);
+        sum.cup_pull_N += at(c[0]);
+        sum.cup_shear_N += at(c[1]);
+        sum.hanging_load_N -= cup_W.z() + at(v[7]);
+        sum.wall_push_N -= cup_W.x() + at(v[6]);
+        samples += 1.0;
+    }
+    if (samples < 1.0) {
+        return std::nullopt;
+    }
+    for (double* value : {&sum.pitch_deg, &sum.roll_deg, &sum.slider_mm, &sum.cup_pull_N,
+                          &sum.cup_shear_N, &sum.hanging_load_N, &sum.wall_push_N}) {
+        *value /= samples;
+    }
+    sum.weight_N = weight_N(recording);
+    return sum;
+}
+
+}  // namespace limpet

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "limpet/core/wall.hpp"
+
+namespace limpet {
+namespace {
+
+/// Of the box behind the face. The same in every engine.
+constexpr double kThickness_m = 0.2;
+
+TangentFrame plane_frame(const WallGeometry& wall, const Vector3& p_W_m) {
+    const Vector3 p_T_m = wall.R_WT.transpose() * (p_W_m - wall.p_WT_m);
+    return {.R_WT = wall.R_WT,
+            .gap_m = -p_T_m.x(),
+            .y_m = p_T_m.y(),
+            .z_m = p_T_m.z(),
+            .on_wall = std::abs(p_T_m.y()) <= wall.half_width_m &&
+                       std::abs(p_T_m.z()) <= wall.half_height_m};
+}
+
+double before_plane_m(const WallGeometry& wall, const Vector3& p_W_m) {
+    return -wall.R_WT.col(0).dot(p_W_m - wall.p_WT_m);
+}
+
+WallSolid plane_solid(const WallGeometry& wall) {
+    return {.kind = WallSolid::Kind::box,
+            .p_TS_m = {0.5 * kThickness_m, 0.0, 0.0},
+            .size_m = {kThickness_m, 2.0 * wall.half_width_m, 2.0 * wall.half_height_m}};
+}
+
+}  // namespace
+
+const WallShape kPlaneWall = {"plane", "flat, width_m by height_m", &plane_frame, &before_plane_m,
+                              &plane_solid};
+
+}  // namespace limpet

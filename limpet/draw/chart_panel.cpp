@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/draw/axes.hpp"
+#include "limpet/draw/chart_parts.hpp"
+#include "limpet/draw/colours.hpp"
+#include "limpet/draw/gnuplot.hpp"
+
+namespace limpet {
+namespace {
+
+using Mark = ChartSeries::Mark;
+
+constexpr double kSample_px = 64.0;  ///< of the key: a stroke and the air around it and its name
+constexpr double kNameGap_px = 21.0;
+constexpr double kLeader_px = 20.0;  ///< from a moment's line to its slanted name
+constexpr double kLevelLine_px = 18.0;
+constexpr double kLevelNames_px = 150.0;  ///< most that names of levels take
+constexpr double kMostBar_px = 80.0;
+
+constexpr const char* kPalette[] = {colours::kDarkBlue, colours::kOrange, colours::kBlue,
+                                    colours::kRust,     colours::kGreen,  colours::kPlum};
+// Dark intervals are seen on these.
+constexpr const char* kBarPalette[] = {colours::kBlue, colours::kPeach, colours::kGreen,
+                                       colours::kPlum, colours::kOrange};
+constexpr int kShapes[] = {7, 5, 9, 13, 11, 6};  // gnuplot's: disc, square, triangle, ...
+
+void check(const ChartPanel& panel) {
+    for (const ChartSeries& s : panel.series) {
+        require(s.x.size() == s.y.size(), "a series has as many x as y");
+        require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
+                "a series has an interval for each point, or none");
+    }
+    for (const auto& range : {panel.x_range, panel.y_range}) {
+        require(!range || range->low < range->high, "a range has a low end and a high end");
+    }
+    require((!panel.log_x || x_axis(panel).low > 0.0) && (!panel.log_y || y_axis(panel).low > 0.0),
+            "a logarithmic axis is positive");
+}
+
+std::string colour_of(const ChartPanel& panel, std::size_t index) {
+    const std::string& own = panel.series[index].colour;
+    if (own.empty()) {
+        return panel.series[index].mark == Mark::bars ? kBarPalette[index % std::size(kBarPalette)]
+                                                      : kPalette[index % std::size(kPalette)];
+    }
+    require(own.size() == 7 && own[0] == '#' &&
+                own.find_first_not_of("0123456789abcdefABCDEF", 1) == own.npos,
+            "a colour is #RRGGBB");
+    return own;
+}
+
+/// Series of a mark before one of them.
+std::size_t count_of(const ChartPanel& panel, Mark mark, std::size_t before) {
+    return static_cast<std::size_t>(std::count_if(
+        panel.series.begin(), panel.series.begin() + static_cast<std::ptrdiff_t>(before),
+        [mark](const ChartSeries& s) { return s.mark == mark; }));
+}
+
+bool has_number(const ChartPanel& panel) {
+    return std::any_of(panel.series.begin(), panel.series.end(), [&panel](const ChartSeries& s) {
+        const auto& y = s.mark == Mark::none ? s.high : s.y;
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            if (drawable(s.x[i], panel.log_x) && drawable(y[i], panel.log_y)) {
+                return true;
+            }
+        }
+        return false;
+    });
+}
+
+/// The key: beside what stands above the axes when it fits, else in rows of its own.
+struct Key {
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+};
+
+Key key_of(const ChartPanel& panel, double width_px) {
+    double widest = 0.0, entries = 0.0;
+    for (const ChartSeries& s : panel.series) {
+        widest = std::max(widest, text_width_px(s.name, kChartSmall_px));
+        entries += s.name.empty() ? 0.0 : 1.0;
+    }
+    if (entries == 0.0) {
+        return {};
+    }
+    const double entry = widest + kSample_px;
+    const double beside = panel.y_label.empty() ? text_width_px(panel.title, kPanelTitle_px)
+                                                : text_width_px(panel.y_label, kChartSmall_px);
+    if (beside > 0.0 && beside + entries * entry <= width_px) {
+        return {static_cast<std::size_t>(entries), 0};
+    }
+    const double columns = std::clamp(std::floor(width_px / entry), 1.0, entries);
+    return {static_cast<std::size_t>(columns),
+            static_cast<std::size_t>(std::ceil(entries / columns))};
+}
+
+/// Moments within the axes from left to right, with room for their names.
+struct MomentNames {
+    std::vector<ChartLine> lines;
+    std::vector<double> at_px;  ///< from the plot's left
+    bool slanted = false;       ///< they do not fit beside each other, each at its line's right
+    double height_px = 0.0;
+};
+
+MomentNames moments_of(const ChartPanel& panel, double width_px) {
+    MomentNames names;
+    const Range x = x_axis(panel);
+    for (const ChartLine& moment : panel.moments) {
+        if (drawable(moment.at, panel.log_x) && moment.at >= x.low && moment.at <= x.high) {
+            names.lines.push_back(moment);
+        }
+    }
+    std::stable_sort(names.lines.begin(), names.lines.end(),
+                     [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
+    double longest = 0.0, taken = 0.0;
+    for (const ChartLine& line : names.lines) {
+        names.at_px.push_back(share_of(line.at, x, panel.log_x) * width_px);
+        const double wide = text_width_px(line.label, kChartSmall_px);
+        names.slanted =
+            names.slanted || (wide > 0.0 && (names.at_px.back() < taken ||
+                                             names.at_px.back() + 10.0 + wide > width_px));
+        taken = std::max(taken, names.at_px.back() + (wide > 0.0 ? 10.0 + wide : 0.0));
+        longest = std::max(longest, wide);
+    }
+    constexpr double kSin = 0.866;  // of 60 deg
+    names.height_px = longest == 0.0  ? 0.0
+                      : names.slanted ? kSin * longest + kLeader_px + 14.0
+                                      : kLine_px;
+    return names;
+}
+
+bool has_names(const ChartPanel& panel) {
+    return std::any_of(panel.stretches.begin(), panel.stretches.end(),
+                       [](const ChartStretch& s) { return !s.name.empty(); });
+}
+
+/// Names under the axis: each within its share of it, or slanted when one does not fit.
+struct CategoryNames {
+    std::string tics;  ///< gnuplot's list
+    bool slanted = false;
+    double height_px = 0.0;
+};
+
+CategoryNames category_names(const ChartPanel& panel, double width_px) {
+    CategoryNames names;
+    const double slot = width_px / static_cast<double>(panel.categories.size()) - 8.0;
+    double longest = 0.0;
+    std::size_t most = 1;
+    for (const std::string& name : panel.categories) {
+        const auto lines = wrapped(name, kChartSmall_px, slot);
+        most = std::max(most, lines.size());
+        longest = std::max(longest, text_width_px(name, kChartSmall_px));
+        for (const std::string& line : lines) {
+            names.slanted = names.slanted || text_width_px(line, kChartSmall_px) > slot;
+        }
+    }
+    for (std::size_t i = 0; i < panel.categories.size(); ++i) {
+        std::string text;
+        for (const std::string& line :
+             wrapped(panel.categories[i], kChartSmall_px, names.slanted ? 1e9 : slot)) {
+            const std::string literal = gnuplot::literal(line);
+            text += (text.empty() ? "" : "\\n") + literal.substr(1, literal.size() - 2);
+        }
+        names.tics += fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ", text, i);
+    }
+    constexpr double kSin = 0.643;  // of 40 deg
+    names.height_px =
+        names.slanted ? kSin * longest + 14.0 : 0.86 * kLine_px * static_cast<double>(most) + 10.0;
+    return names;
+}
+
+class PanelDrawing {
+public:
+    PanelDrawing(Sketch& sketch, ChartData& data, const ChartPanel& panel, const Box& box)
+        : sketch_(sketch),
+          data_(data),
+          panel_(panel),
+          box_(box),
+          x_(x_axis(panel)),
+          y_(y_axis(panel)) {}
+
+    void draw() {
+        double y = box_.top_px - head_px(panel_, box_.width_px());
+        y = draw_lines(sketch_, title_lines(panel_.title, box_.width_px()), box_.left_px, y,
+                       kPanelTitle_px, colours::kInk);
+        y = key(y);
+        if (!panel_.y_label.empty()) {
+            sketch_.label(box_.left_px, box_.top_px - 16.0, panel_.y_label, kChartSmall_px,
+                          panel_.title.empty() ? colours::kInk : colours::kFaint);
+        }
+        levels();
+        moments(y);
+        stretches();
+        axes();
+        plot();
+    }
+
+private:
+    [[nodiscard]] double x_px(double value) const {
+        return box_.left_px + share_of(value, x_, panel_.log_x) * box_.width_px();
+    }
+    [[nodiscard]] double y_px(double value) const {
+        return box_.bottom_px - share_of(value, y_, panel_.log_y) * box_.height_px();
+    }
+
+    /// gnuplot's, in a place of its own. @return where its rows end
+    double key(double top_px) {
+        const Key key = key_of(panel_, box_.width_px());
+        if (key.columns == 0) {
+            sketch_.add("unset key\n");
+            return top_px;
+        }
+        const double beside_px = panel_.y_label.empty() ? top_px - kLine_px : box_.top_px - 27.0;
+        const bool beside = key.rows == 0;
+        sketch_.add(
+            "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing 1.2 "
+            "noenhanced font "
+            "'DejaVu Sans,{}' textcolor rgb '{}'\n",
+            sketch_.at(beside ? box_.right_px : box_.left_px - 8.0, beside ? beside_px : top_px),
+            beside ? "right" : "left", key.columns, kChartSmall_px, colours::kInk);
+        return top_px + kLine_px * static_cast<double>(key.rows);
+    }
+
+    /// Lines at their heights, names at the right, moved apart where they would touch.
+    void levels() {
+        std::vector<ChartLine> shown;
+        std::copy_if(panel_.levels.begin(), panel_.levels.end(), std::back_inserter(shown),
+                     [this](const ChartLine& level) {
+                         return drawable(level.at, panel_.log_y) && level.at >= y_.low &&
+                                level.at <= y_.high;
+                     });
+        std::sort(shown.begin(), shown.end(),
+                  [](const ChartLine& a, const ChartLine& b) { return a.at > b.at; });
+        std::vector<double> wanted;
+        std::vector<std::vector<std::string>> names;
+        std::size_t most = 1;
+        for (const ChartLine& level : shown) {
+            names.push_back(wrapped(level.label, kChartSmall_px, kLevelNames_px));
+            most = std::max(most, names.back().size());
+            const double y = wanted.emplace_back(y_px(level.at));
+            sketch_.line(box_.left_px, y, box_.right_px, y, colours::kLevel, 1.2, "back dt (8,5)");
+        }
+        const auto placed =
+            spread(wanted, kLevelLine_px * static_cast<double>(most), box_.top_px, box_.bottom_px);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            double y = placed[i] - 0.5 * kLevelLine_px * static_cast<double>(names[i].size() - 1);
+            for (const std::string& line : names[i]) {
+                sketch_.label(box_.right_px + 10.0, y, line, kChartSmall_px, colours::kLevel);
+                y += kLevelLine_px;
+            }
+        }
+    }
+
+    /// Names upright at the right of their lines, or slanted, apart, with leaders.
+    void moments(double top_px) {
+        MomentNames names = moments_of(panel_, box_.width_px());
+        for (double& at : names.at_px) {
+            at += box_.left_px;
+        }
+        const double foot = top_px + names.height_px;
+        // With stretches the lines keep to the plot: their names are in between.
+        const double from = has_names(panel_) || names.height_px == 0.0 ? box_.top_px : foot;
+        const auto placed = names.slanted
+                                ? spread(names.at_px, kNameGap_px, box_.left_px, box_.right_px)
+                                : names.at_px;
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            const std::string& label = names.lines[i].label;
+            sketch_.line(names.at_px[i], from, names.at_px[i], box_.bottom_px, colours::kMoment,
+                         1.2);
+            if (label.empty()) {
+                continue;
+            }
+            const double head = names.slanted ? foot - kLeader_px : foot - 0.8 * kLine_px;
+            sketch_.line(names.at_px[i], foot, placed[i], head, colours::kMoment, 1.2);
+            sketch_.label(placed[i] + (names.slanted ? 3.0 : 5.0),
+                          names.slanted ? head - 5.0 : foot - 0.4 * kLine_px, label, kChartSmall_px,
+                          colours::kInk, names.slanted ? "left rotate by 60" : "left");
+        }
+    }
+
+    /// Shaded in turns, named where the name fits.
+    void stretches() {
+        const double label_px = panel_.y_label.empty() ? 8.0 : kLine_px + 8.0;
+        const double top =
+            has_names(panel_) ? box_.top_px - label_px - kLine_px : box_.top_px - label_px;
+        for (std::size_t i = 0; i < panel_.stretches.size(); ++i) {
+            const ChartStretch& stretch = panel_.stretches[i];
+            const double x0 = x_px(std::max(stretch.x.low, x_.low));
+            const double x1 = x_px(std::min(stretch.x.high, x_.high));
+            if (i % 2 == 1) {
+                sketch_.box(x0, top, x1, box_.bottom_px, colours::kShade);
+            }
+            if (text_width_px(stretch.name, kChartSmall_px) < x1 - x0) {
+                sketch_.label(0.5 * (x0 + x1), top + 0.5 * kLine_px, stretch.name, kChartSmall_px,
+                              colours::kFaint, "center");
+            }
+        }
+    }
+
+    void axes() {
+        sketch_.frame(box_);
+        sketch_.add("set grid {}xtics ytics lt 1 lc rgb '{}' lw 0.8\n",
+                    panel_.categories.empty() ? "" : "no", colours::kGrid);
+        set_axis(sketch_, "x", x_, panel_.log_x, box_.width_px() / 90.0);
+        set_axis(sketch_, "y", y_, panel_.log_y, box_.height_px() / 42.0);
+        if (!panel_.categories.empty()) {
+            const CategoryNames names = category_names(panel_, box_.width_px());
+            sketch_.add("set xtics noenhanced {} ({})\n",
+                        names.slanted ? "rotate by 40 right" : "norotate", names.tics);
+        } else if (!panel_.x_numbers) {
+            sketch_.add("set format x ''\n");
+        }
+        name_x_axis(sketch_, panel_.x_numbers ? panel_.x_label : "");
+    }
+
+    void plot() {
+        if (!has_number(panel_)) {
+            sketch_.label(0.5 * (box_.left_px + box_.right_px),
+                          0.5 * (box_.top_px + box_.bottom_px), "no data", kPanelTitle_px,
+                          colours::kFaint, "center");
+            // Axes of a plot without a point would not be drawn.
+            sketch_.add("plot {:.10g} with lines lc rgb '#FFFFFF' lw 0.1 notitle\n",
+                        0.5 * (y_.low + y_.high));
+            return;
+        }
+        std::vector<int> blocks;
+        for (std::size_t i = 0; i < panel_.series.size(); ++i) {
+            const ChartSeries& all = panel_.series[i];
+            const bool line = (all.mark == Mark::line || all.mark == Mark::dashes) &&
+                              all.low.empty() && std::is_sorted(all.x.begin(), all.x.end());
+            // More points cannot be told apart on the page.
+            const auto bins = static_cast<std::size_t>(line ? box_.width_px() : 1e9);
+            const ChartSeries s = thinned(all, x_, bins);
+            blocks.push_back(s.low.empty() ? data_.add({&s.x, &s.y})
+                                           : data_.add({&s.x, &s.y, &s.low, &s.high}));
+            if (s.band && !s.low.empty()) {
+                clause(blocks[i], "1:3:4",
+                       fmt::format("filledcurves fs noborder fc rgb '#B0{}'",
+                                   colour_of(panel_, i).substr(1)),
+                       s.mark == Mark::none ? s.name : "");
+            }
+        }
+        for (std::size_t i = 0; i < panel_.series.size(); ++i) {
+            series(i, blocks[i]);
+        }
+        sketch_.add("plot {}\n", clauses_);
+    }
+
+    /// @param title  in the key; empty: none
+    void clause(int block, const std::string& columns, const std::string& style,
+                const std::string& title) {
+        clauses_ += fmt::format("{}DATA index {} using {} with {} {}",
+                                clauses_.empty() ? "" : ", \\\n  ", block, columns, style,
+                                title.empty() ? "notitle" : "title " + gnuplot::literal(title));
+    }
+
+    void series(std::size_t index, int block) {
+        const ChartSeries& s = panel_.series[index];
+        const std::string colour = colour_of(panel_, index);
+        const bool errors = !s.low.empty() && !s.band;
+        // An interval that reaches below a logarithmic axis ends on it.
+        const std::string low =
+            panel_.log_y ? fmt::format("($3>{0:.10g}?$3:{0:.10g})", y_.low) : "3";
+        const std::string pen = fmt::format("lc rgb '{}' lw {}", colour, s.width);
+        std::string x = "1";
+        switch (s.mark) {
+            case Mark::line: clause(block, "1:2", "lines " + pen, s.name); break;
+            case Mark::dashes: clause(block, "1:2", "lines dt (9,5) " + pen, s.name); break;
+            case Mark::steps: clause(block, "1:2", "steps " + pen, s.name); break;
+            case Mark::bars:
+                x = fmt::format("($1+{:.10g})", bar_shift(index));
+                clause(block, fmt::format("{}:2:({:.10g})", x, 0.94 * bar_width()),
+                       fmt::format("boxes fs solid noborder fc rgb '{}'", colour), s.name);
+                break;
+            case Mark::points:
+                clause(
+                    block, errors ? "1:2:" + low + ":4" : "1:2",
+                    fmt::format("{} pt {} ps 0.9*MARK lw 1.6 lc rgb '{}'",
+                                errors ? "yerrorbars" : "points",
+                                kShapes[count_of(panel_, Mark::points, index) % std::size(kShapes)],
+                                colour),
+                    s.name);
+                return;
+            case Mark::none: break;
+        }
+        if (errors) {
+            clause(block, fmt::format("{}:{}:(0):($4-{})", x, low, low == "3" ? "$3" : low),
+                   fmt::format("vectors heads size screen 0.005,90 lw 1.6 lc rgb '{}'",
+                               s.mark == Mark::bars ? colours::kInk : colour.c_str()),
+                   s.mark == Mark::none ? s.name : "");
+        }
+    }
+
+    [[nodiscard]] double bar_count() const {
+        return static_cast<double>(count_of(panel_, Mark::bars, panel_.series.size()));
+    }
+
+    /// Width of a bar: what is between neighbours is shared by the series.
+    [[nodiscard]] double bar_width() const {
+        double pitch = panel_.categories.empty() ? x_.high - x_.low : 1.0;
+        for (const ChartSeries& s : panel_.series) {
+            for (std::size_t i = 1; s.mark == Mark::bars && i < s.x.size(); ++i) {
+                const double apart = std::abs(s.x[i] - s.x[i - 1]);
+                pitch = apart > 0.0 ? std::min(pitch, apart) : pitch;
+            }
+        }
+        const double most = kMostBar_px / box_.width_px() * (x_.high - x_.low);
+        return std::min(0.76 * pitch / bar_count(), most);
+    }
+
+    [[nodiscard]] double bar_shift(std::size_t index) const {
+        return bar_width() * (static_cast<double>(count_of(panel_, Mark::bars, index)) -
+                              0.5 * (bar_count() - 1.0));
+    }
+
+    Sketch& sketch_;
+    ChartData& data_;
+    const ChartPanel& panel_;
+    const Box& box_;
+    Range x_;
+    Range y_;
+    std::string clauses_;
+};
+
+}  // namespace
+
+double right_px(const ChartPanel& panel) {
+    check(panel);
+    double names = 6.0;
+    for (const ChartLine& level : panel.levels) {
+        for (const std::string& line : wrapped(level.label, kChartSmall_px, kLevelNames_px)) {
+            names = std::max(names, text_width_px(line, kChartSmall_px));
+        }
+    }
+    return names + 10.0;
+}
+
+double head_px(const ChartPanel& panel, double width_px) {
+    const auto rows = static_cast<double>(title_lines(panel.title, width_px).size() +
+                                          key_of(panel, width_px).rows);
+    return kLine_px *
+               (rows + (panel.y_label.empty() ? 0.0 : 1.0) + (has_names(panel) ? 1.0 : 0.0)) +
+           moments_of(panel, width_px).height_px + 8.0;
+}
+
+double foot_px(const ChartPanel& panel, double width_px) {
+    if (!panel.x_numbers) {
+        return 0.0;
+    }
+    const double names =
+        panel.categories.empty() ? 30.0 : category_names(panel, width_px).height_px;
+    return names + (panel.x_label.empty() ? 4.0 : 28.0);
+}
+
+void draw_panel(Sketch& sketch, ChartData& data, const ChartPanel& panel, const Box& box) {
+    PanelDrawing(sketch, data, panel, box).draw();
+}
+
+}  // namespace limpet

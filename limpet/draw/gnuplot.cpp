@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/draw/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::gnuplot {
+namespace {
+
+constexpr const char* kScript = "script.gp";
+constexpr const char* kLog = "gnuplot.log";
+
+/// Where the child runs, and where its words go.
+class FileActions {
+public:
+    explicit FileActions(const std::filesystem::path& folder) {
+        posix_spawn_file_actions_init(&actions_);
+        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, kLog,
+                                         O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    }
+    ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
+    FileActions(const FileActions&) = delete;
+    FileActions& operator=(const FileActions&) = delete;
+
+    [[nodiscard]] const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+private:
+    posix_spawn_file_actions_t actions_{};
+};
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0) {
+        require(errno == EINTR, "a child that was started can be waited for");
+    }
+    return status;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    std::error_code problem;
+    std::string name = (std::filesystem::temp_directory_path(problem) / "limpet.XXXXXX").string();
+    if (problem || mkdtemp(name.data()) == nullptr) {
+        throw InputError(fmt::format("cannot make a temporary folder {}: {}", name,
+                                     problem ? problem.message() : std::strerror(errno)));
+    }
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string literal(std::string_view text) {
+    constexpr std::string_view kPlain = " .,:;_+-=/()[]#&%~";
+    std::string out = "\"";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20) {
+            out += ' ';
+        } else if (byte >= 0x80 || std::isalnum(byte) != 0 || kPlain.find(c) != kPlain.npos) {
+            out += c;
+        } else {
+            out += fmt::format("\\{:03o}", byte);
+        }
+    }
+    return out + "\"";
+}
+
+void run(const std::filesystem::path& folder, const std::string& script) {
+    std::ofstream file(folder / kScript, std::ios::binary);
+    file << script;
+    file.close();
+    if (!file) {
+        throw InputError(fmt::format("cannot write {}", (folder / kScript).string()));
+    }
+    const FileActions actions(folder);
+    // -d: the user's own start-up files shall not colour the figures.
+    std::string words[] = {"gnuplot", "-d", kScript};
+    std::vector<char*> arguments = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+    pid_t child = 0;
+    const int problem =
+        posix_spawnp(&child, "gnuplot", actions.get(), nullptr, arguments.data(), environ);
+    if (problem == ENOENT || problem == EACCES) {
+        throw InputError("gnuplot is not installed (apt-get install gnuplot-nox)");
+    }
+    if (problem != 0) {
+        throw InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(problem)));
+    }
+    const int status = wait_for(child);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        throw InternalError(
+            fmt::format("gnuplot failed (status {}): {}", status, read_text(folder / kLog)));
+    }
+}
+
+}  // namespace limpet::gnuplot

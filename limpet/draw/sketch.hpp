@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "limpet/draw/layout.hpp"
+
+namespace limpet {
+
+/// Writes gnuplot's commands for one picture; positions are in pixels from its top left corner.
+class Sketch {
+public:
+    /// @param font_px  of the tics
+    Sketch(const Canvas& canvas, double font_px);
+
+    /// A place as gnuplot takes it.
+    [[nodiscard]] std::string at(double x_px, double y_px) const;
+
+    /// Commands as they are; texts that come from elsewhere go through gnuplot::literal() first.
+    template <class... Values>
+    void add(const char* format, const Values&... values) {
+        text_ += fmt::vformat(format, fmt::make_format_args(values...));
+    }
+
+    /// Commands that come before the first plot.
+    template <class... Values>
+    void prepare(const char* format, const Values&... values) {
+        preparation_ += fmt::vformat(format, fmt::make_format_args(values...));
+    }
+
+    /// @param options  "left", "center" or "right", and what else `set label` takes
+    void label(double x_px, double y_px, std::string_view text, double size_px, const char* colour,
+               const char* options = "left");
+    void line(double x0_px, double y0_px, double x1_px, double y1_px, const char* colour,
+              double width, const char* options = "back");
+    void box(double x0_px, double y0_px, double x1_px, double y1_px, const char* colour,
+             const char* options = "behind");
+    /// Where the next plot's axes are.
+    void frame(const Box& box);
+    /// Labels, lines and boxes so far belong to the plots so far.
+    void forget();
+
+    /// @return a script that draws STEM.png and STEM.svg with STEM.txt as DATA; sizes of
+    /// marks are in units of MARK
+    /// @param stem  of letters, digits, '_' and '-'
+    [[nodiscard]] std::string script(const std::string& stem) const;
+
+private:
+    Canvas canvas_;
+    double font_px_;
+    std::string preparation_;
+    std::string text_;
+};
+
+/// Runs a sketch in `folder`, with `data` as STEM.txt there.
+/// @return STEM.png and STEM.svg
+/// @throws InputError when the folder cannot be written or gnuplot is not installed
+[[nodiscard]] std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string& data,
+                                                      const std::string& stem,
+                                                      const std::filesystem::path& folder);
+
+}  // namespace limpet

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/draw/stage.hpp"
+
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/draw/mjcf.hpp"
+#include "limpet/draw/offscreen.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr int kOversampling = 2;  // on top of multisampling: thin rods and shadow edges
+constexpr int kSamples = 4;
+constexpr double kAngleOfSight_deg = 28.0;
+constexpr float kBlur = 0.30F;  // how much a turning propeller hides
+
+using Pixels = std::vector<std::uint8_t>;  // three a pixel, rows from bottom to top
+
+void throw_error(const char* message) {
+    throw InternalError(std::string("MuJoCo: ") + message);
+}
+void keep_silent(const char*) {}
+
+/// MuJoCo's hooks are the process's: they are ours as long as a stage stands.
+class ErrorHooks {
+public:
+    ErrorHooks() : error_(mju_user_error), warning_(mju_user_warning) {
+        mju_user_error = throw_error;
+        mju_user_warning = keep_silent;
+    }
+    ~ErrorHooks() {
+        mju_user_error = error_;
+        mju_user_warning = warning_;
+    }
+    ErrorHooks(const ErrorHooks&) = delete;
+    ErrorHooks& operator=(const ErrorHooks&) = delete;
+
+private:
+    void (*error_)(const char*);
+    void (*warning_)(const char*);
+};
+
+struct DeleteData {
+    void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+/// @return address in qpos, or -1
+int joint_address(const mjModel& model, const char* name) {
+    const int id = mj_name2id(&model, mjOBJ_JOINT, name);
+    return id < 0 ? -1 : model.jnt_qposadr[id];
+}
+
+int base_address(const mjModel& model) {
+    const int body = mj_name2id(&model, mjOBJ_BODY, "base");
+    const int joint = body < 0 ? -1 : model.body_jntadr[body];
+    if (joint < 0 || model.jnt_type[joint] != mjJNT_FREE) {
+        throw InputError("model.xml: there is no body \"base\" with a free joint");
+    }
+    return model.jnt_qposadr[joint];
+}
+
+Image shrunk(const Pixels& large, int width_px, int height_px) {
+    Image image{width_px, height_px, {}};
+    image.rgb.resize(3u * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+    const int large_width = kOversampling * width_px;
+    auto out = image.rgb.begin();
+    for (int row = height_px - 1; row >= 0; --row) {  // OpenGL begins at the bottom
+        for (int column = 0; column < width_px; ++column) {
+            for (int channel = 0; channel < 3; ++channel) {
+                int sum = 0;
+                for (int i = 0; i < kOversampling * kOversampling; ++i) {
+                    const int y = kOversampling * row + i / kOversampling;
+                    const int x = kOversampling * column + i % kOversampling;
+                    sum += large[static_cast<std::size_t>(3 * (y * large_width + x) + channel)];
+                }
+                *out++ = static_cast<std::uint8_t>(sum / (kOversampling * kOversampling));
+            }
+        }
+    }
+    return image;
+}
+
+}  // namespace
+
+struct Stage::Parts {
+    ErrorHooks hooks;
+    OffscreenContext screen;
+    MujocoModel model;
+    std::unique_ptr<mjData, DeleteData> data;
+    mjvScene scene;
+    mjrContext renderer;
+    mjvOption option;
+    int width_px;
+    int height_px;
+
+    Parts(const std::string& mjcf, int width, int height)
+        : model(compile_mjcf(mjcf)), width_px(width), height_px(height) {
+        (void)base_address(*model);
+        model->vis.global.offwidth = kOversampling * width;
+        model->vis.global.offheight = kOversampling * height;
+        model->vis.global.fovy = static_cast<float>(kAngleOfSight_deg);
+        model->vis.quality.offsamples = kSamples;
+        data.reset(mj_makeData(model.get()));
+        mjv_defaultOption(&option);
+        mjv_defaultScene(&scene);
+        mjr_defaultContext(&renderer);
+        mjv_makeScene(model.get(), &scene, 1000);
+        make_renderer();
+    }
+    ~Parts() {
+        screen.use();
+        mjr_freeContext(&renderer);
+        mjv_freeScene(&scene);
+    }
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
+    /// MuJoCo looks for OpenGL by itself, under names that only the -dev packages bring.
+    void make_renderer() {
+        try {
+            mjr_makeContext(model.get(), &renderer, mjFONTSCALE_100);
+        } catch (const InternalError& problem) {
+            mjv_freeScene(&scene);
+            throw InputError(fmt::format(
+                "cannot draw: {}; needed: apt-get install libegl-dev libgl-dev", problem.what()));
+        }
+        mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
+        require(renderer.currentBuffer == mjFB_OFFSCREEN, "MuJoCo has a buffer to draw into");
+    }
+
+    void set_joint(const char* name, double value) {
+        const int address = joint_address(*model, name);
+        if (address >= 0) {
+            data->qpos[address] = value;
+        }
+    }
+
+    void show_material(const char* name, bool shown, float alpha) const {
+        const int id = mj_name2id(model.get(), mjOBJ_MATERIAL, name);
+        if (id >= 0) {
+            model->mat_rgba[4 * id + 3] = shown ? alpha : 0.0F;
+        }
+    }
+
+    void set(const Pose& pose) {
+        double* base = data->qpos + base_address(*model);
+        std::copy_n(pose.position_m.data(), 3, base);
+        const Quaternion& q = pose.attitude;
+        const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+        std::copy(std::begin(wxyz), std::end(wxyz), base + 3);
+        set_joint("slider", pose.slider_m);
+        set_joint("cup_pitch", pose.cup_pitch_rad);
+        set_joint("cup_yaw", pose.cup_yaw_rad);
+        mj_kinematics(model.get(), data.get());
+        mj_comPos(model.get(), data.get());
+        mj_camlight(model.get(), data.get());
+    }
+
+    [[nodiscard]] Pixels render(mjvCamera& camera, bool shadows) {
+        mjv_updateScene(model.get(), data.get(), &option, nullptr, &camera, mjCAT_ALL, &scene);
+        scene.flags[mjRND_SHADOW] = shadows ? 1 : 0;
+        const mjrRect all{0, 0, kOversampling * width_px, kOversampling * height_px};
+        mjr_render(all, &scene, &renderer);
+        Pixels pixels(3u * static_cast<std::size_t>(all.width) *
+                      static_cast<std::size_t>(all.height));
+        mjr_readPixels(pixels.data(), nullptr, all, &renderer);
+        return pixels;
+    }
+};
+
+Stage::Stage(const std::string& mjcf, int width_px, int height_px)
+    : parts_(std::make_unique<Parts>(mjcf, width_px, height_px)) {}
+
+Stage::~Stage() = default;
+
+double Stage::angle_of_sight_rad() {
+    return radians(kAngleOfSight_deg);
+}
+
+std::optional<WallFace> Stage::wall() const {
+    const mjModel& model = *parts_->model;
+    const int geom = mj_name2id(&model, mjOBJ_GEOM, "wall");
+    if (geom < 0 || model.geom_type[geom] != mjGEOM_BOX) {
+        return std::nullopt;
+    }
+    mj_kinematics(&model, parts_->data.get());
+    const double* rotation = parts_->data->geom_xmat + 9 * geom;
+    WallFace face;
+    face.normal = {rotation[2], rotation[5], rotation[8]};
+    face.centre_m = Eigen::Map<const Vector3>(parts_->data->geom_xpos + 3 * geom);
+    face.centre_m += model.geom_size[3 * geom + 2] * face.normal;
+    return face;
+}
+
+Image Stage::photograph(const Pose& pose, const View& view) {
+    Parts& p = *parts_;
+    p.screen.use();
+    p.set(pose);
+    mjvCamera camera;
+    mjv_defaultCamera(&camera);
+    camera.type = mjCAMERA_FREE;
+    std::copy_n(view.target_m.data(), 3, camera.lookat);
+    camera.azimuth = degrees(view.azimuth_rad);
+    camera.elevation = degrees(view.elevation_rad);
+    camera.distance = view.distance_m;
+    p.show_material("blade", !pose.rotors_turn, 1.0F);
+    p.show_material("propeller", false, 0.0F);
+    Pixels picture = p.render(camera, true);
+    if (pose.rotors_turn) {
+        // A disc that blurs a propeller would cast the shadow of a solid one: it is put on top by
+        // what it changes in a picture without shadows.
+        const Pixels without = p.render(camera, false);
+        p.show_material("propeller", true, kBlur);
+        const Pixels with = p.render(camera, false);
+        for (std::size_t i = 0; i < picture.size(); ++i) {
+            picture[i] =
+                static_cast<std::uint8_t>(std::clamp(picture[i] + with[i] - without[i], 0, 255));
+        }
+    }
+    return shrunk(picture, p.width_px, p.height_px);
+}
+
+}  // namespace limpet

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/plant/engines.hpp"
+
+#include <array>
+
+namespace limpet {
+
+std::span<const Engine* const> engines() {
+    static constexpr std::array kEngines = {
+        &kMujocoEngine,
+    };
+    return kEngines;
+}
+
+}  // namespace limpet

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "limpet/plant/plant.hpp"
+#include "limpet/vehicle/airframe.hpp"
+#include "limpet/vehicle/model_writer.hpp"
+
+namespace limpet {
+
+/// What moves the bodies. An engine is a file that defines one of these, and a line in engines.cpp.
+struct Engine {
+    std::string_view name;  ///< `simulation.engine`
+    std::string_view description;
+    /// Looks are left out, whatever scene.visuals says.
+    /// @throws InputError when the engine cannot take the vehicle
+    std::shared_ptr<const PlantModel> (*make)(const Airframe& airframe, const Scene& scene);
+};
+[[nodiscard]] std::span<const Engine* const> engines();
+
+/// The general one. A program that is built without MuJoCo knows its name and throws InputError
+/// when it is to make a plant.
+extern const Engine kMujocoEngine;
+
+}  // namespace limpet

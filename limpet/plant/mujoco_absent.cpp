@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/core/errors.hpp"
+#include "limpet/plant/engines.hpp"
+
+namespace limpet {
+
+const Engine kMujocoEngine = {
+    "mujoco", "not built in here",
+    [](const Airframe&, const Scene&) -> std::shared_ptr<const PlantModel> {
+        throw InputError("simulation.engine: mujoco is not built into this program");
+    }};
+
+}  // namespace limpet

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/sensors/registry.hpp"
+
+namespace limpet {
+namespace {
+
+template <class... All>
+constexpr bool streams_apart(TypeList<All...> /*list*/) {
+    std::array<int, 100> draw{};
+    bool apart = true;
+    for_each_type(TypeList<All...>{}, [&](auto sensor) {
+        for (const Stream stream : decltype(sensor)::type::kStreams) {
+            const auto number = static_cast<std::size_t>(stream);
+            apart = apart && number >= 10 && number < 30 && draw[number]++ == 0;
+        }
+    });
+    return apart;
+}
+static_assert(streams_apart(Sensors{}), "sensors draw from streams 10..29, no two from one");
+
+}  // namespace
+
+std::vector<BoundParameter> sensor_rows(SensorParameters& sensors) {
+    std::vector<BoundParameter> rows;
+    for_each_table(Sensors{}, sensors, [&](const auto& table, auto& numbers) {
+        const std::vector<BoundParameter> more = bind(table, numbers);
+        rows.insert(rows.end(), more.begin(), more.end());
+    });
+    return rows;
+}
+
+}  // namespace limpet

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/observe.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/visit.hpp"
+
+namespace limpet {
+namespace {
+
+constexpr double kSteady_s = 5.0;  ///< over which the perched pitch must stay
+constexpr double kWh_J = 3600.0;
+
+std::optional<LoadPhase> load_phase(PerchingState state) {
+    switch (state) {
+        case PerchingState::approaching:
+        case PerchingState::holding:
+        case PerchingState::deciding: return LoadPhase::hold;
+        case PerchingState::pitching_up:
+        case PerchingState::unloading:
+        case PerchingState::standing: return LoadPhase::land;
+        case PerchingState::resting: return LoadPhase::rest;
+        case PerchingState::spinning_up:
+        case PerchingState::pitching_down: return LoadPhase::take_off;
+        case PerchingState::levelled:
+        case PerchingState::releasing:
+        case PerchingState::resealing: return LoadPhase::level;
+        // Leaving: the cup is torn off on purpose, its margin is meant to end at zero.
+        case PerchingState::backing_off:
+        case PerchingState::retreating:
+        case PerchingState::hovering:
+        case PerchingState::pre_positioning:
+        case PerchingState::aligning:
+        case PerchingState::finished: return std::nullopt;
+    }
+    throw InternalError("perching state out of range");
+}
+
+double pitch_deg(const Truth& truth) {
+    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
+}
+
+/// max and min that take a first value over "none"
+void raise(double& value, double candidate) {
+    value = std::fmax(value, candidate);
+}
+void lower(double& value, double candidate) {
+    value = std::fmin(value, candidate);
+}
+
+void observe_contact(Metrics& metrics, PerchingState state, const ContactPeaks& peaks) {
+    if (metrics.memory.awaits_touch && !std::isnan(peaks.touch_s)) {
+        metrics.memory.awaits_touch = false;
+        metrics.impact_speed_m_s = peaks.touch_speed_m_s;
+        metrics.memory.touch_s = peaks.touch_s;
+    }
+    const auto phase = load_phase(state);
+    if (!phase) {
+        return;
+    }
+    if (phase == LoadPhase::hold) {
+        raise(metrics.impact_force_N, peaks.slider_press_N);
+        raise(metrics.cup_press_max_N, peaks.lip_press_N);
+    }
+    CupLoads& loads = metrics.loads[static_cast<std::size_t>(*phase)];
+    raise(loads.pull_N, peaks.pull_N);
+    raise(loads.shear_N, peaks.shear_N);
+    raise(loads.peel_N_m, peaks.peel_N_m);
+    raise(metrics.cup_pull_max_N, peaks.pull_N);
+    lower(loads.margin_N, peaks.margin_N);
+    lower(metrics.cup_margin_min_N, peaks.margin_N);
+}
+
+void observe_tick(Metrics& metrics, const PerchingParameters& guidance, const FlightState& flight) {
+    const PerchingState state = flight.guidance.state;
+    const Truth& truth = flight.truth;
+    const CupStatus& cup = truth.cup_status;
+    lower(metrics.pressure_min_Pa, cup.pressure_Pa);
+    if (std::isnan(metrics.time_to_land_pressure_s) && !std::isnan(metrics.memory.touch_s) &&
+        cup.pressure_Pa < guidance.land_pressure_Pa) {
+        metrics.time_to_land_pressure_s = truth.time_s - metrics.memory.touch_s;
+    }
+    if (state == PerchingState::releasing) {
+        raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg(truth)));
+        lower(metrics.memory.waiting_pitch_min_deg, pitch_deg(truth));
+        raise(metrics.memory.waiting_pitch_max_deg, pitch_deg(truth));
+        metrics.pitch_swing_deg =
+            0.5 * (metrics.memory.waiting_pitch_max_deg - metrics.memory.waiting_pitch_min_deg);
+        metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
+    }
+    if (state == PerchingState::resting) {
+        metrics.perched_pitch_deg = pitch_deg(truth);
+        if (seconds(flight.tick) - flight.guidance.since_s >= guidance.rest_s - kSteady_s) {
+            lower(metrics.memory.rest_pitch_min_deg, metrics.perched_pitch_deg);
+            raise(metrics.memory.rest_pitch_max_deg, metrics.perched_pitch_deg);
+            metrics.perched_pitch_spread_deg =
+                metrics.memory.rest_pitch_max_deg - metrics.memory.rest_pitch_min_deg;
+        }
+    }
+    metrics.energy_flying_Wh = flight.battery.energy_flying_J / kWh_J;
+    metrics.energy_perched_Wh = flight.battery.energy_resting_J / kWh_J;
+}
+
+void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
+                   const WallGeometry& wall) {
+    if (event.name == EventName::approach_started) {
+        const Vector3 x_B_W = truth.base.q_WF * Vector3::UnitX();
+        const Vector3 x_T_W = tangent_frame(wall, truth.base.p_WF_m).into_W();
+        metrics.alignment_at_approach_deg = degrees(
+            std::abs(wrap_pi(std::atan2(x_B_W.y(), x_B_W.x()) - std::atan2(x_T_W.y(), x_T_W.x()))));
+        ++metrics.attempts;
+        metrics.memory.awaits_touch = true;
+        metrics.memory.touch_s = Metrics::kNone;
+        metrics.time_to_land_pressure_s = Metrics::kNone;
+        metrics.impact_force_N = Metrics::kNone;
+        metrics.cup_press_max_N = Metrics::kNone;
+    } else if (event.name == EventName::hold_over) {
+        metrics.pressure_at_hold_end_Pa = truth.cup_status.pressure_Pa;
+    } else if (event.name == EventName::motors_off) {
+        metrics.perched_pitch_deg = pitch_deg(truth);
+        metrics.perched_pitch_spread_deg = Metrics::kNone;
+        metrics.memory.rest_pitch_min_deg = Metrics::kNone;
+        metrics.memory.rest_pitch_max_deg = Metrics::kNone;
+    } else if (event.name == EventName::pump_off) {
+        metrics.memory.pump_off_s = event.time_s;
+    } else if (event.name == EventName::detached && !std::isnan(metrics.memory.pump_off_s)) {
+        metrics.release_s = event.time_s - metrics.memory.pump_off_s;
+    }
+}
+
+/// How often a flight is digested: a difference between two runs does not heal within 10 ms.
+constexpr int kDigestRate_Hz = 100;
+
+/// A point of the trajectory: what is true and what the autopilot believes. Everything else that a
+/// flight does shows up in these within a few ticks.
+void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
+    Digest digest{.hash = hash};
+    visit_leaves(truth.base, digest);
+    digest(truth.slider.position_m);
+    digest(truth.cup_status.pressure_Pa);
+    visit_leaves(truth.cup.p_WF_m, digest);
+    visit_leaves(truth.rotor_speed_rad_s, digest);
+    visit_leaves(estimate.p_WB_m, digest);
+    visit_leaves(estimate.q_WB, digest);
+    hash = digest.hash;
+}
+
+}  // namespace
+
+void observe(Observations& seen, const FlightModel& model, const FlightState& state,
+             const TickReport& report) {
+    observe_contact(seen.metrics, state.guidance.state, report.contact);
+    observe_tick(seen.metrics, model.guidance, state);
+    for (std::size_t k = 0; k < report.events.count; ++k) {
+        observe_event(seen.metrics, report.events.events[k], state.truth, model.cup.wall);
+    }
+    if (due(state.tick, kDigestRate_Hz)) {
+        digest(seen.hash, state.truth, state.autopilot.estimate);
+    }
+    seen.physics_steps += report.physics_steps;
+}
+
+}  // namespace limpet

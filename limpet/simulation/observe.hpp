@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "limpet/simulation/metrics.hpp"
+#include "limpet/simulation/model.hpp"
+#include "limpet/simulation/tick_report.hpp"
+
+namespace limpet {
+
+/// What a flight has looked like from outside so far. No station reads it.
+struct Observations {
+    Metrics metrics;
+    long long physics_steps = 0;
+    std::uint64_t hash = 0;  ///< digest of the trajectory
+};
+
+/// After a tick: what it has led to and what happened in it.
+void observe(Observations& seen, const FlightModel& model, const FlightState& state,
+             const TickReport& report);
+
+}  // namespace limpet
