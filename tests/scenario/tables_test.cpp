@@ -71,7 +71,7 @@ TEST(Tables, ForgetNoField) {
     });
     CupParameters cup;
     auto rows = suction_rows(cup);
-    rows.push_back({.name = "pressure_model", .value = &cup.pressure_model});  // given by its name
+    rows.push_back({"pressure_model", "-", 0.0, 1.0, &cup.pressure_model, "given by its name", ""});
     test::expect_whole(cup, rows, "suction");
 }
 
