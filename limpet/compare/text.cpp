@@ -58,8 +58,11 @@ std::string aligned(const TextTable& table) {
             const bool words =
                 !first.empty() && std::isalpha(static_cast<unsigned char>(first[0])) != 0;
             const std::string& cell = table[row][column];
-            text += words ? fmt::format("{:<{}}", cell, width) : fmt::format("{:>{}}", cell, width);
-            text += column + 1 < table[row].size() ? "  " : "\n";
+            const bool last = column + 1 == table[row].size();
+            text += !words ? fmt::format("{:>{}}", cell, width)
+                    : last ? cell
+                           : fmt::format("{:<{}}", cell, width);
+            text += last ? "\n" : "  ";
         }
     }
     return text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "limpet/core/frames.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
 
