@@ -39,6 +39,22 @@ Mount read_mount(const YamlNode& node) {
     return *mount;
 }
 
+/// One of a registry by its name.
+/// @param kind     "engine", for the message
+/// @param entries  pointers to what has a name
+template <class Entries>
+auto read_choice(const YamlNode& node, std::string_view kind, const Entries& entries) {
+    const std::string word = read_text(node);
+    std::vector<std::string> names;
+    for (const auto* entry : entries) {
+        if (entry->name == word) {
+            return entry;
+        }
+        names.emplace_back(entry->name);
+    }
+    fail(node, unknown_name(word, kind, names));
+}
+
 bool says_none(const YamlNode* node) {
     return node == nullptr || node->kind == YamlNode::Kind::null ||
            (node->kind == YamlNode::Kind::scalar && node->text == "none");
@@ -106,8 +122,11 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     derive(scenario);
     read_rows(root.find("suction"), find_section(sections, "suction").rows);
     derive_from_suction(scenario);
-    for (const char* name : {"guidance", "autopilot"}) {
-        read_rows(root.find(name), find_section(sections, name).rows);
+    read_rows(root.find("guidance"), find_section(sections, "guidance").rows);
+    const YamlNode* autopilot = root.find("autopilot");
+    read_rows(autopilot, find_section(sections, "autopilot").rows, {"kind"});
+    if (const YamlNode* kind = autopilot ? autopilot->find("kind") : nullptr) {
+        scenario.autopilot_kind = read_choice(*kind, "autopilot", autopilots());
     }
     lay_out(scenario);
 }

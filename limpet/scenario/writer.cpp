@@ -141,6 +141,9 @@ std::string to_yaml(const Scenario& scenario) {
     for (const std::string_view name : {"pendulum", "press_rig", "environment", "suction",
                                         "guidance", "autopilot", "sensors", "simulation"}) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
+        if (name == "autopilot" && copy.autopilot_kind != autopilots().front()) {
+            writer.value(1, "kind", copy.autopilot_kind->name);
+        }
     }
     return writer.take();
 }
