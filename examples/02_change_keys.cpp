@@ -16,7 +16,7 @@ int main() {
                   << '\n';
     }
     try {
-        limpet::load("perch_concrete", {"guidance.dock_sped_m_s=1"});
+        (void)limpet::load("perch_concrete", {"guidance.dock_sped_m_s=1"});
     } catch (const limpet::InputError& error) {
         std::cout << "a slip of the pen: " << error.what() << '\n';
     }

@@ -18,7 +18,7 @@ int main(int count, char** arguments) {
     for (const limpet::PastEvent& event : recording.events()) {
         std::cout << event.time_s << " s  " << event.name << '\n';
     }
-    const limpet::Series pressure = recording.series("/limpet/cup", "pressure_Pa");
+    const limpet::Series pressure = recording.series("/cup", "pressure_Pa");
     const auto lowest = std::min_element(pressure.values.begin(), pressure.values.end());
     std::cout << "lowest pressure " << *lowest / 100.0 << " hPa at "
               << pressure.time_s[static_cast<std::size_t>(lowest - pressure.values.begin())]
