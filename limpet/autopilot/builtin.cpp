@@ -42,6 +42,21 @@ double interval(AutopilotState& state, double time_s) {
     return dt_s;
 }
 
+RotorCommand fly_own(const AutopilotModel& model, AutopilotState& state, const Setpoint& setpoint,
+                     double time_s, double dt_s) {
+    const AutopilotOutput output = model.own->control({.vehicle = model.vehicle,
+                                                       .estimate = state.estimate,
+                                                       .setpoint = setpoint,
+                                                       .time_s = time_s,
+                                                       .dt_s = dt_s},
+                                                      state.memory);
+    state.torque = output.torque;
+    state.attitude_target.thrust = output.thrust;
+    const Allocation allocation = allocate(model.mixer, output.torque, output.thrust);
+    state.saturation = allocation.saturation;
+    return {.command = output.rotors.value_or(allocation.command), .armed = true};
+}
+
 void disarm(AutopilotState& state) {
     state.position.integral_m_s2.setZero();
     state.rate.integral.setZero();
@@ -55,7 +70,7 @@ void disarm(AutopilotState& state) {
 
 AutopilotModel make_autopilot(const AutopilotParameters& parameters,
                               const std::array<RotorGeometry, kRotors>& rotors) {
-    return {.parameters = parameters, .mixer = make_mixer(rotors)};
+    return {.parameters = parameters, .mixer = make_mixer(rotors), .vehicle = {}, .own = {}};
 }
 
 AutopilotState start(const AutopilotModel& model, const Estimate& initial) {
@@ -63,12 +78,23 @@ AutopilotState start(const AutopilotModel& model, const Estimate& initial) {
     state.estimator = start_estimator(model.parameters, initial);
     state.estimate = estimate_from(model.parameters, state.estimator);
     state.control_s = initial.time_s;
+    start_memory(model, state);
     return state;
+}
+
+void start_memory(const AutopilotModel& model, AutopilotState& state) {
+    state.memory.assign(model.own != nullptr ? model.own->memory_size() : 0, 0.0);
+    if (model.own != nullptr) {
+        model.own->start(state.estimate, state.memory);
+    }
 }
 
 void estimate(const AutopilotModel& model, AutopilotState& state, const Readings& readings) {
     update_estimator(model.parameters, state.estimator, readings);
     state.estimate = estimate_from(model.parameters, state.estimator);
+    if (model.own != nullptr) {
+        state.estimate = model.own->estimate(readings, state.estimate, state.memory);
+    }
 }
 
 RotorCommand control(const AutopilotModel& model, AutopilotState& state, const Setpoint& setpoint,
@@ -84,6 +110,9 @@ RotorCommand control(const AutopilotModel& model, AutopilotState& state, const S
     }
     if (std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
         return {.command = {}, .armed = true};
+    }
+    if (model.own != nullptr) {
+        return fly_own(model, state, setpoint, time_s, dt_s);
     }
     const bool hold = setpoint.hold_integrators;
     state.attitude_target = std::visit(

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <vector>
 
+#include "limpet/autopilot.hpp"
 #include "limpet/autopilot/allocation.hpp"
 #include "limpet/autopilot/estimator.hpp"
 #include "limpet/autopilot/parameters.hpp"
@@ -24,6 +27,10 @@ namespace limpet {
 struct AutopilotModel {
     AutopilotParameters parameters;
     Mixer mixer;
+    AutopilotVehicle vehicle;
+    /// In place of the cascade, behind the same estimator and before the same mixer; null: the
+    /// cascade.
+    std::shared_ptr<const Autopilot> own;
 };
 
 struct AutopilotState {
@@ -36,11 +43,15 @@ struct AutopilotState {
     AttitudeSetpoint attitude_target;  ///< the inner setpoints, for telemetry
     Vector3 rate_target_rad_s = Vector3::Zero();
     Vector3 torque = Vector3::Zero();  ///< asked of the allocation
+    std::vector<double> memory;        ///< of model.own
 };
 
 /// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently
 [[nodiscard]] AutopilotModel make_autopilot(const AutopilotParameters& parameters,
                                             const std::array<RotorGeometry, kRotors>& rotors);
+
+/// What model.own remembers, from its beginning.
+void start_memory(const AutopilotModel& model, AutopilotState& state);
 
 /// @param initial  see start_estimator
 [[nodiscard]] AutopilotState start(const AutopilotModel& model, const Estimate& initial);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/data_folder.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,6 +22,20 @@ bool holds_data(const fs::path& folder) {
     return fs::is_regular_file(folder / "surfaces.yaml", ignored);
 }
 
+/// From bin/, lib/ or lib/x86_64-linux-gnu/ to what they are in; build trees have a link there.
+constexpr int kFoldersUp = 3;
+
+/// The program, or the library when this has been linked into one.
+fs::path file_of_this_code() {
+    std::error_code ignored;
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&holds_data), &info) != 0 &&
+        std::string_view(info.dli_fname).find(".so") != std::string_view::npos) {
+        return fs::canonical(info.dli_fname, ignored);
+    }
+    return fs::read_symlink("/proc/self/exe", ignored);
+}
+
 }  // namespace
 
 fs::path data_root() {
@@ -30,19 +45,20 @@ fs::path data_root() {
         }
         return given;
     }
-    if (holds_data(LIMPET_DATA_DIR)) {
-        return LIMPET_DATA_DIR;
+    if (const fs::path known = LIMPET_DATA_DIR; !known.empty()) {
+        return known;
     }
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    const fs::path installed = program.parent_path().parent_path() / "share" / "limpet";
-    if (error || !holds_data(installed)) {
-        throw InputError(
-            fmt::format("scenarios, vehicles and surfaces are in neither {} nor {}: "
-                        "set LIMPET_DATA to their folder",
-                        LIMPET_DATA_DIR, installed.string()));
+    const fs::path module = file_of_this_code();
+    fs::path folder = module.parent_path();
+    for (int up = 0; up < kFoldersUp; ++up, folder = folder.parent_path()) {
+        if (holds_data(folder / "share" / "limpet")) {
+            return fs::canonical(folder / "share" / "limpet");
+        }
     }
-    return installed;
+    throw InputError(
+        fmt::format("scenarios, vehicles and surfaces are in no share/limpet beside {}: "
+                    "set LIMPET_DATA to their folder",
+                    module.string()));
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {

@@ -8,9 +8,10 @@
 
 namespace limpet {
 
-/// Folder with scenarios/, vehicles/ and surfaces.yaml: the environment's LIMPET_DATA, else the one
-/// that the build knew, else share/limpet beside the program's own folder.
-/// @throws InputError when none of them holds a surfaces.yaml
+/// Folder with scenarios/, vehicles/ and surfaces.yaml: the environment's LIMPET_DATA, else
+/// share/limpet beside the folder of the program, or of the library that it has this from. A build
+/// tree has a link there to the sources; plugins and nodes, which are not installed, know theirs.
+/// @throws InputError when there is no surfaces.yaml
 [[nodiscard]] std::filesystem::path data_root();
 
 /// @return names, sorted, of the YAML files in a folder; none when there is no folder

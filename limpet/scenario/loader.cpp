@@ -129,8 +129,11 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     derive(scenario);
     read_suction(root.find("suction"), scenario.cup);
     derive_from_suction(scenario);
-    for (const char* name : {"guidance", "autopilot"}) {
-        read_rows(root.find(name), find_section(sections, name).rows);
+    read_rows(root.find("guidance"), find_section(sections, "guidance").rows);
+    const YamlNode* autopilot = root.find("autopilot");
+    read_rows(autopilot, find_section(sections, "autopilot").rows, {"kind"});
+    if (const YamlNode* kind = autopilot ? autopilot->find("kind") : nullptr) {
+        scenario.autopilot_kind = read_choice(*kind, "autopilot", autopilots());
     }
     lay_out(scenario);
 }

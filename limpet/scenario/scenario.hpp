@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/wall.hpp"
@@ -99,6 +100,7 @@ struct Scenario {
     CupParameters cup;
     SensorParameters sensors;
     AutopilotParameters autopilot;
+    const AutopilotKind* autopilot_kind = &kCascade;  ///< that flies with them
     PerchingParameters guidance;
     SimulationParameters simulation;
     const Engine* engine = &kMujocoEngine;  ///< that moves the bodies

@@ -144,6 +144,8 @@ std::string to_yaml(const Scenario& scenario) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
         if (name == "suction") {
             writer.value(1, "pressure_model", pressure_models()[copy.cup.pressure_model].name);
+        } else if (name == "autopilot" && copy.autopilot_kind != autopilots().front()) {
+            writer.value(1, "kind", copy.autopilot_kind->name);
         }
     }
     writer.value(1, "engine", copy.engine->name);  // of the last section, simulation

@@ -14,7 +14,6 @@
 #include "limpet/simulation/step.hpp"
 
 namespace limpet {
-namespace {
 
 FlightResult result_of(const Flight& flight, double wall_s) {
     const FlightState& state = flight.state();
@@ -31,8 +30,6 @@ FlightResult result_of(const Flight& flight, double wall_s) {
     result.state_hash = seen.hash;
     return result;
 }
-
-}  // namespace
 
 Flight::Flight(std::shared_ptr<const FlightModel> model, std::uint32_t run, const Outside& outside)
     : model_(std::move(model)),
@@ -90,6 +87,9 @@ void Flight::set_autopilot(const AutopilotParameters& parameters) {
     }
     auto own = std::make_shared<FlightModel>(*model_);
     own->autopilot.parameters = parameters;
+    if (auto remade = own->scenario->autopilot_kind->make(parameters, own->autopilot.vehicle)) {
+        own->autopilot.own = std::move(remade);
+    }
     model_ = std::move(own);
 }
 

@@ -104,6 +104,9 @@ struct FlightResult {
     std::uint64_t state_hash = 0;
 };
 
+/// Of a flight that has ended; its events and its recording are known to who watched.
+[[nodiscard]] FlightResult result_of(const Flight& flight, double wall_s);
+
 /// Flies to the end: the mission's, a crash, or the scenario's time limit.
 /// @param recording  file to write; empty: none
 /// @throws InputError when the recording cannot be written, or the autopilot does not bring the

@@ -31,7 +31,13 @@ AutopilotModel autopilot_model(const Scenario& scenario) {
                      .direction = static_cast<double>(scenario.airframe.rotor_direction[i]),
                      .moment_constant_m = scenario.airframe.rotor.moment_constant_m};
     }
-    return make_autopilot(scenario.autopilot, rotors);
+    AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
+    model.vehicle = {.mass_kg = scenario.airframe.mass_kg,
+                     .inertia_kg_m2 = scenario.airframe.inertia_kg_m2,
+                     .hover_thrust = hover_command(scenario.airframe),
+                     .rotor_p_B_m = scenario.airframe.rotor_p_B_m};
+    model.own = scenario.autopilot_kind->make(model.parameters, model.vehicle);
+    return model;
 }
 
 std::shared_ptr<const FlightModel> build_model(const Scenario& scenario) {

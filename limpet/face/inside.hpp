@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "limpet/record/recording.hpp"
+#include "limpet/scenario.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/simulation/flight.hpp"
+
+/// What the public face stands on: the house's own things that have the same names.
+namespace limpet::face {
+
+using HouseScenario = limpet::Scenario;
+using HouseFlight = limpet::Flight;
+using HouseRecording = limpet::Recording;
+
+struct Scenario::Inside {
+    HouseScenario scenario;
+    std::string wanted;
+    std::vector<std::string> changes;
+};
+
+}  // namespace limpet::face

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/recording.hpp"
+
+#include "limpet/face/inside.hpp"
+
+namespace limpet::face {
+
+struct Recording::Inside {
+    HouseRecording recording;
+    std::vector<PastEvent> events;
+};
+
+Recording::Recording(const std::filesystem::path& file) {
+    Inside inside{.recording = read_recording(file), .events = {}};
+    for (const RecordedEvent& event : inside.recording.events) {
+        inside.events.push_back(
+            {event.time_s, event.station, event.name, event.reason, event.values});
+    }
+    inside_ = std::make_shared<const Inside>(std::move(inside));
+}
+
+std::vector<std::string> Recording::topics() const {
+    std::vector<std::string> names;
+    for (const auto& table : inside_->recording.tables) {
+        names.push_back(table.topic);
+    }
+    return names;
+}
+
+std::vector<std::string> Recording::columns(std::string_view topic) const {
+    std::vector<std::string> names;
+    for (const auto& column : inside_->recording.table(topic).columns) {
+        names.push_back(column.name);
+    }
+    return names;
+}
+
+Series Recording::series(std::string_view topic, std::string_view column) const {
+    const auto found = inside_->recording.series(topic, column);
+    return {.time_s = found.time_s, .values = found.values};
+}
+
+const std::vector<PastEvent>& Recording::events() const {
+    return inside_->events;
+}
+
+std::string Recording::scenario_yaml() const {
+    const auto* text = inside_->recording.attachment("scenario.yaml");
+    return text == nullptr ? std::string() : text->text;
+}
+
+const std::string& Recording::damage() const {
+    return inside_->recording.damage;
+}
+
+}  // namespace limpet::face

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/face/stations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "limpet/core/time.hpp"
+
+namespace limpet::face {
+
+GuidanceSeat::GuidanceSeat(std::shared_ptr<const Guidance> guidance, int rate_Hz)
+    : memory(guidance->memory_size()), guidance_(std::move(guidance)), rate_Hz_(rate_Hz) {}
+
+void GuidanceSeat::exchange(const Readings& readings, const Estimate& estimate, double time_s,
+                            PerchingMemory& guidance, EventList& events) {
+    if (!due(std::llround(time_s * kTicksPerSecond), rate_Hz_)) {
+        return;
+    }
+    said_ =
+        guidance_->update({.readings = readings, .estimate = estimate, .time_s = time_s}, memory);
+    guidance.setpoint = said_.setpoint;
+    if (said_.event) {
+        events.add(make_event(time_s, "guidance", *said_.event, said_.reason));
+    }
+}
+
+CupSeat::CupSeat(std::shared_ptr<const CupPressure> pressure)
+    : memory(pressure->memory_size()), pressure_(std::move(pressure)) {}
+
+CupOutput CupSeat::step(const CupModel& model, CupState& state, const Surface& surface,
+                        const Kinematics& cup, const CupInput& input, double dt_s) {
+    CupPressureInput air{.pressure_Pa = state.mean_pressure_Pa,
+                         .radius_m = model.parameters.lip.radius_m,
+                         .vacuum_pressure_Pa = surface.vacuum_pressure_Pa,
+                         .sealing_time_constant_s = surface.sealing_time_constant_s,
+                         .unsealing_time_constant_s = surface.unsealing_time_constant_s,
+                         .dt_s = dt_s};
+    const CupOutput output = limpet::step(model, state, surface, cup, input, dt_s);
+    const CupPhase phase = state.status.phase;
+    if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
+        air.pump_running = input.pump_on;
+        air.valve_open = input.valve_open;
+        air.press_N = -state.status.pull_N;
+        state.mean_pressure_Pa = std::clamp(pressure_->next_Pa(air, memory), 0.0, kAtmosphere_Pa);
+        state.status.pressure_Pa = state.mean_pressure_Pa;
+        state.status.pump_running = air.pump_running;
+        state.pump_resting = false;
+    }
+    return output;
+}
+
+}  // namespace limpet::face

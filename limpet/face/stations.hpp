@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "limpet/cup.hpp"
+#include "limpet/guidance.hpp"
+#include "limpet/simulation/outside.hpp"
+
+// An outsider's stations where the loop has room for them.
+namespace limpet::face {
+
+/// Guidance at its rate; what it remembers is here.
+class GuidanceSeat final : public ExternalGuidance {
+public:
+    GuidanceSeat(std::shared_ptr<const Guidance> guidance, int rate_Hz);
+
+    void exchange(const Readings& readings, const Estimate& estimate, double time_s,
+                  PerchingMemory& guidance, EventList& events) override;
+    [[nodiscard]] std::string obstacle() const override { return {}; }
+    /// That it has asked for.
+    [[nodiscard]] const std::optional<Outcome>& outcome() const { return said_.outcome; }
+    [[nodiscard]] std::string_view reason() const { return said_.reason; }
+
+    std::vector<double> memory;
+
+private:
+    std::shared_ptr<const Guidance> guidance_;
+    int rate_Hz_;
+    GuidanceOutput said_;
+};
+
+/// The cup as it is, but for the pressure while it is sealed.
+class CupSeat final : public ExternalCup {
+public:
+    explicit CupSeat(std::shared_ptr<const CupPressure> pressure);
+
+    CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
+                   const Kinematics& cup, const CupInput& input, double dt_s) override;
+
+    std::vector<double> memory;
+
+private:
+    std::shared_ptr<const CupPressure> pressure_;
+};
+
+}  // namespace limpet::face
