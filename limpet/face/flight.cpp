@@ -23,15 +23,14 @@ struct Moment::Inside {
 
 namespace {
 
-std::shared_ptr<const SimulationModel> model_of(const HouseScenario& scenario,
-                                                const Stations& stations) {
-    auto model = stations.plant == nullptr
-                     ? build_model(scenario)
-                     : build_model(scenario, [&](const std::string&) { return stations.plant; });
+std::shared_ptr<const FlightModel> model_of(const HouseScenario& scenario,
+                                            const Stations& stations) {
+    auto model =
+        stations.plant == nullptr ? build_model(scenario) : build_model(scenario, stations.plant);
     if (stations.autopilot == nullptr) {
         return model;
     }
-    auto own = std::make_shared<SimulationModel>(*model);
+    auto own = std::make_shared<FlightModel>(*model);
     own->autopilot.own = stations.autopilot;
     return own;
 }
@@ -52,7 +51,7 @@ double Result::metric(std::string_view name) const {
 }
 
 struct Flight::Inside {
-    Inside(std::shared_ptr<const SimulationModel> made, const Stations& own)
+    Inside(std::shared_ptr<const FlightModel> made, const Stations& own)
         : model(std::move(made)), stations(own) {
         if (stations.guidance != nullptr) {
             guidance.emplace(stations.guidance, model->guidance_rate_Hz);
@@ -90,7 +89,7 @@ struct Flight::Inside {
         }
     }
 
-    std::shared_ptr<const SimulationModel> model;
+    std::shared_ptr<const FlightModel> model;
     Stations stations;
     std::optional<GuidanceSeat> guidance;
     std::optional<CupSeat> cup;
