@@ -87,6 +87,8 @@ function(limpet_compile_options target)
     # GCC 12 sees overlaps and overruns in its own std::string (GCC bug 105651) once that comes precompiled.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict\;-Wno-array-bounds>
     $<$<BOOL:${LIMPET_WERROR}>:-Werror> -ffp-contract=off -fno-math-errno
+    # What is installed names files as the repository does, not where it was built.
+    -fmacro-prefix-map=${LIMPET_ROOT}/=
     $<$<STREQUAL:${ARGN},tests>:-O1>)
   if(LIMPET_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${LIMPET_SANITIZE} -fno-omit-frame-pointer)

@@ -62,6 +62,7 @@ std::vector<Choice> choices_of(std::string_view room) {
         return names;
     };
     std::vector<Choice> choices = {{"wall", "shape", names_of(wall_shapes())},
+                                   {"autopilot", "kind", names_of(autopilots())},
                                    {"simulation", "engine", names_of(engines())}};
     std::erase_if(choices,
                   [room](const Choice& choice) { return !room.empty() && choice.section != room; });

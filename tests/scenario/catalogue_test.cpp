@@ -69,9 +69,11 @@ TEST(Catalogue, PrintsTheRowsOfARoom) {
 
 TEST(Catalogue, KnowsTheKeysThatTakeAName) {
     const auto all = choices_of("");
-    ASSERT_EQ(all.size(), 2U);
+    ASSERT_EQ(all.size(), 3U);
     EXPECT_EQ(all[0].section + "." + all[0].key, "wall.shape");
     EXPECT_EQ(all[0].names.front().name, "plane");
+    ASSERT_EQ(choices_of("autopilot").size(), 1U);
+    EXPECT_EQ(choices_of("autopilot")[0].names.front().name, "cascade");
     ASSERT_EQ(choices_of("simulation").size(), 1U);
     EXPECT_EQ(choices_of("simulation")[0].names.front().name, "mujoco");
     EXPECT_TRUE(choices_of("guidance").empty());
