@@ -30,7 +30,7 @@ fs::path file_of_this_code() {
     std::error_code ignored;
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void*>(&holds_data), &info) != 0 &&
-        std::string_view(info.dli_fname).find(".so") != std::string_view::npos) {
+        fs::path(info.dli_fname).filename().string().find(".so") != std::string::npos) {
         return fs::canonical(info.dli_fname, ignored);
     }
     return fs::read_symlink("/proc/self/exe", ignored);
