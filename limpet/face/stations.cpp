@@ -36,7 +36,7 @@ CupOutput CupSeat::step(const CupModel& model, CupState& state, const Surface& s
                          .sealing_time_constant_s = surface.sealing_time_constant_s,
                          .unsealing_time_constant_s = surface.unsealing_time_constant_s,
                          .dt_s = dt_s};
-    const CupOutput output = limpet::step(model, state, surface, cup, input, dt_s);
+    CupOutput output = limpet::step(model, state, surface, cup, input, dt_s);
     const CupPhase phase = state.status.phase;
     if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
         air.pump_running = input.pump_on;
