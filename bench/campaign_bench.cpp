@@ -19,22 +19,22 @@ namespace {
 
 constexpr int kRepetitions = 5;
 
-Campaign campaign_in(const std::filesystem::path& folder) {
+campaign::Campaign campaign_in(const std::filesystem::path& folder) {
     const auto path = folder / "bench.yaml";
     std::ofstream(path) << "scenario: perch_concrete\nruns: 20\nparameters:\n"
                            "  guidance.dock_speed_m_s: {uniform: [1.0, 1.2]}\n";
-    return load_campaign(path.string());
+    return campaign::load_campaign(path.string());
 }
 
-double rate_1_s(const Campaign& campaign, const std::filesystem::path& folder, int jobs) {
-    std::filesystem::remove(folder / Results::kFileName);
-    Results results = begin_results(campaign, folder, false);
+double rate_1_s(const campaign::Campaign& campaign, const std::filesystem::path& folder, int jobs) {
+    std::filesystem::remove(folder / campaign::Results::kFileName);
+    campaign::Results results = begin_results(campaign, folder, false);
     return run_campaign(results, jobs).rate_1_s();
 }
 
 void compare() {
-    const gnuplot::TemporaryFolder folder;
-    const Campaign campaign = campaign_in(folder.path());
+    const draw::gnuplot::TemporaryFolder folder;
+    const campaign::Campaign campaign = campaign_in(folder.path());
     double one = 0.0;
     double two = 0.0;
     for (int i = 0; i < kRepetitions; ++i) {

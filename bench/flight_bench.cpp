@@ -22,26 +22,26 @@
 namespace limpet {
 namespace {
 
-const std::shared_ptr<const FlightModel>& model() {
-    static const auto shared = build_model(load_scenario("perch_concrete"));
+const std::shared_ptr<const simulation::FlightModel>& model() {
+    static const auto shared = simulation::build_model(scenario::load_scenario("perch_concrete"));
     return shared;
 }
 
 struct Tape {
-    PlantState start;
-    PlantState end;
+    plant::PlantState start;
+    plant::PlantState end;
     std::vector<PlantStep> steps;
     double simulated_s = 0.0;
 };
 
 const Tape& tape() {
     static const Tape shared = [] {
-        MujocoPlant plant(model()->plant);
-        FlightState state = start(*model(), plant);
+        plant::MujocoPlant plant(model()->plant);
+        simulation::FlightState state = start(*model(), plant);
         Tape recorded;
         recorded.start = plant.save();
         TapePlant writer(plant);
-        TickReport report;
+        simulation::TickReport report;
         while (!state.ending) {
             step(*model(), state, writer, report);
         }
@@ -59,7 +59,7 @@ void report(benchmark::State& state, double simulated_s) {
 }
 
 void bare_physics(benchmark::State& state) {
-    MujocoPlant plant(model()->plant);
+    plant::MujocoPlant plant(model()->plant);
     for (auto _ : state) {
         plant.restore(tape().start);
         for (const PlantStep& step : tape().steps) {

@@ -10,22 +10,22 @@ namespace limpet {
 /// All that the loop told its plant in one step.
 struct PlantStep {
     struct Applied {
-        Body body;
+        plant::Body body;
         Wrench wrench_W;
         Vector3 p_W_m;
     };
     std::vector<Applied> applied;
     double slider_N = 0.0;
-    StepMode mode;
+    plant::StepMode mode;
 };
 
 /// A plant that writes down what it is told, so that the same physics can be run again without the
 /// loop: same model, same step schedule, same forces, same contacts.
-class TapePlant final : public Plant {
+class TapePlant final : public plant::Plant {
 public:
-    explicit TapePlant(Plant& plant) : plant_(plant) {}
+    explicit TapePlant(plant::Plant& plant) : plant_(plant) {}
 
-    void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override {
+    void apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) override {
         next_.applied.push_back({body, wrench_W, p_W_m});
         plant_.apply(body, wrench_W, p_W_m);
     }
@@ -33,23 +33,23 @@ public:
         next_.slider_N += force_N;
         plant_.apply_slider(force_N);
     }
-    void step(const StepMode& mode) override {
+    void step(const plant::StepMode& mode) override {
         next_.mode = mode;
         steps_.push_back(next_);
         next_ = {};
         plant_.step(mode);
     }
-    [[nodiscard]] Kinematics kinematics(Body body) const override {
+    [[nodiscard]] Kinematics kinematics(plant::Body body) const override {
         return plant_.kinematics(body);
     }
-    [[nodiscard]] SliderMotion slider() const override { return plant_.slider(); }
+    [[nodiscard]] plant::SliderMotion slider() const override { return plant_.slider(); }
     [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
                                             const Vector3& dir_W) const override {
         return plant_.ray(origin_W_m, dir_W);
     }
     [[nodiscard]] Vector3 contact_force_W() const override { return plant_.contact_force_W(); }
-    [[nodiscard]] PlantState save() const override { return plant_.save(); }
-    void restore(const PlantState& state) override { plant_.restore(state); }
+    [[nodiscard]] plant::PlantState save() const override { return plant_.save(); }
+    void restore(const plant::PlantState& state) override { plant_.restore(state); }
     void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
                   const Vector3& w_WB_B_rad_s) override {
         plant_.set_pose(p_WB_m, q_WB, v_WB_W_m_s, w_WB_B_rad_s);
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] const std::vector<PlantStep>& steps() const { return steps_; }
 
 private:
-    Plant& plant_;
+    plant::Plant& plant_;
     PlantStep next_;
     std::vector<PlantStep> steps_;
 };

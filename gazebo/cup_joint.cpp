@@ -6,7 +6,7 @@
 #include "gazebo/frames.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 using gazebo_frames::turn;
 using ignition::math::Vector3d;
@@ -76,4 +76,4 @@ Wrench CupJoint::load_T(const Matrix3& R_TW, double dt_s) {
             .moment_N_m = R_TW * (R_WC * mean_C_.moment_N_m)};
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -8,7 +8,7 @@
 #include "gazebo/wall_finder.hpp"
 #include "limpet/core/signals/wrench.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// The paper's joint between cup and wall: made as the world runs, taken out again. Its load is
 /// read by the engine's feedback and smoothed. To a static model it is a joint to the world, as the
@@ -45,4 +45,4 @@ private:
     Wrench mean_C_;      ///< in the cup's frame, forward-right-down
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

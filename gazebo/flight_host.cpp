@@ -4,9 +4,9 @@
 #include <boost/coroutine2/protected_fixedsize_stack.hpp>
 #include <utility>
 
-#include "limpet/vehicle/links.hpp"
+#include "limpet/models/links.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 /// fly() keeps its large things on the heap; the compressor of recordings wants some stack.
@@ -16,16 +16,16 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
-    const Airframe& airframe = flight_.scenario.airframe;
-    const GazeboNames names{.base = called(airframe, "base"),
-                            .carriage = called(airframe, "carriage"),
+    const vehicle::Airframe& airframe = flight_.scenario.airframe;
+    const GazeboNames names{.base = models::called(airframe, "base"),
+                            .carriage = models::called(airframe, "carriage"),
                             .cup = called(airframe, "cup"),
                             .slider = called(airframe, "slider"),
                             .hinges = {called(airframe, "cup_pitch"), called(airframe, "cup_yaw")}};
     const auto plant = std::make_shared<const GazeboModel>(
         std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
     flight_.conduct.stop = &interrupted_;
-    model_ = build_model(flight_.scenario, plant);
+    model_ = simulation::build_model(flight_.scenario, plant);
 }
 
 void FlightHost::update() {
@@ -71,4 +71,4 @@ void FlightHost::run(Coroutine::push_type& to_gazebo) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

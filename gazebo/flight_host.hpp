@@ -12,14 +12,14 @@
 #include "gazebo/gazebo_plant.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// What is flown, and how; see FlightConduct.
 struct HostedFlight {
-    Scenario scenario;
+    scenario::Scenario scenario;
     std::filesystem::path recording;  ///< empty: none
-    FlightConduct conduct;
-    FlightWatch watch;
+    simulation::FlightConduct conduct;
+    simulation::FlightWatch watch;
 };
 
 /// fly(), turned inside out: Gazebo owns the loop, so the flight is a coroutine that runs from one
@@ -41,7 +41,9 @@ public:
     [[nodiscard]] bool under_way() const { return coroutine_ != nullptr && *coroutine_; }
 
     /// @return nullptr until it is over
-    [[nodiscard]] const FlightResult* result() const { return result_ ? &*result_ : nullptr; }
+    [[nodiscard]] const simulation::FlightResult* result() const {
+        return result_ ? &*result_ : nullptr;
+    }
 
 private:
     using Coroutine = boost::coroutines2::coroutine<void>;
@@ -50,12 +52,12 @@ private:
     void run(Coroutine::push_type& to_gazebo);
 
     HostedFlight flight_;
-    std::shared_ptr<const FlightModel> model_;
+    std::shared_ptr<const simulation::FlightModel> model_;
     Coroutine::push_type* to_gazebo_ = nullptr;
     std::atomic<bool> interrupted_{false};
-    std::optional<FlightResult> result_;
+    std::optional<simulation::FlightResult> result_;
     std::exception_ptr failure_;
     std::unique_ptr<Coroutine::pull_type> coroutine_;  ///< last: unwinds what uses the others
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

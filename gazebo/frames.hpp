@@ -9,7 +9,7 @@
 
 /// North-east-down and forward-right-down meet Gazebo's world (x north, y west, z up) and its links
 /// (forward-left-up): half a turn about x, both ways alike. Here and nowhere else.
-namespace limpet::gazebo_frames {
+namespace limpet::gazebo11::gazebo_frames {
 
 [[nodiscard]] inline ignition::math::Vector3d turn(const Vector3& v) {
     return {v.x(), -v.y(), -v.z()};
@@ -24,4 +24,4 @@ namespace limpet::gazebo_frames {
     return {q.W(), q.X(), -q.Y(), -q.Z()};
 }
 
-}  // namespace limpet::gazebo_frames
+}  // namespace limpet::gazebo11::gazebo_frames

@@ -9,7 +9,7 @@
 #include "gazebo/gazebo_plant.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
@@ -71,7 +71,7 @@ void check_gravity(const physics::World& world) {
     require_same("gravity across", std::hypot(gravity_W.x(), gravity_W.y()), 0.0, "m/s^2");
 }
 
-void check_mass(const physics::Model& model, const Airframe& airframe) {
+void check_mass(const physics::Model& model, const vehicle::Airframe& airframe) {
     double mass_kg = 0.0;
     for (const physics::LinkPtr& link : model.GetLinks()) {
         mass_kg += link->GetInertial()->Mass();
@@ -80,7 +80,7 @@ void check_mass(const physics::Model& model, const Airframe& airframe) {
 }
 
 /// The face that rays see must be the one on which the cup seals.
-void check_wall(physics::RayShape& ray, const Scenario& scenario) {
+void check_wall(physics::RayShape& ray, const scenario::Scenario& scenario) {
     if (!scenario.wall.present) {
         return;
     }
@@ -110,8 +110,8 @@ void check_wall(physics::RayShape& ray, const Scenario& scenario) {
 
 }  // namespace
 
-GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
-                         const GazeboNames& names)
+GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& scenario,
+                         NextUpdate next, const GazeboNames& names)
     : vehicle_(std::move(vehicle)),
       world_(vehicle_->GetWorld()),
       engine_(world_->Physics()),
@@ -120,7 +120,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, Ne
         throw InputError(fmt::format("physics engine \"{}\": only \"ode\" flies this vehicle",
                                      engine_->GetType()));
     }
-    const Airframe& airframe = scenario.airframe;
+    const vehicle::Airframe& airframe = scenario.airframe;
     links_[0] = find_link(*vehicle_, names.base);
     if (airframe.has_cup) {
         links_[1] = find_link(*vehicle_, names.carriage);
@@ -145,4 +145,4 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const Scenario& scenario, Ne
     first_ = GazeboPlant::state_of(*vehicle_);
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

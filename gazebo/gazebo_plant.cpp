@@ -10,7 +10,7 @@
 #include "gazebo/frames.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
@@ -28,7 +28,7 @@ constexpr std::size_t kValuesALink = 13;
 
 }  // namespace
 
-std::unique_ptr<Plant> GazeboModel::make() const {
+std::unique_ptr<plant::Plant> GazeboModel::make() const {
     auto plant = std::make_unique<GazeboPlant>(shared_from_this());
     plant->restore(first_);
     return plant;
@@ -36,13 +36,13 @@ std::unique_ptr<Plant> GazeboModel::make() const {
 
 GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model) : model_(std::move(model)) {}
 
-const physics::LinkPtr& GazeboPlant::link(Body body) const {
+const physics::LinkPtr& GazeboPlant::link(plant::Body body) const {
     const auto& found = model_->links_[static_cast<std::size_t>(body)];
     require(found != nullptr, "this vehicle has a slider and a cup");
     return found;
 }
 
-void GazeboPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
+void GazeboPlant::apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
     const physics::LinkPtr& on = link(body);
     on->AddForceAtWorldPosition(turn(wrench_W.force_N), turn(p_W_m));
     on->AddTorque(turn(wrench_W.moment_N_m));
@@ -53,7 +53,7 @@ void GazeboPlant::apply_slider(double force_N) {
     model_->slider_->SetForce(0, force_N);
 }
 
-void GazeboPlant::step(const StepMode& mode) {
+void GazeboPlant::step(const plant::StepMode& mode) {
     if (model_->engine_->GetMaxStepSize() != mode.step_s) {
         set_step(mode.step_s);
     }
@@ -84,18 +84,18 @@ void GazeboPlant::require_healthy() const {
     }
 }
 
-Kinematics GazeboPlant::kinematics(Body body) const {
+Kinematics GazeboPlant::kinematics(plant::Body body) const {
     const physics::LinkPtr& of = link(body);
     const Pose3d pose = of->WorldPose();
     const Quaternion q_WF = turn(pose.Rot());
-    const Vector3d offset = body == Body::cup ? turn(model_->lip_F_m_) : Vector3d::Zero;
+    const Vector3d offset = body == plant::Body::cup ? turn(model_->lip_F_m_) : Vector3d::Zero;
     return {.p_WF_m = turn(pose.Pos() + pose.Rot().RotateVector(offset)),
             .q_WF = q_WF,
             .v_WF_W_m_s = turn(of->WorldLinearVel(offset)),
             .w_WF_F_rad_s = q_WF.conjugate() * turn(of->WorldAngularVel())};
 }
 
-SliderMotion GazeboPlant::slider() const {
+plant::SliderMotion GazeboPlant::slider() const {
     const physics::JointPtr& slider = model_->slider_;
     if (slider == nullptr) {
         return {};
@@ -149,12 +149,12 @@ Vector3 GazeboPlant::contact_force_W() const {
     return turn(sum);
 }
 
-PlantState GazeboPlant::save() const {
+plant::PlantState GazeboPlant::save() const {
     return state_of(*model_->vehicle_);
 }
 
-PlantState GazeboPlant::state_of(const physics::Model& vehicle) {
-    PlantState state;
+plant::PlantState GazeboPlant::state_of(const physics::Model& vehicle) {
+    plant::PlantState state;
     for (const physics::LinkPtr& part : vehicle.GetLinks()) {
         const Pose3d pose = part->WorldPose();
         const Vector3d speed = part->WorldLinearVel();
@@ -167,7 +167,7 @@ PlantState GazeboPlant::state_of(const physics::Model& vehicle) {
     return state;
 }
 
-void GazeboPlant::restore(const PlantState& state) {
+void GazeboPlant::restore(const plant::PlantState& state) {
     const auto links = model_->vehicle_->GetLinks();
     require(state.values.size() == kValuesALink * links.size(), "a state of this model");
     const double* v = state.values.data();
@@ -186,7 +186,7 @@ void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const 
                            const Vector3& w_WB_B_rad_s) {
     // The model's frame may lie elsewhere than the base's; both move together.
     const Pose3d base(turn(p_WB_m), turn(Quaternion(q_WB.normalized())));
-    const Pose3d before = link(Body::base)->WorldPose();
+    const Pose3d before = link(plant::Body::base)->WorldPose();
     const Vector3d rate = turn(Vector3(q_WB * w_WB_B_rad_s));
     for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
         const Pose3d in_base = part->WorldPose() - before;
@@ -197,4 +197,4 @@ void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const 
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

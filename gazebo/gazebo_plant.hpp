@@ -11,7 +11,7 @@
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// Names of the parts of a model in Gazebo that a plant talks to.
 struct GazeboNames {
@@ -23,7 +23,8 @@ struct GazeboNames {
 };
 
 /// A vehicle that stands in a Gazebo world, with ODE as its engine. One world has one plant.
-class GazeboModel final : public PlantModel, public std::enable_shared_from_this<GazeboModel> {
+class GazeboModel final : public plant::PlantModel,
+                          public std::enable_shared_from_this<GazeboModel> {
 public:
     /// Hands control to Gazebo and comes back at its next world update.
     using NextUpdate = std::function<void()>;
@@ -35,11 +36,11 @@ public:
     /// @throws InputError in one line when the engine is not ODE, when a link or joint is missing
     ///         or of another kind, or where the world differs from the scenario: gravity, mass,
     ///         lip, wall
-    GazeboModel(gazebo::physics::ModelPtr vehicle, const Scenario& scenario, NextUpdate next,
-                const GazeboNames& names = {});
+    GazeboModel(gazebo::physics::ModelPtr vehicle, const scenario::Scenario& scenario,
+                NextUpdate next, const GazeboNames& names = {});
 
     /// A plant in the state in which the model was found.
-    [[nodiscard]] std::unique_ptr<Plant> make() const override;
+    [[nodiscard]] std::unique_ptr<plant::Plant> make() const override;
 
 private:
     friend class GazeboPlant;
@@ -53,39 +54,39 @@ private:
     gazebo::physics::RayShapePtr ray_;
     Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
     NextUpdate next_;
-    PlantState first_;
+    plant::PlantState first_;
 };
 
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
 /// length follows the loop's. Contacts are ODE's, always on.
-class GazeboPlant final : public Plant {
+class GazeboPlant final : public plant::Plant {
 public:
     explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
     /// Poses and speeds of all links of a model: what save() gives.
-    [[nodiscard]] static PlantState state_of(const gazebo::physics::Model& vehicle);
+    [[nodiscard]] static plant::PlantState state_of(const gazebo::physics::Model& vehicle);
 
-    void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
+    void apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
     void apply_slider(double force_N) override;
-    void step(const StepMode& mode) override;
+    void step(const plant::StepMode& mode) override;
 
-    [[nodiscard]] Kinematics kinematics(Body body) const override;
-    [[nodiscard]] SliderMotion slider() const override;
+    [[nodiscard]] Kinematics kinematics(plant::Body body) const override;
+    [[nodiscard]] plant::SliderMotion slider() const override;
     [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
                                             const Vector3& dir_W) const override;
     [[nodiscard]] Vector3 contact_force_W() const override;
 
     /// Poses and speeds of all links. ODE goes on from them; not bit-exactly.
-    [[nodiscard]] PlantState save() const override;
-    void restore(const PlantState& state) override;
+    [[nodiscard]] plant::PlantState save() const override;
+    void restore(const plant::PlantState& state) override;
     void set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
                   const Vector3& w_WB_B_rad_s) override;
 
 private:
-    [[nodiscard]] const gazebo::physics::LinkPtr& link(Body body) const;
+    [[nodiscard]] const gazebo::physics::LinkPtr& link(plant::Body body) const;
     void set_step(double step_s);
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

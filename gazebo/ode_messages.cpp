@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 std::atomic<long long> complaints{0};
@@ -33,4 +33,4 @@ long long take_solver_complaints() {
     return complaints.exchange(0);
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// From now on ODE's complaints of its contact solver are counted instead of printed, a line a
 /// step: with friction the direct solver now and then takes what it has found until then. All else
@@ -11,4 +11,4 @@ void count_solver_complaints();
 /// @return how many there were since the last call
 [[nodiscard]] long long take_solver_complaints();
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

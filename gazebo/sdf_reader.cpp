@@ -18,7 +18,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 std::string trimmed(const std::string& text) {
@@ -29,10 +29,10 @@ std::string trimmed(const std::string& text) {
                : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-YamlNode scalar(const std::string& key, const std::string& path, const std::string& place,
-                const std::string& text) {
-    YamlNode node;
-    node.kind = text.empty() ? YamlNode::Kind::null : YamlNode::Kind::scalar;
+scenario::YamlNode scalar(const std::string& key, const std::string& path, const std::string& place,
+                          const std::string& text) {
+    scenario::YamlNode node;
+    node.kind = text.empty() ? scenario::YamlNode::Kind::null : scenario::YamlNode::Kind::scalar;
     node.key = key;
     node.path = path;
     node.place = place;
@@ -44,15 +44,17 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-YamlNode* entry(YamlNode& map, const std::string& key) {
-    const auto found = std::find_if(map.children.begin(), map.children.end(),
-                                    [&](const YamlNode& child) { return child.key == key; });
+scenario::YamlNode* entry(scenario::YamlNode& map, const std::string& key) {
+    const auto found =
+        std::find_if(map.children.begin(), map.children.end(),
+                     [&](const scenario::YamlNode& child) { return child.key == key; });
     return found == map.children.end() ? nullptr : &*found;
 }
 
 /// Adds an entry to a map; one of `lists` to its list.
-void add_entry(YamlNode& map, YamlNode child, const std::vector<std::string>& lists) {
-    YamlNode* const there = entry(map, child.key);
+void add_entry(scenario::YamlNode& map, scenario::YamlNode child,
+               const std::vector<std::string>& lists) {
+    scenario::YamlNode* const there = entry(map, child.key);
     if (!contains(lists, child.key)) {
         if (there != nullptr) {
             fail(child, "stands twice, allowed once");
@@ -61,8 +63,8 @@ void add_entry(YamlNode& map, YamlNode child, const std::vector<std::string>& li
         return;
     }
     if (there == nullptr) {
-        YamlNode list = scalar(child.key, child.path, child.place, "");
-        list.kind = YamlNode::Kind::list;
+        scenario::YamlNode list = scalar(child.key, child.path, child.place, "");
+        list.kind = scenario::YamlNode::Kind::list;
         map.children.push_back(std::move(list));
         add_entry(map, std::move(child), lists);
         return;
@@ -73,11 +75,11 @@ void add_entry(YamlNode& map, YamlNode child, const std::vector<std::string>& li
 }
 
 /// @param attributes  whether they are entries too: those of <plugin> itself are Gazebo's
-YamlNode node_of(const sdf::ElementPtr& element, const std::string& path, bool attributes,
-                 const SdfReading& reading) {
+scenario::YamlNode node_of(const sdf::ElementPtr& element, const std::string& path, bool attributes,
+                           const SdfReading& reading) {
     const sdf::ParamPtr value = element->GetValue();
-    YamlNode node = scalar(element->GetName(), path, reading.place,
-                           value ? trimmed(value->GetAsString()) : std::string());
+    scenario::YamlNode node = scalar(element->GetName(), path, reading.place,
+                                     value ? trimmed(value->GetAsString()) : std::string());
     const auto below = [&](const std::string& key) {
         return path.empty() ? key : path + "." + key;
     };
@@ -95,14 +97,15 @@ YamlNode node_of(const sdf::ElementPtr& element, const std::string& path, bool a
     if (!node.children.empty()) {
         if (!node.text.empty()) {
             fail(node, fmt::format("has text \"{}\" beside elements or attributes, allowed either",
-                                   shown(node.text)));
+                                   scenario::shown(node.text)));
         }
-        node.kind = YamlNode::Kind::map;
+        node.kind = scenario::YamlNode::Kind::map;
     }
     return node;
 }
 
-void override_from_environment(YamlNode& map, const std::string& key, const SdfReading& reading) {
+void override_from_environment(scenario::YamlNode& map, const std::string& key,
+                               const SdfReading& reading) {
     std::string variable = "LIMPET_" + key;
     std::transform(variable.begin(), variable.end(), variable.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
@@ -110,9 +113,10 @@ void override_from_environment(YamlNode& map, const std::string& key, const SdfR
     if (set == nullptr || *set == '\0') {
         return;
     }
-    map.children.erase(std::remove_if(map.children.begin(), map.children.end(),
-                                      [&](const YamlNode& child) { return child.key == key; }),
-                       map.children.end());
+    map.children.erase(
+        std::remove_if(map.children.begin(), map.children.end(),
+                       [&](const scenario::YamlNode& child) { return child.key == key; }),
+        map.children.end());
     const bool is_list = contains(reading.lists, key);
     std::string rest = set;
     while (!rest.empty()) {
@@ -127,9 +131,9 @@ void override_from_environment(YamlNode& map, const std::string& key, const SdfR
 
 }  // namespace
 
-YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading) {
-    YamlNode root = node_of(element, "", false, reading);
-    root.kind = YamlNode::Kind::map;
+scenario::YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading) {
+    scenario::YamlNode root = node_of(element, "", false, reading);
+    root.kind = scenario::YamlNode::Kind::map;
     root.key.clear();
     for (const std::string& key : reading.from_environment) {
         override_from_environment(root, key, reading);
@@ -137,7 +141,7 @@ YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading) {
     return root;
 }
 
-ignition::math::Pose3d read_pose(const YamlNode& node) {
+ignition::math::Pose3d read_pose(const scenario::YamlNode& node) {
     std::istringstream text(read_text(node));
     text.imbue(std::locale::classic());
     std::array<double, 6> numbers{};
@@ -148,7 +152,7 @@ ignition::math::Pose3d read_pose(const YamlNode& node) {
     if (!whole || !std::all_of(numbers.begin(), numbers.end(),
                                [](double number) { return std::abs(number) <= 1e6; })) {
         fail(node, fmt::format("\"{}\" is not a pose, allowed x y z roll pitch yaw [m, rad]",
-                               shown(node.text)));
+                               scenario::shown(node.text)));
     }
     return {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
 }
@@ -169,4 +173,4 @@ void load_or_end(const std::function<void()>& load) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -10,7 +10,7 @@
 
 #include "limpet/scenario/yaml_tree.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 // A plugin's element in SDF is read as a section of YAML is (limpet/scenario/yaml_reader.hpp): the
 // same checks, the same messages, a line each. Gazebo itself swallows what a plugin throws and
@@ -30,11 +30,12 @@ struct SdfReading {
 /// ends. One of `lists` is a list, also when it stands once.
 /// @throws InputError for a child that stands twice and is not of `lists`, and for one that has
 ///         text beside attributes or children
-[[nodiscard]] YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& reading);
+[[nodiscard]] scenario::YamlNode sdf_tree(const sdf::ElementPtr& element,
+                                          const SdfReading& reading);
 
 /// Six numbers as SDF writes a pose: x y z [m], roll pitch yaw [rad].
 /// @throws InputError
-[[nodiscard]] ignition::math::Pose3d read_pose(const YamlNode& node);
+[[nodiscard]] ignition::math::Pose3d read_pose(const scenario::YamlNode& node);
 
 /// Says `limpet: LINE` on stderr and ends the process at once, with what was written flushed: other
 /// threads of the server may wait for what will not come.
@@ -43,4 +44,4 @@ struct SdfReading {
 /// Loads a plugin: InputError ends the server with 2, any other exception with 70.
 void load_or_end(const std::function<void()>& load);
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

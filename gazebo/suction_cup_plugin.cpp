@@ -11,7 +11,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/suggestion.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
@@ -30,7 +30,8 @@ gazebo::physics::LinkPtr find_link(const gazebo::physics::Model& model, const st
         }
     }
     throw InputError(fmt::format("{}: link: \"{}\" is not a link of the model{}", place,
-                                 shown(name), hint(name, {names.begin(), names.end()})));
+                                 scenario::shown(name),
+                                 scenario::hint(name, {names.begin(), names.end()})));
 }
 
 WallGeometry wall_at(const Pose3d& X_WT) {
@@ -89,7 +90,7 @@ void SuctionCupPlugin::start() {
         joint_->release();
     }
     spot_.reset();
-    state_ = CupState{};
+    state_ = suction::CupState{};
     state_.random = RandomStream(settings_.seed, 0, Stream::seal);
     topics_->reset();
 }
@@ -123,15 +124,15 @@ void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
     look_for_wall(X_WC);
     const bool held = joint_ && joint_->holds();
     const CupCommands commands = topics_->commands();
-    CupInput input{.time_s = info.simTime.Double(),
-                   .press_N = -state_.status.pull_N,
-                   .pump_on = commands.pump_on,
-                   .valve_open = commands.valve_open};
+    suction::CupInput input{.time_s = info.simTime.Double(),
+                            .press_N = -state_.status.pull_N,
+                            .pump_on = commands.pump_on,
+                            .valve_open = commands.valve_open};
     if (held && spot_) {
         input.held_T = joint_->load_T(cup_.wall.R_WT.transpose(), dt_s);
     }
-    const CupOutput output = step(cup_, state_, spot_ ? spot_->surface : settings_.surface,
-                                  lip_kinematics(*link_, settings_.X_LC), input, dt_s);
+    const suction::CupOutput output = step(cup_, state_, spot_ ? spot_->surface : settings_.surface,
+                                           lip_kinematics(*link_, settings_.X_LC), input, dt_s);
     const CupPhase phase = state_.status.phase;
     if (joint_ && !held && phase == CupPhase::attached) {
         joint_->hold(*spot_);
@@ -146,7 +147,7 @@ void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
     topics_->publish(state_.status, input.time_s);
 }
 
-void SuctionCupPlugin::report(const CupOutput& output) const {
+void SuctionCupPlugin::report(const suction::CupOutput& output) const {
     if (!output.event) {
         return;
     }
@@ -156,4 +157,4 @@ void SuctionCupPlugin::report(const CupOutput& output) const {
                          output.event->reason);
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

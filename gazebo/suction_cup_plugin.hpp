@@ -12,7 +12,7 @@
 #include "gazebo/suction_cup_topics.hpp"
 #include "gazebo/wall_finder.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// LimpetSuctionCupPlugin: the paper's perching plugin alone, a model plugin for any model. One of
 /// its links carries a suction cup; where the lip meets a static model, the algorithm of the
@@ -75,7 +75,7 @@ private:
     void start();
     void update(const gazebo::common::UpdateInfo& info);
     void look_for_wall(const ignition::math::Pose3d& X_WC);
-    void report(const CupOutput& output) const;
+    void report(const suction::CupOutput& output) const;
 
     std::string place_;  ///< in messages
     SuctionCupSettings settings_;
@@ -85,9 +85,9 @@ private:
     std::unique_ptr<CupJoint> joint_;    ///< null: compliant
     std::unique_ptr<SuctionCupTopics> topics_;
     std::optional<WallSpot> spot_;
-    CupModel cup_;
-    CupState state_;
+    suction::CupModel cup_;
+    suction::CupState state_;
     gazebo::event::ConnectionPtr on_update_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

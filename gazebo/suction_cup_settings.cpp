@@ -8,10 +8,10 @@
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
-Attachment attachment_of(const YamlNode& node) {
+Attachment attachment_of(const scenario::YamlNode& node) {
     const std::string text = read_text(node);
     if (text == "compliant") {
         return Attachment::compliant;
@@ -22,23 +22,24 @@ Attachment attachment_of(const YamlNode& node) {
     if (text == "universal") {
         return Attachment::universal;
     }
-    fail(node, "\"" + shown(text) + "\" is not an attachment, allowed compliant, fixed, universal");
+    fail(node, "\"" + scenario::shown(text) +
+                   "\" is not an attachment, allowed compliant, fixed, universal");
 }
 
 /// sdformat writes a child that says true as 1.
-bool read_switch(const YamlNode& node) {
+bool read_switch(const scenario::YamlNode& node) {
     bool value = false;
     return read_number(node, {node.key, "switch", 0.0, 1.0, &value, {}, {}}) != 0.0;
 }
 
-CupTarget target_of(const YamlNode& node, const Surface& surface) {
-    if (node.kind != YamlNode::Kind::map) {
+CupTarget target_of(const scenario::YamlNode& node, const suction::Surface& surface) {
+    if (node.kind != scenario::YamlNode::Kind::map) {
         fail(node, "must have attributes, allowed model, collision, plane, surface");
     }
     check_keys(node, {"model", "collision", "plane", "surface"});
     CupTarget target{.model = {}, .collision = {}, .plane = {}, .surface = surface};
-    const YamlNode* const model = node.find("model");
-    const YamlNode* const plane = node.find("plane");
+    const scenario::YamlNode* const model = node.find("model");
+    const scenario::YamlNode* const plane = node.find("plane");
     if ((model == nullptr) == (plane == nullptr)) {
         fail(node, "needs one of model=\"NAME\" and plane=\"x y z roll pitch yaw\"");
     }
@@ -47,14 +48,14 @@ CupTarget target_of(const YamlNode& node, const Surface& surface) {
     } else {
         target.plane = read_pose(*plane);
     }
-    if (const YamlNode* collision = node.find("collision")) {
+    if (const scenario::YamlNode* collision = node.find("collision")) {
         if (model == nullptr) {
             fail(*collision, "stands beside plane, allowed beside model");
         }
         target.collision = read_text(*collision);
     }
-    if (const YamlNode* named = node.find("surface")) {
-        target.surface = surface_from(*named, data_root());
+    if (const scenario::YamlNode* named = node.find("surface")) {
+        target.surface = surface_from(*named, scenario::data_root());
     }
     return target;
 }
@@ -77,7 +78,7 @@ const ParameterTable<CupPluginParameters>& cup_plugin_table() {
     return table;
 }
 
-SuctionCupSettings suction_cup_settings(const YamlNode& tree) {
+SuctionCupSettings suction_cup_settings(const scenario::YamlNode& tree) {
     SuctionCupSettings settings;
     const auto plugin_rows = bind(cup_plugin_table(), settings.plugin);
     std::vector<std::string_view> keys = {"link",       "lip_pose", "suction", "surface", "target",
@@ -87,39 +88,39 @@ SuctionCupSettings suction_cup_settings(const YamlNode& tree) {
     }
     check_keys(tree, keys);
     read_rows(&tree, plugin_rows, keys);
-    const YamlNode* const link = tree.find("link");
+    const scenario::YamlNode* const link = tree.find("link");
     if (link == nullptr) {
         fail(tree, "link: is missing, needed: the link that carries the lip");
     }
     settings.link = read_text(*link);
-    if (const YamlNode* pose = tree.find("lip_pose")) {
+    if (const scenario::YamlNode* pose = tree.find("lip_pose")) {
         settings.X_LC = read_pose(*pose);
     }
     read_suction(tree.find("suction"), settings.cup);
-    if (const YamlNode* surface = tree.find("surface")) {
-        settings.surface = surface_from(*surface, data_root());
+    if (const scenario::YamlNode* surface = tree.find("surface")) {
+        settings.surface = surface_from(*surface, scenario::data_root());
     }
-    if (const YamlNode* targets = tree.find("target")) {
-        for (const YamlNode& target : targets->children) {
+    if (const scenario::YamlNode* targets = tree.find("target")) {
+        for (const scenario::YamlNode& target : targets->children) {
             settings.targets.push_back(target_of(target, settings.surface));
         }
     }
-    if (const YamlNode* attachment = tree.find("attachment")) {
+    if (const scenario::YamlNode* attachment = tree.find("attachment")) {
         settings.attachment = attachment_of(*attachment);
     }
-    if (const YamlNode* pump = tree.find("pump")) {
+    if (const scenario::YamlNode* pump = tree.find("pump")) {
         settings.pump_on = read_switch(*pump);
     }
-    if (const YamlNode* valve = tree.find("valve")) {
+    if (const scenario::YamlNode* valve = tree.find("valve")) {
         settings.valve_open = read_switch(*valve);
         if (settings.valve_open && !settings.cup.valve_fitted) {
             fail(*valve, "open, but no valve is fitted, allowed with suction.valve_fitted 1");
         }
     }
-    if (const YamlNode* seed = tree.find("seed")) {
+    if (const scenario::YamlNode* seed = tree.find("seed")) {
         settings.seed = read_count(*seed);
     }
     return settings;
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

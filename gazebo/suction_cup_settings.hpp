@@ -11,7 +11,7 @@
 #include "limpet/scenario/yaml_tree.hpp"
 #include "limpet/suction/cup.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// What holds an attached cup.
 enum class Attachment {
@@ -26,7 +26,7 @@ struct CupTarget {
     std::string collision;  ///< one of its collisions; empty: all
     /// In Gazebo's world: a plane of the world itself that has no model, x into it.
     std::optional<ignition::math::Pose3d> plane = {};
-    Surface surface;
+    suction::Surface surface;
 };
 
 /// Numbers of the plugin itself.
@@ -41,8 +41,8 @@ struct CupPluginParameters {
 struct SuctionCupSettings {
     std::string link;
     ignition::math::Pose3d X_LC;  ///< lip in its link, forward-left-up
-    CupParameters cup;
-    Surface surface;                 ///< of what no target names
+    suction::CupParameters cup;
+    suction::Surface surface;        ///< of what no target names
     std::vector<CupTarget> targets;  ///< none: every static model
     Attachment attachment = Attachment::compliant;
     bool pump_on = false;
@@ -53,6 +53,6 @@ struct SuctionCupSettings {
 
 /// @param tree  of the plugin's element (sdf_tree), with `target` a list
 /// @throws InputError in a line: place, key, value, what is allowed
-[[nodiscard]] SuctionCupSettings suction_cup_settings(const YamlNode& tree);
+[[nodiscard]] SuctionCupSettings suction_cup_settings(const scenario::YamlNode& tree);
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

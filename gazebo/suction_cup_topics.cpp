@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 gazebo::msgs::Any pressure_message(const CupStatus& status) {
@@ -134,4 +134,4 @@ void SuctionCupTopics::on_request(const RequestPtr& request) {
     response_->Publish(response);
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -9,7 +9,7 @@
 
 #include "limpet/core/signals/cup_status.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// What was asked of a cup from outside.
 struct CupCommands {
@@ -59,4 +59,4 @@ private:
     gazebo::transport::SubscriberPtr pump_, valve_, request_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "limpet/autopilot/px4_wires.hpp"
+#include "limpet/px4/wires.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// Elements of LimpetVehiclePlugin, described in vehicle_plugin.hpp.
 struct VehicleOptions {
@@ -20,9 +20,9 @@ struct VehicleOptions {
         quit,
         pause,
     };
-    Scenario scenario;
+    scenario::Scenario scenario;
     Autopilot autopilot = Autopilot::builtin;
-    Px4Addresses px4;
+    px4::Px4Addresses px4;
     std::filesystem::path recording;
     std::filesystem::path result;
     double speed = 0.0;
@@ -32,7 +32,7 @@ struct VehicleOptions {
 /// @param parameters  of the plugin, see sdf_tree()
 /// @param others      keys that are read elsewhere
 /// @throws InputError in one line
-[[nodiscard]] VehicleOptions read_vehicle_options(const YamlNode& parameters,
+[[nodiscard]] VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
                                                   const std::vector<std::string_view>& others);
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -16,7 +16,7 @@
 #include "limpet/simulation/flight_text.hpp"
 #include "limpet/simulation/result_json.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 void say(const std::string& line) {
@@ -24,7 +24,7 @@ void say(const std::string& line) {
     std::fflush(stdout);
 }
 
-void write_result(const std::filesystem::path& path, const FlightResult& result) {
+void write_result(const std::filesystem::path& path, const simulation::FlightResult& result) {
     if (path.empty()) {
         return;
     }
@@ -64,8 +64,8 @@ void VehiclePlugin::end_flight() noexcept {
     }
 }
 
-void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/, const YamlNode& /*parameters*/,
-                            HostedFlight& /*flight*/) {}
+void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/,
+                            const scenario::YamlNode& /*parameters*/, HostedFlight& /*flight*/) {}
 
 void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
     load_or_end([&] {
@@ -82,7 +82,8 @@ void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
     });
 }
 
-void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& parameters) {
+void VehiclePlugin::configure(gazebo::physics::ModelPtr model,
+                              const scenario::YamlNode& parameters) {
     options_ = read_vehicle_options(parameters, more_elements());
     world_ = model->GetWorld();
     world_->Physics()->SetRealTimeUpdateRate(0.0);
@@ -94,21 +95,21 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const YamlNode& p
     flight.conduct.on_obstacle = [](const std::string& obstacle) {
         say("          " + (obstacle.empty() ? "armed" : obstacle));
     };
-    flight.watch.on_event = [](const Event& event) { say(event_line(event)); };
+    flight.watch.on_event = [](const Event& event) { say(simulation::event_line(event)); };
     prepare(model, parameters, flight);
     if (options_.autopilot == VehicleOptions::Autopilot::px4) {
-        const Px4WireWatch watch{
+        const px4::Px4WireWatch watch{
             .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },
             .on_text = [](const std::string& text) { say("          PX4: " + text); },
             .wait_key = "wait_s"};
-        px4_ = std::make_unique<Px4Wires>(
+        px4_ = std::make_unique<px4::Px4Wires>(
             options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch);
         flight.conduct.outside.autopilot = &px4_->autopilot();
     }
     host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));
     say(fmt::format("{}, seed {}: {}", options_.scenario.name, options_.scenario.seed,
                     options_.scenario.description));
-    say(event_head());
+    say(simulation::event_head());
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
         [this](const gazebo::common::UpdateInfo&) { load_or_end([this] { update(); }); });
 }
@@ -126,7 +127,7 @@ void VehiclePlugin::update() {
 }
 
 void VehiclePlugin::end() {
-    const FlightResult& result = *host_->result();
+    const simulation::FlightResult& result = *host_->result();
     say("");
     for (const std::string& line :
          flight_summary(result, [](const std::string& text) { return text; })) {
@@ -153,4 +154,4 @@ void VehiclePlugin::Reset() {
     told_ = false;
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

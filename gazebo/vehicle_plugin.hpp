@@ -10,7 +10,7 @@
 #include "gazebo/flight_host.hpp"
 #include "gazebo/vehicle_options.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// LimpetVehiclePlugin: a model plugin that flies a scenario with Gazebo's bodies. Rotors, battery,
 /// air, cup, sensors, autopilot and guidance are those of `limpet fly`, the same object code; the
@@ -50,23 +50,23 @@ protected:
     /// Before the flight is made.
     /// @param parameters  all elements
     /// @param flight      may be given stations from outside and a watch
-    virtual void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,
+    virtual void prepare(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters,
                          HostedFlight& flight);
     /// Ends a flight that is under way, its recording whole. Whoever gives stations in prepare()
     /// calls it in its destructor: the flight goes on to the end of its tick and asks them.
     void end_flight() noexcept;
 
 private:
-    void configure(gazebo::physics::ModelPtr model, const YamlNode& parameters);
+    void configure(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters);
     void update();
     void end();
 
     VehicleOptions options_;
     gazebo::physics::WorldPtr world_;
-    std::unique_ptr<Px4Wires> px4_;
+    std::unique_ptr<px4::Px4Wires> px4_;
     std::unique_ptr<FlightHost> host_;
     bool told_ = false;  ///< how it ended
     gazebo::event::ConnectionPtr on_update_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/vehicle_plugin.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 GZ_REGISTER_MODEL_PLUGIN(VehiclePlugin)
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -9,7 +9,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using ignition::math::Matrix3d;
@@ -72,13 +72,13 @@ WallFinder::WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& 
         const gazebo::physics::ModelPtr model = world_->ModelByName(target.model);
         if (!model) {
             throw InputError(fmt::format("{}: target: model \"{}\" is not in the world", place,
-                                         shown(target.model)));
+                                         scenario::shown(target.model)));
         }
         if (!model->IsStatic()) {
             throw InputError(
                 fmt::format("{}: target: model \"{}\" is not static, allowed static "
                             "models",
-                            place, shown(target.model)));
+                            place, scenario::shown(target.model)));
         }
     }
 }
@@ -117,7 +117,7 @@ gazebo::physics::CollisionPtr WallFinder::collision_of(const std::string& name) 
     return collision;
 }
 
-const Surface* WallFinder::surface_of(const gazebo::physics::Collision& collision) const {
+const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision& collision) const {
     const gazebo::physics::ModelPtr model = collision.GetModel();
     if (!model->IsStatic()) {
         return nullptr;
@@ -140,7 +140,7 @@ std::optional<WallSpot> WallFinder::on_model(const Pose3d& X_WC) const {
     if (!centre) {
         return std::nullopt;
     }
-    const Surface* const surface = surface_of(*centre->collision);
+    const suction::Surface* const surface = surface_of(*centre->collision);
     if (surface == nullptr) {
         return std::nullopt;
     }
@@ -217,4 +217,4 @@ bool WallFinder::is_over(const WallSpot& spot, const Pose3d& X_WC) const {
     return hit && hit->collision->GetScopedName() == spot.collision;
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

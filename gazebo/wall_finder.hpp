@@ -10,7 +10,7 @@
 
 #include "gazebo/suction_cup_settings.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// A spot of wall below a lip. Its frame has x into the wall and the lip's own roll; it is kept in
 /// the frame of the link that it is on, so that a static model that is put elsewhere takes it
@@ -21,7 +21,7 @@ struct WallSpot {
     std::string model, link_name;  ///< as their world knows them
     std::string collision;         ///< scoped name; empty: of the world
     ignition::math::Pose3d X_LT;   ///< in the link, or in the world
-    Surface surface;
+    suction::Surface surface;
 
     /// @return in the world; nothing when its model is no longer there
     [[nodiscard]] std::optional<ignition::math::Pose3d> pose(
@@ -55,7 +55,8 @@ private:
                                           const ignition::math::Vector3d& axis_W,
                                           double beyond_m) const;
     [[nodiscard]] gazebo::physics::CollisionPtr collision_of(const std::string& name) const;
-    [[nodiscard]] const Surface* surface_of(const gazebo::physics::Collision& collision) const;
+    [[nodiscard]] const suction::Surface* surface_of(
+        const gazebo::physics::Collision& collision) const;
     [[nodiscard]] std::optional<WallSpot> on_model(const ignition::math::Pose3d& X_WC) const;
     [[nodiscard]] std::optional<WallSpot> on_plane(const ignition::math::Pose3d& X_WC,
                                                    double nearer_than_m) const;
@@ -64,10 +65,10 @@ private:
     gazebo::physics::WorldPtr world_;
     gazebo::physics::RayShapePtr ray_;
     std::vector<CupTarget> targets_;
-    Surface surface_;
+    suction::Surface surface_;
     double radius_m_;
     double flatness_m_;
     mutable std::map<std::string, boost::weak_ptr<gazebo::physics::Collision>> known_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -16,7 +16,7 @@
 #include "limpet/scenario.hpp"
 #include "limpet/signals.hpp"
 
-namespace limpet::face {
+namespace limpet {
 
 /// Stations of your own in the loop; those that are null are the scenario's.
 struct Stations {
@@ -102,4 +102,4 @@ private:
     std::unique_ptr<Inside> inside_;
 };
 
-}  // namespace limpet::face
+}  // namespace limpet

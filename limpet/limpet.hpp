@@ -22,19 +22,3 @@
 #include "limpet/scenario.hpp"
 #include "limpet/signals.hpp"
 #include "limpet/version.hpp"
-
-namespace limpet {
-
-using face::Flight;
-using face::load;
-using face::Metric;
-using face::Moment;
-using face::PastEvent;
-using face::Recording;
-using face::Result;
-using face::Scenario;
-using face::scenario_names;
-using face::Series;
-using face::Stations;
-
-}  // namespace limpet

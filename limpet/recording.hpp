@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace limpet::face {
+namespace limpet {
 
 /// One column of a topic against time; a view into the recording.
 struct Series {
@@ -48,4 +48,4 @@ private:
     std::shared_ptr<const Inside> inside_;
 };
 
-}  // namespace limpet::face
+}  // namespace limpet

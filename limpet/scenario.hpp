@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace limpet::face {
+namespace limpet {
 
 /// One experiment, read and checked: what flies, against what, with which numbers. Immutable, cheap
 /// to copy.
@@ -40,4 +40,4 @@ private:
 /// Names of all scenarios that are installed.
 [[nodiscard]] std::vector<std::string> scenario_names();
 
-}  // namespace limpet::face
+}  // namespace limpet

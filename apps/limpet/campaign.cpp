@@ -40,7 +40,7 @@ std::string time_text(double time_s) {
                           : fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-std::string progress_text(const Progress& progress) {
+std::string progress_text(const campaign::Progress& progress) {
     std::string text =
         fmt::format("{} of {} runs, {:.1f} a second, {} left", progress.finished, progress.runs,
                     progress.rate_1_s(), time_text(progress.left_s()));
@@ -50,14 +50,15 @@ std::string progress_text(const Progress& progress) {
     return text;
 }
 
-std::string bar_text(const Progress& progress) {
+std::string bar_text(const campaign::Progress& progress) {
     const auto full = kBar * progress.finished / std::max(1U, progress.runs);
     return fmt::format("[{}{}] ", std::string(full, '#'), std::string(kBar - full, '.'));
 }
 
-CampaignWatch watch(Terminal& terminal) {
+campaign::CampaignWatch watch(Terminal& terminal) {
     return {.on_progress =
-                [&terminal, next = Clock::now() + kLineEvery](const Progress& progress) mutable {
+                [&terminal,
+                 next = Clock::now() + kLineEvery](const campaign::Progress& progress) mutable {
                     if (terminal.live()) {
                         terminal.progress(bar_text(progress) + progress_text(progress));
                     } else if (Clock::now() >= next) {
@@ -68,8 +69,8 @@ CampaignWatch watch(Terminal& terminal) {
             .stop = stop_on_signals()};
 }
 
-ExitCode conclude(const Progress& progress, Results& results, const CampaignOptions& options,
-                  const fs::path& folder, Terminal& terminal) {
+ExitCode conclude(const campaign::Progress& progress, campaign::Results& results,
+                  const CampaignOptions& options, const fs::path& folder, Terminal& terminal) {
     if (progress.finished < progress.runs) {
         fmt::print(stderr,
                    "limpet: stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
@@ -81,11 +82,12 @@ ExitCode conclude(const Progress& progress, Results& results, const CampaignOpti
                               progress.elapsed_s, progress.rate_1_s()));
     terminal.line("");
     terminal.line(summary_text(summarise(results)));
-    const std::string file = (folder / Results::kFileName).string();
+    const std::string file = (folder / campaign::Results::kFileName).string();
     terminal.line(terminal.bold("written    ") + file);
     terminal.line("           limpet summary " + file + "      figures, JSON");
     terminal.line("           limpet replay " + file + " 0     one run, recorded");
-    if (const auto faults = progress.outcomes.find(kFault); faults != progress.outcomes.end()) {
+    if (const auto faults = progress.outcomes.find(campaign::kFault);
+        faults != progress.outcomes.end()) {
         fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
                    faults->second, file);
         return ExitCode::our_fault;
@@ -94,11 +96,11 @@ ExitCode conclude(const Progress& progress, Results& results, const CampaignOpti
 }
 
 ExitCode fly_campaign(const CampaignOptions& options) {
-    const Campaign campaign = load_campaign(options.file);
+    const campaign::Campaign campaign = campaign::load_campaign(options.file);
     const fs::path folder =
         make_folder(options.out.empty() ? fs::path("out") / campaign.name : fs::path(options.out));
-    const FolderLock lock(folder);
-    Results results = begin_results(campaign, folder, options.resume);
+    const campaign::FolderLock lock(folder);
+    campaign::Results results = begin_results(campaign, folder, options.resume);
     Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
     const std::uint32_t there = results.finished();
     terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
@@ -106,7 +108,7 @@ ExitCode fly_campaign(const CampaignOptions& options) {
                               campaign.scenario_name, campaign.seed, options.jobs,
                               options.jobs == 1 ? "" : "s",
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
-    const Progress progress = run_campaign(results, options.jobs, watch(terminal));
+    const campaign::Progress progress = run_campaign(results, options.jobs, watch(terminal));
     return conclude(progress, results, options, folder, terminal);
 }
 

@@ -20,7 +20,7 @@ bool in_folder(const std::filesystem::path& file, std::string_view folder) {
 }
 
 void check_recording(const std::string& file) {
-    const Recording recording = read_recording(file);
+    const record::Recording recording = record::read_recording(file);
     if (!recording.damage.empty()) {
         throw InputError(file + ": " + recording.damage);
     }
@@ -34,17 +34,17 @@ void check_file(const std::string& file) {
         check_recording(file);
     } else if (path.filename() == "surfaces.yaml") {
         const auto root = std::filesystem::absolute(path).parent_path();
-        fmt::print("{}: {} surfaces, all good\n", file, load_surfaces(root).size());
+        fmt::print("{}: {} surfaces, all good\n", file, scenario::load_surfaces(root).size());
     } else if (in_folder(path, "campaigns")) {
-        const Campaign campaign = load_campaign(file);
+        const campaign::Campaign campaign = campaign::load_campaign(file);
         fmt::print("{}: a good campaign: {} runs of {}\n", file, campaign.runs,
                    campaign.scenario_name);
     } else if (in_folder(path, "vehicles")) {
-        const Airframe airframe = load_vehicle(file, data_root());
+        const vehicle::Airframe airframe = scenario::load_vehicle(file, scenario::data_root());
         fmt::print("{}: a good vehicle of {:.2f} kg\n", file, airframe.mass_kg);
     } else {
-        const Scenario scenario = load_scenario(file);
-        (void)build_model(scenario);  // the plant compiles it as well
+        const scenario::Scenario scenario = scenario::load_scenario(file);
+        (void)simulation::build_model(scenario);  // the plant compiles it as well
         fmt::print("{}: a good scenario: {}\n", file, scenario.description);
     }
 }

@@ -33,7 +33,7 @@ struct CompanionOptions {
     bool no_record = false;
 };
 
-void check_speed(const CompanionOptions& options, const CompanionConfig& config) {
+void check_speed(const CompanionOptions& options, const companion::CompanionConfig& config) {
     if (!(std::isfinite(options.speed) && options.speed >= 0.01 && options.speed <= 100.0)) {
         throw InputError(fmt::format("--speed {}: must be 0.01..100", options.speed));
     }
@@ -53,15 +53,17 @@ void tell(Terminal& terminal, const std::string& text) {
     }
 }
 
-CompanionWatch watch(Terminal& terminal) {
-    return {.on_event = [&terminal](const Event& event) { tell(terminal, event_line(event)); },
+companion::CompanionWatch watch(Terminal& terminal) {
+    return {.on_event =
+                [&terminal](const Event& event) { tell(terminal, simulation::event_line(event)); },
             .on_line =
                 [&terminal](double time_s, const std::string& text) {
                     tell(terminal, fmt::format("{:8.3f}  {}", time_s, text));
                 }};
 }
 
-void introduce(const CompanionOptions& options, const CompanionConfig& config, Terminal& terminal) {
+void introduce(const CompanionOptions& options, const companion::CompanionConfig& config,
+               Terminal& terminal) {
     terminal.line(terminal.bold(config.name) + ": " + config.description);
     for (const std::string& line : describe(config)) {
         terminal.line("  " + line);
@@ -74,7 +76,7 @@ void introduce(const CompanionOptions& options, const CompanionConfig& config, T
     }
 }
 
-void conclude(const CompanionResult& result, const std::filesystem::path& recording,
+void conclude(const companion::CompanionResult& result, const std::filesystem::path& recording,
               Terminal& terminal) {
     tell(terminal, "");
     const std::string outcome =
@@ -90,14 +92,15 @@ void conclude(const CompanionResult& result, const std::filesystem::path& record
     }
 }
 
-ExitCode code_of(const CompanionOptions& options, const CompanionResult& result) {
+ExitCode code_of(const CompanionOptions& options, const companion::CompanionResult& result) {
     switch (result.end) {
-        case CompanionEnd::absent: throw InputError("nothing was flown: " + result.reason);
-        case CompanionEnd::interrupted: return ExitCode::interrupted;
-        case CompanionEnd::handed_back:
+        case companion::CompanionEnd::absent:
+            throw InputError("nothing was flown: " + result.reason);
+        case companion::CompanionEnd::interrupted: return ExitCode::interrupted;
+        case companion::CompanionEnd::handed_back:
             fmt::print(stderr, "limpet: control was handed back: {}\n", result.reason);
             return ExitCode::other_outcome;
-        case CompanionEnd::mission_over: break;
+        case companion::CompanionEnd::mission_over: break;
     }
     if (!options.expect.empty() && expected_outcome(options.expect) != *result.outcome) {
         fmt::print(stderr, "limpet: expected {}, the mission ended {}: {}\n", options.expect,
@@ -111,7 +114,8 @@ ExitCode companion(const CompanionOptions& options) {
     if (!options.expect.empty()) {
         (void)expected_outcome(options.expect);  // before any work
     }
-    const CompanionConfig config = load_companion(options.config, options.overrides);
+    const companion::CompanionConfig config =
+        companion::load_companion(options.config, options.overrides);
     check_speed(options, config);
     Terminal terminal(Terminal::Voice::normal);
     introduce(options, config, terminal);
@@ -124,14 +128,14 @@ ExitCode companion(const CompanionOptions& options) {
     }
     std::signal(SIGPIPE, SIG_IGN);
     const std::atomic<bool>* stop = stop_on_signals();
-    Wires wires = open_wires(config);
-    CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
+    companion::Wires wires = open_wires(config);
+    companion::CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
     if (!options.no_record) {
         conduct.recording = make_folder(options.out) / "flight.mcap";
     }
-    terminal.line(terminal.dim(event_head()));
-    const CompanionResult result =
-        run(config, wires, steady_clock(options.speed), conduct, watch(terminal));
+    terminal.line(terminal.dim(simulation::event_head()));
+    const companion::CompanionResult result =
+        run(config, wires, companion::steady_clock(options.speed), conduct, watch(terminal));
     conclude(result, conduct.recording, terminal);
     return code_of(options, result);
 }

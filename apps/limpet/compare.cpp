@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/core/errors.hpp"
 #include "limpet/compare/figures.hpp"
 #include "limpet/compare/text.hpp"
+#include "limpet/core/errors.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -30,12 +30,12 @@ struct CompareOptions {
     bool markdown = false;
 };
 
-Alignment alignment_of(const std::string& text) {
+compare::Alignment alignment_of(const std::string& text) {
     if (text == "events") {
         return {};
     }
-    return text == "start" ? Alignment{.by = Alignment::By::start}
-                           : Alignment{.by = Alignment::By::event, .event = text};
+    return text == "start" ? compare::Alignment{.by = compare::Alignment::By::start}
+                           : compare::Alignment{.by = compare::Alignment::By::event, .event = text};
 }
 
 /// What the flights are called: as told; else by their folders where those tell them apart; else by
@@ -58,8 +58,8 @@ std::vector<std::string> labels_of(const CompareOptions& options) {
 }
 
 /// @throws InputError for a damaged one: half a flight is no measure of another
-Recording whole_recording(const std::string& path) {
-    Recording recording = read_recording(path);
+record::Recording whole_recording(const std::string& path) {
+    record::Recording recording = record::read_recording(path);
     if (!recording.damage.empty()) {
         throw InputError(path + ": " + recording.damage);
     }
@@ -69,9 +69,9 @@ Recording whole_recording(const std::string& path) {
     return recording;
 }
 
-void print_text(const std::vector<FlightComparison>& comparisons,
-                const std::vector<Excess>& checked) {
-    for (const FlightComparison& comparison : comparisons) {
+void print_text(const std::vector<compare::FlightComparison>& comparisons,
+                const std::vector<compare::Excess>& checked) {
+    for (const compare::FlightComparison& comparison : comparisons) {
         fmt::print("{}{}", &comparison == &comparisons.front() ? "" : "\n",
                    comparison_text(comparison));
     }
@@ -80,24 +80,25 @@ void print_text(const std::vector<FlightComparison>& comparisons,
 
 ExitCode compare_flights(const CompareOptions& options) {
     const std::vector<std::string> labels = labels_of(options);
-    std::vector<DifferenceLimit> limits;
+    std::vector<compare::DifferenceLimit> limits;
     std::transform(options.limits.begin(), options.limits.end(), std::back_inserter(limits),
-                   parse_limit);
-    std::vector<Recording> recordings;
+                   compare::parse_limit);
+    std::vector<record::Recording> recordings;
     std::transform(options.recordings.begin(), options.recordings.end(),
                    std::back_inserter(recordings), whole_recording);
-    StateNumbers numbers;
-    std::vector<FlightTrace> others;
+    compare::StateNumbers numbers;
+    std::vector<compare::FlightTrace> others;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
-        others.push_back({&recordings[i], labels[i], flight_channels(recordings[i], numbers)});
+        others.push_back(
+            {&recordings[i], labels[i], compare::flight_channels(recordings[i], numbers)});
     }
-    const FlightTrace reference = std::move(others.front());
+    const compare::FlightTrace reference = std::move(others.front());
     others.erase(others.begin());
-    std::vector<FlightComparison> comparisons;
-    for (const FlightTrace& other : others) {
-        comparisons.push_back(compare(reference, other, alignment_of(options.align)));
+    std::vector<compare::FlightComparison> comparisons;
+    for (const compare::FlightTrace& other : others) {
+        comparisons.push_back(compare::compare(reference, other, alignment_of(options.align)));
     }
-    const std::vector<Excess> checked = check_limits(comparisons, limits);
+    const std::vector<compare::Excess> checked = check_limits(comparisons, limits);
 
     if (options.json) {
         fmt::print("{}\n", comparison_json(comparisons, checked));
@@ -108,7 +109,7 @@ ExitCode compare_flights(const CompareOptions& options) {
     }
     if (!options.out.empty()) {
         const fs::path folder = make_folder(options.out);
-        const Pictures pictures = draw_comparison(reference, others, comparisons, folder);
+        const draw::Pictures pictures = draw_comparison(reference, others, comparisons, folder);
         write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
         for (const fs::path& file : pictures.files) {
             if (!options.json && !options.markdown) {
@@ -117,10 +118,10 @@ ExitCode compare_flights(const CompareOptions& options) {
         }
     }
     bool exceeded = false;
-    for (const Excess& check : checked) {
+    for (const compare::Excess& check : checked) {
         if (check.exceeded()) {
             exceeded = true;
-            fmt::print(stderr, "limpet: {}", limits_text({check}));
+            fmt::print(stderr, "limpet: {}", compare::limits_text({check}));
         }
     }
     return exceeded ? ExitCode::other_outcome : ExitCode::ok;

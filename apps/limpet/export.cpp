@@ -10,10 +10,10 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/models/model_writer.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/worlds.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -36,22 +36,22 @@ struct ExportOptions {
 
 /// What is to be written: a scenario, or a vehicle alone.
 struct Subject {
-    std::optional<Scenario> scenario;
-    Airframe airframe;
+    std::optional<scenario::Scenario> scenario;
+    vehicle::Airframe airframe;
 };
 
 /// A name of a scenario, or a file that names a vehicle.
 bool is_scenario(const std::string& wanted, const fs::path& root) {
-    if (is_path(wanted)) {
-        return parse_yaml_file(wanted).find("vehicle") != nullptr;
+    if (scenario::is_path(wanted)) {
+        return scenario::parse_yaml_file(wanted).find("vehicle") != nullptr;
     }
-    const auto scenarios = names_in(root / "scenarios");
-    const auto vehicles = names_in(root / "vehicles");
+    const auto scenarios = scenario::names_in(root / "scenarios");
+    const auto vehicles = scenario::names_in(root / "vehicles");
     const bool known = std::count(scenarios.begin(), scenarios.end(), wanted) > 0;
     if (!known && std::count(vehicles.begin(), vehicles.end(), wanted) == 0) {
         auto both = vehicles;
         both.insert(both.end(), scenarios.begin(), scenarios.end());
-        throw InputError(unknown_name(wanted, "vehicle or scenario", both));
+        throw InputError(scenario::unknown_name(wanted, "vehicle or scenario", both));
     }
     return known;
 }
@@ -61,25 +61,26 @@ Subject load(const ExportOptions& options, const fs::path& root) {
         if (!options.wall.empty()) {
             throw InputError("--wall is of use only with a vehicle: a scenario has its own wall");
         }
-        Scenario scenario = load_scenario(options.wanted, {.overrides = options.overrides});
-        Airframe airframe = scenario.airframe;
+        scenario::Scenario scenario =
+            scenario::load_scenario(options.wanted, {.overrides = options.overrides});
+        vehicle::Airframe airframe = scenario.airframe;
         return {std::move(scenario), std::move(airframe)};
     }
     if (!options.overrides.empty()) {
         throw InputError("--set is of use only with a scenario: '" + options.wanted +
                          "' is a vehicle");
     }
-    return {std::nullopt, load_vehicle(options.wanted, root)};
+    return {std::nullopt, scenario::load_vehicle(options.wanted, root)};
 }
 
 std::string mjcf_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
     if (subject.scenario) {
         return write_mjcf(subject.airframe, scene_of(*subject.scenario));
     }
-    Scene scene;
+    models::Scene scene;
     scene.wall.present = !options.wall.empty();
     if (scene.wall.present) {
-        scene.wall.surface = load_surface(options.wall, root).name;
+        scene.wall.surface = scenario::load_surface(options.wall, root).name;
         scene.wall.p_WT_m.x() = 1.7;  // about the pre-position, before it
     }
     return write_mjcf(subject.airframe, scene);
@@ -87,16 +88,18 @@ std::string mjcf_text(const ExportOptions& options, const Subject& subject, cons
 
 /// As the plugin will find it from any folder.
 std::string lasting(const std::string& wanted) {
-    return is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
+    return scenario::is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
 }
 
 /// Overrides with a vehicle's file as the plugin will find it; by the scenario's folder, as it is
 /// read here.
-std::vector<std::string> lasting(std::vector<std::string> overrides, const Scenario& scenario) {
+std::vector<std::string> lasting(std::vector<std::string> overrides,
+                                 const scenario::Scenario& scenario) {
     for (std::string& text : overrides) {
         const std::size_t equals = text.find('=');
         const std::string key = text.substr(0, equals);
-        if ((key == "vehicle" || key == "vehicle.base") && is_path(text.substr(equals + 1))) {
+        if ((key == "vehicle" || key == "vehicle.base") &&
+            scenario::is_path(text.substr(equals + 1))) {
             text = key + "=" +
                    lasting((scenario.path.parent_path() / text.substr(equals + 1)).string());
         }
@@ -104,10 +107,11 @@ std::vector<std::string> lasting(std::vector<std::string> overrides, const Scena
     return overrides;
 }
 
-GazeboWorld world_for(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+models::GazeboWorld world_for(const ExportOptions& options, const Subject& subject,
+                              const fs::path& root) {
     if (subject.scenario) {
-        GazeboWorld world = world_of(*subject.scenario, lasting(options.wanted),
-                                     lasting(options.overrides, *subject.scenario));
+        models::GazeboWorld world = world_of(*subject.scenario, lasting(options.wanted),
+                                             lasting(options.overrides, *subject.scenario));
         world.vehicles.front().plugin->ros = options.ros;
         return world;
     }
@@ -116,36 +120,37 @@ GazeboWorld world_for(const ExportOptions& options, const Subject& subject, cons
                          "' is a vehicle");
     }
     if (options.wall.empty()) {
-        return showroom(subject.airframe, load_surfaces(root));
+        return scenario::showroom(subject.airframe, scenario::load_surfaces(root));
     }
-    return showroom(subject.airframe, {load_surface(options.wall, root)});
+    return scenario::showroom(subject.airframe, {scenario::load_surface(options.wall, root)});
 }
 
-GazeboWorld furnished_world(const ExportOptions& options, const Subject& subject,
-                            const fs::path& root) {
-    GazeboWorld world = world_for(options, subject, root);
+models::GazeboWorld furnished_world(const ExportOptions& options, const Subject& subject,
+                                    const fs::path& root) {
+    models::GazeboWorld world = world_for(options, subject, root);
     world.textures = !options.out.empty();
     if (options.sensors) {
-        world.sensors =
-            gazebo_sensors(subject.scenario ? subject.scenario->sensors : SensorParameters{});
+        world.sensors = scenario::gazebo_sensors(subject.scenario ? subject.scenario->sensors
+                                                                  : sensors::SensorParameters{});
     }
     if (!options.camera.empty()) {
-        const WallScene wall = world.walls.empty() ? WallScene{} : world.walls.front().face;
+        const models::WallScene wall =
+            world.walls.empty() ? models::WallScene{} : world.walls.front().face;
         world.camera =
-            GazeboCamera{.view = options.view == "side"      ? side_view(wall)
-                                 : options.view == "quarter" ? quarter_view(wall)
-                                                             : world.user_view,
-                         .folder = fs::absolute(options.camera).lexically_normal().string(),
-                         .rate_Hz = options.camera_rate_Hz};
+            models::GazeboCamera{.view = options.view == "side"      ? side_view(wall)
+                                         : options.view == "quarter" ? quarter_view(wall)
+                                                                     : world.user_view,
+                                 .folder = fs::absolute(options.camera).lexically_normal().string(),
+                                 .rate_Hz = options.camera_rate_Hz};
     }
     return world;
 }
 
 /// The looks first: a world is there only with all that it needs.
 std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
-    const GazeboWorld world = furnished_world(options, subject, root);
+    const models::GazeboWorld world = furnished_world(options, subject, root);
     if (world.textures) {
-        for (const WorldFile& file : write_wall_looks(world)) {
+        for (const models::WorldFile& file : write_wall_looks(world)) {
             const fs::path path = fs::absolute(options.out).parent_path() / file.path;
             make_folder(path.parent_path());
             write_file(path, file.bytes);
@@ -155,13 +160,13 @@ std::string world_text(const ExportOptions& options, const Subject& subject, con
 }
 
 std::string model_text(const ExportOptions& options) {
-    const fs::path root = data_root();
+    const fs::path root = scenario::data_root();
     const Subject subject = load(options, root);
     if (options.format == "sdf") {
-        return write_sdf(subject.airframe);
+        return models::write_sdf(subject.airframe);
     }
     if (options.format == "urdf") {
-        return write_urdf(subject.airframe);
+        return models::write_urdf(subject.airframe);
     }
     return options.format == "world" ? world_text(options, subject, root)
                                      : mjcf_text(options, subject, root);

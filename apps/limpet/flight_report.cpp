@@ -15,8 +15,9 @@ Outcome expected_outcome(const std::string& name) {
     return *outcome;
 }
 
-std::vector<std::string> flight_summary(const FlightResult& result, const Terminal& terminal) {
-    return limpet::flight_summary(
+std::vector<std::string> flight_summary(const simulation::FlightResult& result,
+                                        const Terminal& terminal) {
+    return limpet::simulation::flight_summary(
         result, [&terminal](const std::string& text) { return terminal.bold(text); });
 }
 

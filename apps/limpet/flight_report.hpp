@@ -14,7 +14,7 @@ namespace limpet::app {
 [[nodiscard]] Outcome expected_outcome(const std::string& name);
 
 /// What a person wants to know of a flight, a line each.
-[[nodiscard]] std::vector<std::string> flight_summary(const FlightResult& result,
+[[nodiscard]] std::vector<std::string> flight_summary(const simulation::FlightResult& result,
                                                       const Terminal& terminal);
 
 }  // namespace limpet::app

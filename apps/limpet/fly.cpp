@@ -49,10 +49,11 @@ Terminal::Voice voice(const FlyOptions& options) {
     return options.json ? Terminal::Voice::machine : Terminal::Voice::normal;
 }
 
-FlightWatch watch(Terminal& terminal) {
-    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+simulation::FlightWatch watch(Terminal& terminal) {
+    return {.on_event =
+                [&terminal](const Event& event) { terminal.line(simulation::event_line(event)); },
             .on_progress =
-                [&terminal](double time_s, PerchingState state) {
+                [&terminal](double time_s, guidance::PerchingState state) {
                     terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
                 }};
 }
@@ -67,7 +68,8 @@ std::vector<std::string> overrides_of(const FlyOptions& options) {
 }
 
 /// Figures and tables beside the recording; returns what was written.
-std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightResult& result,
+std::vector<std::filesystem::path> draw(const FlyOptions& options,
+                                        const simulation::FlightResult& result,
                                         Terminal& terminal) {
     std::vector<std::filesystem::path> files;
     if (result.recording.empty()) {
@@ -77,7 +79,7 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
     if (!figures && !options.csv) {
         return files;
     }
-    const Recording recording = read_recording(result.recording);
+    const record::Recording recording = record::read_recording(result.recording);
     const std::filesystem::path folder = result.recording.parent_path();
     if (options.csv) {
         const auto tables = write_csv(recording, folder / "csv");
@@ -85,7 +87,7 @@ std::vector<std::filesystem::path> draw(const FlyOptions& options, const FlightR
     }
     if (figures) {
         terminal.progress("drawing figures ...");
-        for (const auto& figure : plot(recording, folder).files) {
+        for (const auto& figure : report::plot(recording, folder).files) {
             files.push_back(figure);
         }
     }
@@ -122,11 +124,12 @@ ExitCode fly_one(const FlyOptions& options) {
         (void)expected_outcome(options.expect);  // before any work
     }
     const double speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0);
-    const Scenario scenario = load_scenario(options.scenario, {.overrides = overrides_of(options)});
+    const scenario::Scenario scenario =
+        scenario::load_scenario(options.scenario, {.overrides = overrides_of(options)});
     if (options.autopilot == "px4") {
         check(options.px4, scenario);
     }
-    const auto model = build_model(scenario);
+    const auto model = simulation::build_model(scenario);
 
     std::optional<OutFolder> folder;
     std::filesystem::path recording;
@@ -139,7 +142,7 @@ ExitCode fly_one(const FlyOptions& options) {
     terminal.line(terminal.bold(scenario.name) + fmt::format(", seed {}: ", scenario.seed) +
                   scenario.description);
     const std::atomic<bool>* stop = stop_on_signals();
-    FlightConduct conduct{.speed = speed, .stop = stop};
+    simulation::FlightConduct conduct{.speed = speed, .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
         px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
@@ -149,16 +152,16 @@ ExitCode fly_one(const FlyOptions& options) {
             terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
         };
     }
-    FlightWatch watched = watch(terminal);
+    simulation::FlightWatch watched = watch(terminal);
     std::optional<GroundStation> ground;
     if (options.ground.wanted) {
         ground.emplace(options.ground, *model, terminal);
-        watched.on_tick = [&ground](Flight& flight, const EventList& events) {
+        watched.on_tick = [&ground](simulation::Flight& flight, const guidance::EventList& events) {
             ground->tick(flight, events);
         };
     }
-    terminal.line(terminal.dim(event_head()));
-    const FlightResult result = fly(model, recording, watched, 0, conduct);
+    terminal.line(terminal.dim(simulation::event_head()));
+    const simulation::FlightResult result = fly(model, recording, watched, 0, conduct);
     if (ground) {
         ground->end(result);
     }

@@ -17,13 +17,14 @@ constexpr const char* kDefaultAddress = "udp:127.0.0.1:14550";  // where QGround
 constexpr int kUpdates_Hz = 100;
 constexpr std::size_t kLongestName = 16;  // on the wire
 
-TransportAddress address(const GroundStationOptions& options) {
-    return address_of("--ground-station", options.address,
-                      {Medium::udp, Medium::udp_broadcast, Medium::tcp, Medium::serial});
+wire::TransportAddress address(const GroundStationOptions& options) {
+    return address_of(
+        "--ground-station", options.address,
+        {wire::Medium::udp, wire::Medium::udp_broadcast, wire::Medium::tcp, wire::Medium::serial});
 }
 
 mavlink::Link open(const GroundStationOptions& options) {
-    mavlink::Link link(open_transport(address(options), Role::connect),
+    mavlink::Link link(open_transport(address(options), wire::Role::connect),
                        {.system = 1, .component = mavlink::kAutopilotComponent});
     mavlink::sign(link, options.signing_key);
     return link;
@@ -44,8 +45,8 @@ std::uint32_t software_version() {
     return version << 8U;
 }
 
-mavlink::TelemetrySetup setup(const FlightModel& model) {
-    const Scenario& scenario = *model.scenario;
+mavlink::TelemetrySetup setup(const simulation::FlightModel& model) {
+    const scenario::Scenario& scenario = *model.scenario;
     return {.battery_cells = scenario.airframe.battery.cells,
             .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
             .lidar_maximum_m = scenario.sensors.lidar_range_max_m,
@@ -84,8 +85,8 @@ void check(const GroundStationOptions& options, bool builtin) {
     }
 }
 
-GroundStation::GroundStation(const GroundStationOptions& options, const FlightModel& model,
-                             Terminal& terminal)
+GroundStation::GroundStation(const GroundStationOptions& options,
+                             const simulation::FlightModel& model, Terminal& terminal)
     : terminal_(terminal),
       wanted_(model.autopilot.parameters),
       link_(open(options)),
@@ -97,7 +98,7 @@ GroundStation::GroundStation(const GroundStationOptions& options, const FlightMo
 
 std::vector<mavlink::ServedParameter> GroundStation::served() {
     std::vector<mavlink::ServedParameter> parameters;
-    for (const auto& row : autopilot_table()) {
+    for (const auto& row : autopilot::autopilot_table()) {
         if (row.name.size() <= kLongestName) {
             parameters.push_back({.name = std::string(row.name),
                                   .value = row.get(wanted_),
@@ -110,7 +111,7 @@ std::vector<mavlink::ServedParameter> GroundStation::served() {
 }
 
 void GroundStation::set(std::string_view name, double value) {
-    for (const auto& row : autopilot_table()) {
+    for (const auto& row : autopilot::autopilot_table()) {
         if (row.name == name) {
             row.of(wanted_).set(value);
             changed_ = true;
@@ -118,11 +119,11 @@ void GroundStation::set(std::string_view name, double value) {
     }
 }
 
-void GroundStation::tick(Flight& flight, const EventList& events) {
+void GroundStation::tick(simulation::Flight& flight, const guidance::EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         telemetry_.event(events.events[k]);
     }
-    const FlightState& state = flight.state();
+    const simulation::FlightState& state = flight.state();
     if (!due(state.tick, kUpdates_Hz)) {
         return;
     }
@@ -145,7 +146,7 @@ void GroundStation::tell_of_refusals() {
     }
 }
 
-void GroundStation::end(const FlightResult& result) {
+void GroundStation::end(const simulation::FlightResult& result) {
     const bool amiss = result.outcome == Outcome::crashed || result.outcome == Outcome::timed_out;
     telemetry_.text(amiss ? mavlink::Severity::error : mavlink::Severity::info,
                     fmt::format("{}: {}", to_string(result.outcome), result.reason));

@@ -25,15 +25,15 @@ void check(const GroundStationOptions& options, bool builtin);
 class GroundStation {
 public:
     /// @throws InputError for an address or a key that cannot be used
-    GroundStation(const GroundStationOptions& options, const FlightModel& model,
+    GroundStation(const GroundStationOptions& options, const simulation::FlightModel& model,
                   Terminal& terminal);
     GroundStation(const GroundStation&) = delete;
     GroundStation& operator=(const GroundStation&) = delete;
 
     /// After every tick of the flight.
-    void tick(Flight& flight, const EventList& events);
+    void tick(simulation::Flight& flight, const guidance::EventList& events);
     /// Tells how it ended.
-    void end(const FlightResult& result);
+    void end(const simulation::FlightResult& result);
     /// @return one line: what went, what came, what was refused
     [[nodiscard]] std::string report() const;
 
@@ -43,7 +43,7 @@ private:
     void tell_of_refusals();
 
     Terminal& terminal_;
-    AutopilotParameters wanted_;
+    autopilot::AutopilotParameters wanted_;
     bool changed_ = false;
     bool refusals_told_ = false;
     mavlink::Link link_;

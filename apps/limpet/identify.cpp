@@ -12,9 +12,9 @@
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/chart.hpp"
+#include "limpet/identification/identification.hpp"
+#include "limpet/identification/pressure_log.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "limpet/suction/identification.hpp"
-#include "limpet/suction/pressure_log.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -40,20 +40,20 @@ struct Row {
     const char* key;
     const char* unit;
     double scale;
-    std::optional<Fitted> fitted;
+    std::optional<identification::Fitted> fitted;
     std::optional<double> table_two = {};
 };
 
 /// The surface of Table II whose numbers are nearest, each as a ratio; none where one is off by
 /// more than half.
-std::optional<Surface> nearest_surface(const PressureFit& fit) {
-    std::optional<Surface> nearest;
+std::optional<suction::Surface> nearest_surface(const identification::PressureFit& fit) {
+    std::optional<suction::Surface> nearest;
     double least = 0.0;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const Surface surface = load_surface(name, data_root());
+        const suction::Surface surface = scenario::load_surface(name, scenario::data_root());
         double distance = 0.0;
         bool near = true;
-        const auto add = [&](const std::optional<Fitted>& fitted, double value) {
+        const auto add = [&](const std::optional<identification::Fitted>& fitted, double value) {
             if (fitted) {
                 const double ratio = fitted->value > 0.0 ? fitted->value / value : 1e9;
                 distance += std::pow(std::log(ratio), 2);
@@ -71,12 +71,13 @@ std::optional<Surface> nearest_surface(const PressureFit& fit) {
     return nearest;
 }
 
-std::vector<Row> rows_of(const PressureFit& fit, const std::optional<Surface>& surface) {
-    using S = Surface;
+std::vector<Row> rows_of(const identification::PressureFit& fit,
+                         const std::optional<suction::Surface>& surface) {
+    using S = suction::Surface;
     const auto of_table = [&](double S::*member, double scale) {
         return surface ? std::optional(scale * ((*surface).*member)) : std::nullopt;
     };
-    std::optional<Fitted> offset = fit.atmosphere_Pa;
+    std::optional<identification::Fitted> offset = fit.atmosphere_Pa;
     if (offset) {
         offset->value -= kAtmosphere_Pa;
     }
@@ -103,8 +104,8 @@ int decimals(double half_width) {
                : kMost;
 }
 
-std::string text_of(const PressureFit& fit, const std::vector<Row>& rows,
-                    const std::optional<Surface>& surface) {
+std::string text_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
+                    const std::optional<suction::Surface>& surface) {
     std::string text = fmt::format("{:<16}{:>12}    {:<15}{}\n", "", "value", "95 % interval",
                                    surface ? "Table II: " + surface->name : "");
     for (const Row& row : rows) {
@@ -130,8 +131,8 @@ std::string text_of(const PressureFit& fit, const std::vector<Row>& rows,
     return text;
 }
 
-ordered_json json_of(const PressureFit& fit, const std::vector<Row>& rows,
-                     const std::optional<Surface>& surface) {
+ordered_json json_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
+                     const std::optional<suction::Surface>& surface) {
     ordered_json json;
     for (const Row& row : rows) {
         json[row.key] = nullptr;
@@ -152,13 +153,14 @@ ordered_json json_of(const PressureFit& fit, const std::vector<Row>& rows,
 }
 
 /// What was measured and the curve, above what the curve leaves.
-Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::string& title) {
-    using Mark = ChartSeries::Mark;
+draw::Chart chart_of(const identification::PressureTrace& trace,
+                     const identification::PressureFit& fit, const std::string& title) {
+    using Mark = draw::ChartSeries::Mark;
     constexpr std::size_t kCrowd = 1000;  // from here on points hide one another
     const Mark mark = trace.t_s.size() > kCrowd ? Mark::line : Mark::points;
-    ChartSeries data{.name = "measured", .mark = mark};
-    ChartSeries rest{.mark = mark};
-    const Range times{trace.t_s.front(), trace.t_s.back()};
+    draw::ChartSeries data{.name = "measured", .mark = mark};
+    draw::ChartSeries rest{.mark = mark};
+    const draw::Range times{trace.t_s.front(), trace.t_s.back()};
     constexpr std::size_t kMostDrawn = 10'000;
     const std::size_t stride = trace.t_s.size() / kMostDrawn + 1;
     for (std::size_t i = 0; i < trace.t_s.size(); i += stride) {
@@ -170,7 +172,7 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
             rest.y.push_back(hectopascals(trace.pressure_Pa[i] - curve_Pa));
         }
     }
-    ChartSeries curve{.name = "eqs. (5), (6)", .mark = Mark::line};
+    draw::ChartSeries curve{.name = "eqs. (5), (6)", .mark = Mark::line};
     constexpr int kPoints = 2000;
     const double first_s = trace.t_s[fit.first_sample];
     const double last_s = trace.t_s[fit.first_sample + fit.samples - 1];
@@ -179,7 +181,7 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
         curve.x.push_back(t_s);
         curve.y.push_back(hectopascals(mean_pressure_Pa(fit.curve, t_s)));
     }
-    std::vector<ChartLine> moments;
+    std::vector<draw::ChartLine> moments;
     if (fit.sealing_begins_s) {
         moments.push_back({fit.sealing_begins_s->value, "sealing"});
     }
@@ -187,15 +189,15 @@ Chart chart_of(const PressureTrace& trace, const PressureFit& fit, const std::st
         moments.push_back({fit.unsealing_begins_s->value, "unsealing"});
     }
     return {.title = title,
-            .panels = {ChartPanel{.y_label = "pressure  [hPa]",
-                                  .series = {std::move(data), std::move(curve)},
-                                  .moments = std::move(moments),
-                                  .x_range = times},
-                       ChartPanel{.x_label = "time  [s]",
-                                  .y_label = "left over  [hPa]",
-                                  .series = {std::move(rest)},
-                                  .x_range = times,
-                                  .height_px = 140.0}}};
+            .panels = {draw::ChartPanel{.y_label = "pressure  [hPa]",
+                                        .series = {std::move(data), std::move(curve)},
+                                        .moments = std::move(moments),
+                                        .x_range = times},
+                       draw::ChartPanel{.x_label = "time  [s]",
+                                        .y_label = "left over  [hPa]",
+                                        .series = {std::move(rest)},
+                                        .x_range = times,
+                                        .height_px = 140.0}}};
 }
 
 void require_sense(const IdentifyOptions& options) {
@@ -216,19 +218,19 @@ void require_sense(const IdentifyOptions& options) {
 
 void identify(const IdentifyOptions& options) {
     require_sense(options);
-    const PressureTrace trace = read_pressure_log(fs::path(options.log));
-    PressureFit fit;
+    const identification::PressureTrace trace =
+        identification::read_pressure_log(fs::path(options.log));
+    identification::PressureFit fit;
     try {
-        fit =
-            identify_pressure(trace, {.pump_on_s = options.pump_on_s,
-                                      .pump_off_s = options.pump_off_s,
-                                      .from_s = options.from_s,
-                                      .to_s = options.to_s,
-                                      .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
+        fit = identify_pressure(trace, {.pump_on_s = options.pump_on_s,
+                                        .pump_off_s = options.pump_off_s,
+                                        .from_s = options.from_s,
+                                        .to_s = options.to_s,
+                                        .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
     } catch (const InputError& error) {
         throw InputError(options.log + ": " + error.what());
     }
-    const std::optional<Surface> surface = nearest_surface(fit);
+    const std::optional<suction::Surface> surface = nearest_surface(fit);
     const std::vector<Row> rows = rows_of(fit, surface);
     const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
     const fs::path folder = options.out.empty() ? "out/identify" : options.out;
@@ -243,7 +245,7 @@ void identify(const IdentifyOptions& options) {
     if (!draws) {
         return;
     }
-    const Pictures pictures = draw_chart(
+    const draw::Pictures pictures = draw_chart(
         chart_of(trace, fit, fs::path(options.log).filename().string()), "identify", folder);
     for (const fs::path& file : pictures.files) {
         if (!options.json) {

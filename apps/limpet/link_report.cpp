@@ -18,18 +18,18 @@ std::string milliseconds(double duration_s) {
     return fmt::format("{:.3g} ms", 1e3 * duration_s);
 }
 
-std::string quantiles(const DurationHistogram& histogram) {
+std::string quantiles(const wire::DurationHistogram& histogram) {
     return fmt::format("median {}, p99 {}, largest {}", milliseconds(histogram.quantile_s(0.5)),
                        milliseconds(histogram.quantile_s(0.99)),
                        milliseconds(histogram.largest_s()));
 }
 
-Json json_of(const DurationHistogram& histogram) {
+Json json_of(const wire::DurationHistogram& histogram) {
     Json bins = Json::array();
-    for (std::size_t k = 0; k < DurationHistogram::kBins; ++k) {
+    for (std::size_t k = 0; k < wire::DurationHistogram::kBins; ++k) {
         if (histogram.bins()[k] > 0) {
             bins.push_back(
-                {{"up_to_s", DurationHistogram::edge_s(k)}, {"count", histogram.bins()[k]}});
+                {{"up_to_s", wire::DurationHistogram::edge_s(k)}, {"count", histogram.bins()[k]}});
         }
     }
     return {{"count", histogram.count()},
@@ -53,23 +53,23 @@ Json json_of(const LinkReport::Wire& wire) {
 }
 
 /// Counts over time on a logarithmic axis; an empty bin on either side shows where it ends.
-ChartPanel panel_of(const std::string& title, const std::string& what,
-                    const DurationHistogram& histogram) {
-    ChartPanel panel{.title = title, .x_label = what + "  [ms]", .y_label = "messages"};
+draw::ChartPanel panel_of(const std::string& title, const std::string& what,
+                          const wire::DurationHistogram& histogram) {
+    draw::ChartPanel panel{.title = title, .x_label = what + "  [ms]", .y_label = "messages"};
     panel.log_x = true;
-    ChartSeries series{.mark = ChartSeries::Mark::steps};
-    std::size_t first = DurationHistogram::kBins;
+    draw::ChartSeries series{.mark = draw::ChartSeries::Mark::steps};
+    std::size_t first = wire::DurationHistogram::kBins;
     std::size_t last = 0;
-    for (std::size_t k = 0; k < DurationHistogram::kBins; ++k) {
+    for (std::size_t k = 0; k < wire::DurationHistogram::kBins; ++k) {
         if (histogram.bins()[k] > 0) {
             first = std::min(first, k);
             last = k;
         }
     }
     for (std::size_t k = first > 1 ? first - 1 : first; k <= last + 1; ++k) {
-        series.x.push_back(1e3 * DurationHistogram::edge_s(k) / std::exp2(0.25));
-        series.y.push_back(k < DurationHistogram::kBins ? static_cast<double>(histogram.bins()[k])
-                                                        : 0.0);
+        series.x.push_back(1e3 * wire::DurationHistogram::edge_s(k) / std::exp2(0.25));
+        series.y.push_back(
+            k < wire::DurationHistogram::kBins ? static_cast<double>(histogram.bins()[k]) : 0.0);
     }
     panel.series.push_back(series);
     panel.moments.push_back({.at = 1e3 * histogram.quantile_s(0.5), .label = "median"});
@@ -123,14 +123,14 @@ std::string json_of(const LinkReport& report) {
 
 std::vector<std::filesystem::path> draw(const LinkReport& report,
                                         const std::filesystem::path& folder) {
-    Chart chart{.title = "What the link cost", .subtitle = "in wall time; logarithmic axis"};
+    draw::Chart chart{.title = "What the link cost", .subtitle = "in wall time; logarithmic axis"};
     chart.panels.push_back(
         panel_of("From HIL_SENSOR to its answer", "round trip", report.hil.round_trip));
     if (report.hil.send_jitter.count() > 0) {
         chart.panels.push_back(
             panel_of("HIL_SENSOR beside its time", "jitter", report.hil.send_jitter));
     }
-    const Pictures pictures = draw_chart(chart, "link", folder);
+    const draw::Pictures pictures = draw_chart(chart, "link", folder);
     return pictures.files;
 }
 

@@ -12,24 +12,24 @@
 namespace limpet::app {
 namespace {
 
-std::vector<CatalogueEntry> entries(const std::string& kind) {
-    const auto root = data_root();
+std::vector<scenario::CatalogueEntry> entries(const std::string& kind) {
+    const auto root = scenario::data_root();
     if (kind == "scenarios") {
-        return list_scenarios(root);
+        return scenario::list_scenarios(root);
     }
     if (kind == "campaigns") {
-        return list_campaigns(root);
+        return scenario::list_campaigns(root);
     }
-    return kind == "vehicles" ? list_vehicles(root) : list_surfaces(root);
+    return kind == "vehicles" ? scenario::list_vehicles(root) : scenario::list_surfaces(root);
 }
 
 void print(const std::string& kind) {
     const auto rows = entries(kind);
     std::size_t width = 0;
-    for (const CatalogueEntry& row : rows) {
+    for (const scenario::CatalogueEntry& row : rows) {
         width = std::max(width, row.name.size());
     }
-    for (const CatalogueEntry& row : rows) {
+    for (const scenario::CatalogueEntry& row : rows) {
         fmt::print("{:<{}}  {}\n", row.name, width, row.description);
     }
 }

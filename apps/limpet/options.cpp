@@ -15,28 +15,28 @@ struct Form {
     std::string_view text;
 };
 
-Form form_of(Medium medium) {
+Form form_of(wire::Medium medium) {
     switch (medium) {
-        case Medium::tcp: return {"tcp:", "tcp:HOST:PORT"};
-        case Medium::udp: return {"udp:", "udp:HOST:PORT"};
-        case Medium::udp_broadcast: return {"udp-broadcast:", "udp-broadcast:HOST:PORT"};
-        case Medium::udp_multicast:
+        case wire::Medium::tcp: return {"tcp:", "tcp:HOST:PORT"};
+        case wire::Medium::udp: return {"udp:", "udp:HOST:PORT"};
+        case wire::Medium::udp_broadcast: return {"udp-broadcast:", "udp-broadcast:HOST:PORT"};
+        case wire::Medium::udp_multicast:
             return {"udp-multicast:", "udp-multicast:GROUP:PORT[@INTERFACE]"};
-        case Medium::serial: return {"serial:", "serial:DEVICE:BAUD"};
+        case wire::Medium::serial: return {"serial:", "serial:DEVICE:BAUD"};
     }
     throw InternalError("unknown medium");
 }
 
 }  // namespace
 
-TransportAddress address_of(const std::string& option, const std::string& text,
-                            std::initializer_list<Medium> media) {
+wire::TransportAddress address_of(const std::string& option, const std::string& text,
+                                  std::initializer_list<wire::Medium> media) {
     std::string forms;
-    for (const Medium medium : media) {
+    for (const wire::Medium medium : media) {
         const Form form = form_of(medium);
         if (text.rfind(form.scheme, 0) == 0) {
             try {
-                return parse_address(text);
+                return wire::parse_address(text);
             } catch (const InputError& error) {
                 throw InputError(option + ": " + error.what());
             }

@@ -17,7 +17,7 @@ bool begins(const std::string& text, std::string_view head) {
 }
 
 /// A serial device, real or made for the occasion; null: none is asked for.
-std::unique_ptr<Transport> open_device(const std::string& option, const std::string& text) {
+std::unique_ptr<wire::Transport> open_device(const std::string& option, const std::string& text) {
     if (text.empty()) {
         return nullptr;
     }
@@ -25,7 +25,7 @@ std::unique_ptr<Transport> open_device(const std::string& option, const std::str
         return devices::open_pseudo_terminal(text.substr(kPseudoTerminal.size()));
     }
     if (begins(text, "serial:")) {
-        return open_transport(parse_address(text), Role::connect);
+        return open_transport(wire::parse_address(text), wire::Role::connect);
     }
     throw InputError(option + " " + text + ": must be serial:DEVICE:BAUD or pty:PATH");
 }
@@ -42,19 +42,19 @@ std::unique_ptr<devices::NatNetSource> open_motion_capture(const OutsideWireOpti
     if (options.motion_capture == "mavlink") {
         return nullptr;
     }
-    const TransportAddress address = parse_address(options.motion_capture);
+    const wire::TransportAddress address = wire::parse_address(options.motion_capture);
     const devices::NatNetServer server{.version = natnet_version(options.natnet),
                                        .clock_Hz = kClock_Hz};
     switch (address.medium) {
-        case Medium::udp_multicast:
+        case wire::Medium::udp_multicast:
             return std::make_unique<devices::NatNetSource>(
-                server, open_transport(address, Role::connect), nullptr);
-        case Medium::udp:
-            return std::make_unique<devices::NatNetSource>(server, nullptr,
-                                                           open_transport(address, Role::listen));
-        case Medium::tcp:
-        case Medium::udp_broadcast:
-        case Medium::serial: break;
+                server, open_transport(address, wire::Role::connect), nullptr);
+        case wire::Medium::udp:
+            return std::make_unique<devices::NatNetSource>(
+                server, nullptr, open_transport(address, wire::Role::listen));
+        case wire::Medium::tcp:
+        case wire::Medium::udp_broadcast:
+        case wire::Medium::serial: break;
     }
     throw InputError("--motion-capture " + options.motion_capture +
                      ": must be mavlink, udp-multicast:GROUP:PORT[@INTERFACE] or udp:HOST:PORT");
@@ -67,25 +67,25 @@ void fill(std::string& option, const std::string& text) {
 }
 
 /// The wires of a companion's file as this end sees them.
-void fill(OutsideWireOptions& options, const CompanionConfig& config) {
-    const auto terminal = [](const TransportAddress& address) {
+void fill(OutsideWireOptions& options, const companion::CompanionConfig& config) {
+    const auto terminal = [](const wire::TransportAddress& address) {
         return std::string(kPseudoTerminal) + address.device;
     };
     if (config.sensors) {
         fill(options.sensors, to_text(*config.sensors));
     }
-    if (config.pose_source == PoseSource::natnet) {
-        const bool group = config.pose_address.medium == Medium::udp_multicast;
+    if (config.pose_source == companion::PoseSource::natnet) {
+        const bool group = config.pose_address.medium == wire::Medium::udp_multicast;
         require(group || config.pose_command, "unicast NatNet has a command port");
         fill(options.motion_capture, to_text(group ? config.pose_address : *config.pose_command));
         options.axes = config.axes;
         options.rigid_body = config.rigid_body;
     }
-    if (config.lidar_source == ReadingSource::serial) {
+    if (config.lidar_source == companion::ReadingSource::serial) {
         fill(options.lidar_left, terminal(config.lidar_left));
         fill(options.lidar_right, terminal(config.lidar_right));
     }
-    if (config.mechanism == MechanismWire::line) {
+    if (config.mechanism == companion::MechanismWire::line) {
         fill(options.mechanism, terminal(config.mechanism_address));
     }
     options.system = config.system;
@@ -95,7 +95,7 @@ void fill(OutsideWireOptions& options, const CompanionConfig& config) {
 
 OutsideWireOptions resolved(OutsideWireOptions options) {
     if (!options.companion.empty()) {
-        fill(options, load_companion(options.companion));
+        fill(options, companion::load_companion(options.companion));
     }
     fill(options.sensors, "udp:127.0.0.1:14600");
     fill(options.motion_capture, "mavlink");
@@ -126,11 +126,12 @@ OptionList options_of(OutsideWireOptions& options) {
          "pump, valve, force and pressure as lines on such a device", "DEVICE"}};
 }
 
-OutsideWires open_wires(const OutsideWireOptions& options) {
-    const TransportAddress sensors = address_of("--sensors", options.sensors, {Medium::udp});
-    OutsideWires wires;
+simulation::OutsideWires open_wires(const OutsideWireOptions& options) {
+    const wire::TransportAddress sensors =
+        address_of("--sensors", options.sensors, {wire::Medium::udp});
+    simulation::OutsideWires wires;
     wires.sensors = std::make_unique<mavlink::Link>(
-        open_transport(sensors, Role::connect),
+        open_transport(sensors, wire::Role::connect),
         mavlink::Sender{.system = static_cast<std::uint8_t>(options.system),
                         .component = mavlink::kMechanismComponent});
     wires.motion_capture = open_motion_capture(options);
@@ -140,7 +141,8 @@ OutsideWires open_wires(const OutsideWireOptions& options) {
     return wires;
 }
 
-OutsideOptions outside_options(const OutsideWireOptions& options, const Scenario& scenario) {
+simulation::OutsideOptions outside_options(const OutsideWireOptions& options,
+                                           const scenario::Scenario& scenario) {
     return {
         .axes = options.axes,
         .rigid_body = options.rigid_body,

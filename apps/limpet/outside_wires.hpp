@@ -31,9 +31,9 @@ struct OutsideWireOptions {
 
 /// @param options  resolved
 /// @throws InputError when an address is none, or a wire cannot be opened
-[[nodiscard]] OutsideWires open_wires(const OutsideWireOptions& options);
-[[nodiscard]] OutsideOptions outside_options(const OutsideWireOptions& options,
-                                             const Scenario& scenario);
+[[nodiscard]] simulation::OutsideWires open_wires(const OutsideWireOptions& options);
+[[nodiscard]] simulation::OutsideOptions outside_options(const OutsideWireOptions& options,
+                                                         const scenario::Scenario& scenario);
 /// Whether something on them keeps its own time.
 [[nodiscard]] bool has_serial(const OutsideWireOptions& options);
 

@@ -20,16 +20,16 @@ struct ParamsOptions {
 
 /// Those of scenarios, and those of companions, whose sections begin with "companion".
 std::vector<ParameterInfo> rows_of(const std::string& room) {
-    std::vector<ParameterInfo> companions = companion_parameters();
+    std::vector<ParameterInfo> companions = companion::companion_parameters();
     if (room.empty()) {
-        std::vector<ParameterInfo> all = all_parameters();
+        std::vector<ParameterInfo> all = scenario::all_parameters();
         all.insert(all.end(), companions.begin(), companions.end());
         return all;
     }
     std::erase_if(companions, [&room](const ParameterInfo& row) {
         return row.section != room && row.section.rfind(room + ".", 0) != 0;
     });
-    return companions.empty() ? parameters_of(room) : companions;
+    return companions.empty() ? scenario::parameters_of(room) : companions;
 }
 
 std::string default_of(const ParameterInfo& row) {
@@ -44,14 +44,14 @@ std::string range(const ParameterInfo& row) {
 
 /// Keys that take a name, after those that take a number.
 void print_choices(const std::string& room, bool markdown) {
-    for (const Choice& choice : choices_of(room)) {
+    for (const scenario::Choice& choice : scenario::choices_of(room)) {
         const std::string title = choice.section + "." + choice.key;
         if (markdown) {
             fmt::print("\n## {}\n\n| name | what |\n|---|---|\n", title);
         } else {
             fmt::print("\n{}:\n", title);
         }
-        for (const CatalogueEntry& entry : choice.names) {
+        for (const scenario::CatalogueEntry& entry : choice.names) {
             const char* note = &entry == &choice.names.front() ? " (default)" : "";
             if (markdown) {
                 fmt::print("| `{}`{} | {} |\n", entry.name, note, entry.description);

@@ -23,18 +23,19 @@ struct PictureOptions {
     std::string out;
 };
 
-using Draw = std::function<Pictures(const Recording&, const std::filesystem::path& folder)>;
+using Draw =
+    std::function<draw::Pictures(const record::Recording&, const std::filesystem::path& folder)>;
 
 /// Reads, says what is missing, draws what is there, prints what was written.
 void draw(const PictureOptions& options, const Draw& work) {
-    const Recording recording = read_recording(options.recording);
+    const record::Recording recording = record::read_recording(options.recording);
     const std::filesystem::path beside = std::filesystem::path(options.recording).parent_path();
     const std::filesystem::path folder =
         options.out.empty() ? (beside.empty() ? std::filesystem::path(".") : beside)
                             : make_folder(options.out);
     const std::string damage =
         recording.damage.empty() ? "" : options.recording + ": " + recording.damage;
-    Pictures pictures;
+    draw::Pictures pictures;
     try {
         pictures = work(recording, folder);
     } catch (const InputError&) {
@@ -77,24 +78,26 @@ Verb picture_verb(const std::string& name, const std::string& about, Draw work) 
 }  // namespace
 
 Verb plot_verb() {
-    return picture_verb("plot", "Draw pressure, pitch, force, thrust and distance against time",
-                        [](const Recording& recording, const std::filesystem::path& folder) {
-                            return plot(recording, folder);
-                        });
+    return picture_verb(
+        "plot", "Draw pressure, pitch, force, thrust and distance against time",
+        [](const record::Recording& recording, const std::filesystem::path& folder) {
+            return report::plot(recording, folder);
+        });
 }
 
 Verb film_verb() {
-    return picture_verb("film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
-                        [](const Recording& recording, const std::filesystem::path& folder) {
-                            return film(recording, folder);
-                        });
+    return picture_verb(
+        "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
+        [](const record::Recording& recording, const std::filesystem::path& folder) {
+            return report::film(recording, folder);
+        });
 }
 
 Verb csv_verb() {
     return picture_verb(
         "csv", "Write a recording as CSV, a file a topic, and the files attached to it",
-        [](const Recording& recording, const std::filesystem::path& folder) {
-            Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
+        [](const record::Recording& recording, const std::filesystem::path& folder) {
+            draw::Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
             for (const mcap::Attachment& attachment : recording.attachments) {
                 const auto path = folder / "csv" / attachment.name;
                 write_file(path, attachment.text);

@@ -12,9 +12,9 @@
 namespace limpet::app {
 namespace {
 
-Px4Addresses addresses_of(const Px4LinkOptions& options) {
-    return {.hil = address_of("--hil", options.hil, {Medium::tcp, Medium::serial}),
-            .offboard = address_of("--offboard", options.offboard, {Medium::udp}),
+px4::Px4Addresses addresses_of(const Px4LinkOptions& options) {
+    return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}),
+            .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp}),
             .wait_s = options.wait_s};
 }
 
@@ -78,26 +78,26 @@ double speed_of(const std::string& text, double by_default) {
     return speed;
 }
 
-void check(const Px4LinkOptions& options, const Scenario& scenario) {
+void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
     (void)addresses_of(options);
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
                          ": a board on a serial wire has its own clock; there is 1 alone");
     }
-    if (scenario.mount != Mount::free) {
+    if (scenario.mount != vehicle::Mount::free) {
         throw InputError(scenario.name + ": hangs on a mount; a PX4 is for what flies");
     }
 }
 
-Px4Link::Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
+Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& model, bool flies,
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
     if (options.record_wire) {
-        wire_log_ = std::make_unique<WireLog>(folder / "wire.mcap");
+        wire_log_ = std::make_unique<simulation::WireLog>(folder / "wire.mcap");
     }
-    Px4WireWatch watch{
+    px4::Px4WireWatch watch{
         .on_open =
             [&](const std::string& where) {
                 terminal.line("waiting for PX4 on " + where);
@@ -143,7 +143,7 @@ std::filesystem::path Px4Link::finish_wire_log() {
     return wire_log_->path();
 }
 
-LinkReport Px4Link::report(const FlightPerformance& performance) const {
+LinkReport Px4Link::report(const simulation::FlightPerformance& performance) const {
     LinkReport report;
     report.hil = wires_->autopilot().count();
     report.wires.emplace_back("hil", wires_->hil());

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/autopilot/px4_wires.hpp"
+#include "limpet/px4/wires.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
 #include "link_report.hpp"
@@ -28,7 +28,7 @@ struct Px4LinkOptions {
 };
 /// Before any work, and whether or not a wire is there.
 /// @throws InputError naming the option that cannot be, alone or beside the others
-void check(const Px4LinkOptions& options, const Scenario& scenario);
+void check(const Px4LinkOptions& options, const scenario::Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
 [[nodiscard]] OptionList options_of(Px4LinkOptions& options, bool flies);
 
@@ -47,7 +47,7 @@ public:
     /// @throws InputError when a wire cannot be opened or nobody comes in time; nothing is then
     ///         left in the folder
     /// @throws Interrupted on `stop`
-    Px4Link(const Px4LinkOptions& options, const FlightModel& model, bool flies,
+    Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
     /// Closes wire.mcap, when no flight came of it.
@@ -55,17 +55,17 @@ public:
     Px4Link(const Px4Link&) = delete;
     Px4Link& operator=(const Px4Link&) = delete;
 
-    [[nodiscard]] Px4Autopilot& autopilot() { return wires_->autopilot(); }
+    [[nodiscard]] px4::Px4Autopilot& autopilot() { return wires_->autopilot(); }
     [[nodiscard]] double speed() const { return speed_; }
     /// After the flight: closes wire.mcap.
     /// @return it, or an empty path
     std::filesystem::path finish_wire_log();
 
-    [[nodiscard]] LinkReport report(const FlightPerformance& performance) const;
+    [[nodiscard]] LinkReport report(const simulation::FlightPerformance& performance) const;
 
 private:
-    std::unique_ptr<WireLog> wire_log_;
-    std::optional<Px4Wires> wires_;
+    std::unique_ptr<simulation::WireLog> wire_log_;
+    std::optional<px4::Px4Wires> wires_;
     double speed_ = 0.0;
     bool wire_finished_ = false;
 };

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/autopilot/px4_airframe.hpp"
+#include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -24,37 +24,38 @@ struct Px4Options {
     std::vector<std::string> overrides;
     std::string out = ".";
     int airframe_id = 22001;
-    Px4Target target = Px4Target::sitl;
+    px4::Px4Target target = px4::Px4Target::sitl;
     bool mocap = false;
     bool gps = false;
 };
 
-const std::map<std::string, Px4Target> kTargets = {
-    {"sitl", Px4Target::sitl}, {"hitl", Px4Target::hitl}, {"flight", Px4Target::flight}};
+const std::map<std::string, px4::Px4Target> kTargets = {{"sitl", px4::Px4Target::sitl},
+                                                        {"hitl", px4::Px4Target::hitl},
+                                                        {"flight", px4::Px4Target::flight}};
 
 bool is_vehicle(const std::string& wanted) {
-    if (is_path(wanted)) {
+    if (scenario::is_path(wanted)) {
         return fs::absolute(wanted).parent_path().filename() == "vehicles";
     }
-    return fs::exists(data_root() / "vehicles" / (wanted + ".yaml"));
+    return fs::exists(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
 }
 
 /// A vehicle is taken as a scenario that changes nothing of it.
-Scenario scenario_of(const Px4Options& options) {
+scenario::Scenario scenario_of(const Px4Options& options) {
     if (!is_vehicle(options.wanted)) {
-        return load_scenario(options.wanted, {.overrides = options.overrides});
+        return scenario::load_scenario(options.wanted, {.overrides = options.overrides});
     }
-    const std::string vehicle = is_path(options.wanted)
+    const std::string vehicle = scenario::is_path(options.wanted)
                                     ? fs::absolute(options.wanted).lexically_normal().string()
                                     : options.wanted;
-    return load_scenario_text("mission: hover\nvehicle: \"" + vehicle + "\"\n", options.wanted,
-                              {.overrides = options.overrides});
+    return scenario::load_scenario_text("mission: hover\nvehicle: \"" + vehicle + "\"\n",
+                                        options.wanted, {.overrides = options.overrides});
 }
 
-Px4Airframe airframe_of(const Px4Options& options) {
-    const Scenario scenario = scenario_of(options);
-    const Airframe& vehicle = scenario.airframe;
-    Px4Airframe airframe;
+px4::Px4Airframe airframe_of(const Px4Options& options) {
+    const scenario::Scenario scenario = scenario_of(options);
+    const vehicle::Airframe& vehicle = scenario.airframe;
+    px4::Px4Airframe airframe;
     airframe.name = vehicle.name;
     airframe.id = options.airframe_id;
     for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
@@ -68,15 +69,15 @@ Px4Airframe airframe_of(const Px4Options& options) {
     airframe.autopilot = scenario.autopilot;
     airframe.target = options.target;
     const bool poses = scenario.autopilot.EKF2_EV_CTRL != 0;
-    airframe.pose =
-        options.gps || (!options.mocap && !poses) ? Px4Pose::gps : Px4Pose::motion_capture;
+    airframe.pose = options.gps || (!options.mocap && !poses) ? px4::Px4Pose::gps
+                                                              : px4::Px4Pose::motion_capture;
     return airframe;
 }
 
-void how_to_go_on(const Px4Airframe& airframe) {
+void how_to_go_on(const px4::Px4Airframe& airframe) {
     const std::string file = px4_airframe_file_name(airframe);
     const std::string folder = px4_airframe_folder(airframe.target);
-    if (airframe.target == Px4Target::sitl) {
+    if (airframe.target == px4::Px4Target::sitl) {
         fmt::print(
             "\nIn PX4's source tree (v1.15): copy {} into\n"
             "  {}/\nand add it to the CMakeLists.txt there, then\n"
@@ -92,7 +93,7 @@ void how_to_go_on(const Px4Airframe& airframe) {
 }
 
 void write_both(const Px4Options& options) {
-    const Px4Airframe airframe = airframe_of(options);
+    const px4::Px4Airframe airframe = airframe_of(options);
     const auto settings = px4_settings(airframe);
     const fs::path folder = make_folder(options.out);
     const fs::path params = folder / (airframe.name + ".params");

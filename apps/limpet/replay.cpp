@@ -24,29 +24,32 @@ struct ReplayOptions {
     std::string out;
 };
 
-FlightWatch watch(Terminal& terminal) {
-    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+simulation::FlightWatch watch(Terminal& terminal) {
+    return {.on_event =
+                [&terminal](const Event& event) { terminal.line(simulation::event_line(event)); },
             .on_progress = {}};
 }
 
-void introduce(const Campaign& campaign, const RunRow& row, Terminal& terminal) {
+void introduce(const campaign::Campaign& campaign, const campaign::RunRow& row,
+               Terminal& terminal) {
     terminal.line(terminal.bold(campaign.name) + fmt::format(", run {}", row.run));
     for (std::size_t i = 0; i < row.sample.size(); ++i) {
-        terminal.line(fmt::format("  {} = {}", campaign.keys[i].key, value_text(row.sample[i])));
+        terminal.line(
+            fmt::format("  {} = {}", campaign.keys[i].key, campaign::value_text(row.sample[i])));
     }
-    terminal.line(terminal.dim(event_head()));
+    terminal.line(terminal.dim(simulation::event_head()));
 }
 
 void replay(const ReplayOptions& options) {
-    const fs::path database = Results::file_of(options.database);
-    Results results(database, Access::read);
-    const RunRow row = results.row(options.run);  // before a folder is made for it
+    const fs::path database = campaign::Results::file_of(options.database);
+    campaign::Results results(database, campaign::Access::read);
+    const campaign::RunRow row = results.row(options.run);  // before a folder is made for it
     const fs::path folder = make_folder(options.out.empty() ? database.parent_path() /
                                                                   fmt::format("run_{}", options.run)
                                                             : fs::path(options.out));
     Terminal terminal(Terminal::Voice::normal);
     introduce(results.campaign(), row, terminal);
-    const FlightResult result =
+    const simulation::FlightResult result =
         replay_run(results, options.run, folder / "flight.mcap", watch(terminal));
     terminal.line("");
     for (const std::string& line : flight_summary(result, terminal)) {
@@ -55,7 +58,8 @@ void replay(const ReplayOptions& options) {
     terminal.line("           the same as in the row: the flight is the same to the last bit");
     terminal.line(terminal.bold("written    ") + result.recording.string());
     terminal.progress("drawing figures ...");
-    for (const fs::path& file : plot(read_recording(result.recording), folder).files) {
+    for (const fs::path& file :
+         report::plot(record::read_recording(result.recording), folder).files) {
         terminal.line("           " + file.string());
     }
 }

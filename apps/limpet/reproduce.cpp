@@ -36,7 +36,7 @@ void run(const Options& options) {
     const Clock::time_point begin = Clock::now();
     Terminal terminal(Terminal::Voice::normal);
     std::string part;
-    const ReproduceWatch watch{
+    const paper::ReproduceWatch watch{
         .on_part =
             [&](std::size_t k, std::size_t of, const std::string& title) {
                 const double past_s = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -52,23 +52,24 @@ void run(const Options& options) {
                 }
             },
         .stop = stop_on_signals()};
-    const Reproduction result = reproduce({.folder = make_folder(options.out),
-                                           .only = options.only,
-                                           .quick = options.quick,
-                                           .jobs = options.jobs,
-                                           .command = command_of(options)},
-                                          watch);
+    const paper::Reproduction result = reproduce({.folder = make_folder(options.out),
+                                                  .only = options.only,
+                                                  .quick = options.quick,
+                                                  .jobs = options.jobs,
+                                                  .command = command_of(options)},
+                                                 watch);
     terminal.line("");
-    for (const Claim& claim : result.page.claims) {
-        if (claim.verdict == Verdict::differs) {
+    for (const report::Claim& claim : result.page.claims) {
+        if (claim.verdict == report::Verdict::differs) {
             terminal.line(fmt::format("differs    {} ({}): {} {}", claim.statement, claim.section,
-                                      to_text(claim.simulated), claim.unit));
+                                      report::to_text(claim.simulated), claim.unit));
         }
     }
     terminal.line(terminal.bold("claims     ") +
                   fmt::format("{} reproduced, {} differ, {} not modelled",
-                              result.count(Verdict::reproduced), result.count(Verdict::differs),
-                              result.count(Verdict::not_modelled)));
+                              result.count(report::Verdict::reproduced),
+                              result.count(report::Verdict::differs),
+                              result.count(report::Verdict::not_modelled)));
     for (const auto& file : result.files) {
         terminal.line(terminal.bold("written    ") + file.string());
     }
@@ -80,7 +81,7 @@ Verb reproduce_verb() {
     auto options = std::make_shared<Options>();
     std::vector<std::string> names;
     std::string footer = "Parts:\n";
-    for (const auto& [name, title] : part_titles()) {
+    for (const auto& [name, title] : paper::part_titles()) {
         names.push_back(name);
         footer += fmt::format("  {:<12} {}\n", name, title);
     }

@@ -12,7 +12,7 @@
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/vehicle/propeller_file.hpp"
+#include "limpet/identification/propeller_file.hpp"
 
 namespace limpet::app {
 namespace {
@@ -29,9 +29,9 @@ struct RotorOptions {
 
 struct Finding {
     double diameter_m = 0.0;
-    std::vector<PropellerRow> rows;
-    std::vector<RotorConstants> constants;  ///< of each row
-    RotorConstants chosen;
+    std::vector<identification::PropellerRow> rows;
+    std::vector<identification::RotorConstants> constants;  ///< of each row
+    identification::RotorConstants chosen;
 };
 
 Finding find(const RotorOptions& options) {
@@ -40,9 +40,9 @@ Finding find(const RotorOptions& options) {
                                      options.density_kg_m3));
     }
     Finding found;
-    found.diameter_m = length_m(options.diameter, "--diameter");
-    found.rows = read_propeller_file(options.file);
-    for (const PropellerRow& row : found.rows) {
+    found.diameter_m = identification::length_m(options.diameter, "--diameter");
+    found.rows = identification::read_propeller_file(options.file);
+    for (const identification::PropellerRow& row : found.rows) {
         found.constants.push_back(rotor_constants(row, found.diameter_m, options.density_kg_m3));
     }
     if (!options.speed_rpm) {
@@ -63,7 +63,8 @@ struct Range {
     double high = 0.0;
 };
 
-Range range_of(const std::vector<RotorConstants>& all, double RotorConstants::*field) {
+Range range_of(const std::vector<identification::RotorConstants>& all,
+               double identification::RotorConstants::*field) {
     const auto [low, high] =
         std::minmax_element(all.begin(), all.end(),
                             [field](const auto& a, const auto& b) { return a.*field < b.*field; });
@@ -84,13 +85,15 @@ void print_text(const RotorOptions& options, const Finding& found) {
     fmt::print("{:>9}  {:>8}  {:>8}  {:>12}  {:>9}\n", "rpm", "C_T", "C_P", "k_mot kg m",
                "k_mom m");
     for (std::size_t i = 0; i < found.rows.size(); ++i) {
-        const PropellerRow& row = found.rows[i];
+        const identification::PropellerRow& row = found.rows[i];
         fmt::print("{:9.1f}  {:8.5f}  {:8.5f}  {:12.4e}  {:9.5f}\n", row.speed_rpm,
                    row.thrust_coefficient, row.power_coefficient,
                    found.constants[i].motor_constant_kg_m, found.constants[i].moment_constant_m);
     }
-    const Range k_mot = range_of(found.constants, &RotorConstants::motor_constant_kg_m);
-    const Range k_mom = range_of(found.constants, &RotorConstants::moment_constant_m);
+    const Range k_mot =
+        range_of(found.constants, &identification::RotorConstants::motor_constant_kg_m);
+    const Range k_mom =
+        range_of(found.constants, &identification::RotorConstants::moment_constant_m);
     fmt::print("\nD {:g} m, rho {:g} kg/m3, eqs. (3) and (4), {}:\n", found.diameter_m,
                options.density_kg_m3, how(options));
     fmt::print("  motor_constant_kg_m: {:.4e}   # {}\n", found.chosen.motor_constant_kg_m,
@@ -100,7 +103,7 @@ void print_text(const RotorOptions& options, const Finding& found) {
     fmt::print("as the section `rotor` of a vehicle takes them\n");
 }
 
-Json json_of(const RotorConstants& constants) {
+Json json_of(const identification::RotorConstants& constants) {
     return {{"motor_constant_kg_m", constants.motor_constant_kg_m},
             {"moment_constant_m", constants.moment_constant_m}};
 }

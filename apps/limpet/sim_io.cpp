@@ -36,8 +36,8 @@ struct SimIoOptions {
     bool no_figures = false;
 };
 
-void say_wires(const RemoteGuidance& guidance, Terminal& terminal) {
-    const OutsideWires& wires = guidance.wires();
+void say_wires(const simulation::RemoteGuidance& guidance, Terminal& terminal) {
+    const simulation::OutsideWires& wires = guidance.wires();
     const auto say = [&](const char* what, const std::string& wire) {
         terminal.line(terminal.bold(fmt::format("{:<11}", what)) + wire);
     };
@@ -56,8 +56,8 @@ void say_wires(const RemoteGuidance& guidance, Terminal& terminal) {
     }
 }
 
-std::string report_line(const RemoteGuidance& guidance) {
-    const OutsideCount& count = guidance.count();
+std::string report_line(const simulation::RemoteGuidance& guidance) {
+    const simulation::OutsideCount& count = guidance.count();
     return fmt::format("{} poses, {} ranges, {} loads out; {} commands to pump and valve in",
                        count.poses, count.ranges, count.loads, count.commands);
 }
@@ -77,8 +77,8 @@ void check(const SimIoOptions& options) {
 }
 
 /// What is told after the flight, and what is left beside the recording.
-void conclude(const SimIoOptions& options, const FlightResult& result, Px4Link& px4,
-              const RemoteGuidance& guidance, Terminal& terminal) {
+void conclude(const SimIoOptions& options, const simulation::FlightResult& result, Px4Link& px4,
+              const simulation::RemoteGuidance& guidance, Terminal& terminal) {
     const std::filesystem::path folder = result.recording.parent_path();
     const LinkReport link = px4.report(result.performance);
     terminal.line("");
@@ -96,7 +96,7 @@ void conclude(const SimIoOptions& options, const FlightResult& result, Px4Link& 
     };
     if (!options.no_figures && !options.json) {
         terminal.progress("drawing figures ...");
-        add(plot(read_recording(result.recording), folder).files);
+        add(report::plot(record::read_recording(result.recording), folder).files);
         add(draw(link, folder));
     }
     if (options.px4.record_wire) {
@@ -111,10 +111,11 @@ void conclude(const SimIoOptions& options, const FlightResult& result, Px4Link& 
     }
 }
 
-FlightWatch watch(Terminal& terminal) {
-    return {.on_event = [&terminal](const Event& event) { terminal.line(event_line(event)); },
+simulation::FlightWatch watch(Terminal& terminal) {
+    return {.on_event =
+                [&terminal](const Event& event) { terminal.line(simulation::event_line(event)); },
             .on_progress =
-                [&terminal](double time_s, PerchingState state) {
+                [&terminal](double time_s, guidance::PerchingState state) {
                     terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
                 }};
 }
@@ -125,10 +126,12 @@ ExitCode sim_io(SimIoOptions options) {
     if (options.px4.speed.empty()) {
         options.px4.speed = "1";  // the companion's clock is real
     }
-    const Scenario scenario = load_scenario(options.scenario, {.overrides = options.overrides});
+    const scenario::Scenario scenario =
+        scenario::load_scenario(options.scenario, {.overrides = options.overrides});
     check(options.px4, scenario);
-    const auto model = build_model(scenario);
-    RemoteGuidance guidance(open_wires(options.wires), outside_options(options.wires, scenario));
+    const auto model = simulation::build_model(scenario);
+    simulation::RemoteGuidance guidance(open_wires(options.wires),
+                                        outside_options(options.wires, scenario));
     const OutFolder out(options.out.empty() ? std::filesystem::path("out") / scenario.name
                                             : std::filesystem::path(options.out));
     const std::filesystem::path& folder = out.path();
@@ -138,15 +141,17 @@ ExitCode sim_io(SimIoOptions options) {
     say_wires(guidance, terminal);
     const std::atomic<bool>* stop = stop_on_signals();
     Px4Link px4(options.px4, *model, false, folder, terminal, stop);
-    terminal.line(terminal.dim(event_head()));
-    FlightConduct conduct{.outside = {.autopilot = &px4.autopilot(), .guidance = &guidance},
-                          .start_limit_s = options.start_limit_s,
-                          .speed = px4.speed(),
-                          .stop = stop};
+    terminal.line(terminal.dim(simulation::event_head()));
+    simulation::FlightConduct conduct{
+        .outside = {.autopilot = &px4.autopilot(), .guidance = &guidance},
+        .start_limit_s = options.start_limit_s,
+        .speed = px4.speed(),
+        .stop = stop};
     conduct.on_obstacle = [&terminal](const std::string& obstacle) {
         terminal.line(terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
     };
-    const FlightResult result = fly(model, folder / "flight.mcap", watch(terminal), 0, conduct);
+    const simulation::FlightResult result =
+        fly(model, folder / "flight.mcap", watch(terminal), 0, conduct);
     conclude(options, result, px4, guidance, terminal);
     if (*stop) {
         terminal.line("interrupted; the recording is whole up to here");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/autopilot/stand_in.hpp"
+#include "limpet/px4/stand_in.hpp"
 
 #include <fmt/core.h>
 
@@ -31,16 +31,16 @@ struct Options {
 };
 
 /// A vehicle flies as in the scenario `hover`.
-Scenario scenario_of(const std::string& what) {
-    const auto vehicles = list_vehicles(data_root());
+scenario::Scenario scenario_of(const std::string& what) {
+    const auto vehicles = scenario::list_vehicles(scenario::data_root());
     const bool vehicle =
         std::any_of(vehicles.begin(), vehicles.end(),
-                    [&](const CatalogueEntry& entry) { return entry.name == what; });
-    return vehicle ? load_scenario("hover", {.overrides = {"vehicle=" + what}})
-                   : load_scenario(what);
+                    [&](const scenario::CatalogueEntry& entry) { return entry.name == what; });
+    return vehicle ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
+                   : scenario::load_scenario(what);
 }
 
-void set(const WireParameters& parameters, const std::string& text) {
+void set(const px4::WireParameters& parameters, const std::string& text) {
     const std::size_t at = text.find('=');
     const std::string name = text.substr(0, at);
     const std::string value = at == std::string::npos ? "" : text.substr(at + 1);
@@ -56,17 +56,17 @@ void set(const WireParameters& parameters, const std::string& text) {
 }
 
 void serve(const Options& options) {
-    AutopilotModel model = autopilot_model(scenario_of(options.what));
-    StandInOptions stand_in;
-    stand_in.hil = address_of("--hil", options.hil, {Medium::tcp, Medium::serial});
-    stand_in.onboard = address_of("--onboard", options.onboard, {Medium::udp});
-    stand_in.onboard_peer = address_of("--peer", options.peer, {Medium::udp});
+    autopilot::AutopilotModel model = simulation::autopilot_model(scenario_of(options.what));
+    px4::StandInOptions stand_in;
+    stand_in.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial});
+    stand_in.onboard = address_of("--onboard", options.onboard, {wire::Medium::udp});
+    stand_in.onboard_peer = address_of("--peer", options.peer, {wire::Medium::udp});
     // as `limpet px4-params` has them: else a perched vehicle may not arm
     stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0;
     for (const std::string& text : options.parameters) {
         set({.commander = stand_in.parameters, .autopilot = model.parameters}, text);
     }
-    StandIn autopilot(std::move(model), stand_in);
+    px4::StandIn autopilot(std::move(model), stand_in);
     const std::atomic<bool>* stop = stop_on_signals();
     const auto say = [](const std::string& text) {
         fmt::print("{}\n", text);

@@ -21,9 +21,9 @@ struct SummaryOptions {
 };
 
 void summarise_campaign(const SummaryOptions& options) {
-    const fs::path database = Results::file_of(options.database);
-    Results results(database, Access::read);
-    const CampaignSummary summary = summarise(results);
+    const fs::path database = campaign::Results::file_of(options.database);
+    campaign::Results results(database, campaign::Access::read);
+    const campaign::CampaignSummary summary = summarise(results);
     fmt::print("{}\n", options.json ? summary_json(summary) : summary_text(summary));
     if (options.json && options.out.empty()) {
         return;  // a program asked: it gets what it asked for

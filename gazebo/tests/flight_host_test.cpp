@@ -14,7 +14,7 @@
 #include "limpet/scenario/worlds.hpp"
 #include "server.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 class FlightHostTest : public ::testing::Test {
@@ -23,7 +23,7 @@ protected:
 
     void open(const std::string& name, const std::vector<std::string>& overrides = {}) {
         flight.scenario = load_scenario(name, {.overrides = overrides});
-        GazeboWorld text = world_of(flight.scenario, name, {});
+        models::GazeboWorld text = world_of(flight.scenario, name, {});
         text.vehicles.front().plugin.reset();
         server.emplace(write_world(flight.scenario.airframe, text));
         world = server->world();
@@ -35,7 +35,7 @@ protected:
             [this](const gazebo::common::UpdateInfo&) { host->update(); });
     }
     /// @return nullptr when it is not over in time
-    const FlightResult* fly_to_the_end() {
+    const simulation::FlightResult* fly_to_the_end() {
         for (int k = 0; k < 600 && host->result() == nullptr; ++k) {
             gazebo::runWorld(world, 1000);
         }
@@ -53,7 +53,7 @@ protected:
 TEST_F(FlightHostTest, PerchesAndTakesOff) {
     open("perch_concrete");
     host_it();
-    const FlightResult* result = fly_to_the_end();
+    const simulation::FlightResult* result = fly_to_the_end();
     ASSERT_NE(result, nullptr);
     EXPECT_EQ(result->outcome, Outcome::released) << result->reason;
     EXPECT_EQ(result->attempts, 1);
@@ -63,7 +63,7 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     open("hover", {"simulation.hover_s=2"});
     flight.recording = std::filesystem::path(::testing::TempDir()) / "gazebo_hover.mcap";
     host_it();
-    const FlightResult* first = fly_to_the_end();
+    const simulation::FlightResult* first = fly_to_the_end();
     ASSERT_NE(first, nullptr);
     EXPECT_EQ(first->outcome, Outcome::released) << first->reason;
     const double lasted_s = first->performance.simulated_s;
@@ -76,7 +76,7 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     ASSERT_EQ(host->result(), nullptr);
     world->Reset();
     host->restart();  // in the middle
-    const FlightResult* again = fly_to_the_end();
+    const simulation::FlightResult* again = fly_to_the_end();
     ASSERT_NE(again, nullptr);
     EXPECT_EQ(again->outcome, Outcome::released) << again->reason;
     EXPECT_EQ(again->performance.simulated_s, lasted_s);
@@ -107,4 +107,4 @@ TEST_F(FlightHostTest, WhatFlyThrowsComesOutOfTheUpdate) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -11,7 +11,7 @@
 #include "limpet/scenario/worlds.hpp"
 #include "server.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using ::testing::HasSubstr;
@@ -23,7 +23,7 @@ protected:
         : scenario(load_scenario("perch_concrete", {.overrides = std::move(overrides)})) {}
 
     void open() {
-        GazeboWorld text = world_of(scenario, scenario.name, {});
+        models::GazeboWorld text = world_of(scenario, scenario.name, {});
         text.vehicles.front().plugin.reset();
         open(write_world(scenario.airframe, text));
     }
@@ -42,7 +42,7 @@ protected:
     void run(double duration_s, Push push, double step_s = 1e-3) {
         const int steps = static_cast<int>(std::lround(duration_s / step_s));
         for (int k = 0; k < steps; ++k) {
-            const SliderMotion motion = plant->slider();
+            const plant::SliderMotion motion = plant->slider();
             plant->apply_slider(
                 slider_force(scenario.airframe.slider, motion.position_m, motion.velocity_m_s)
                     .stop_N);
@@ -51,35 +51,35 @@ protected:
         }
     }
     void carry() {
-        plant->apply(Body::base,
+        plant->apply(plant::Body::base,
                      {.force_N = Vector3(0.0, 0.0, -scenario.airframe.mass_kg * kGravity_m_s2),
                       .moment_N_m = Vector3::Zero()},
-                     plant->kinematics(Body::base).p_WF_m);
+                     plant->kinematics(plant::Body::base).p_WF_m);
     }
 
-    Scenario scenario;
+    scenario::Scenario scenario;
     std::optional<GazeboServer> server;
     gazebo::physics::WorldPtr world;
     gazebo::physics::ModelPtr vehicle;
     std::shared_ptr<const GazeboModel> model;
-    std::unique_ptr<Plant> plant;
+    std::unique_ptr<plant::Plant> plant;
 };
 
 TEST_F(GazeboPlantTest, StandsWhereTheScenarioStarts) {
     open();
-    const Kinematics base = plant->kinematics(Body::base);
+    const Kinematics base = plant->kinematics(plant::Body::base);
     EXPECT_NEAR((base.p_WF_m - scenario.start.p_WB_m).norm(), 0.0, 1e-6);
     EXPECT_NEAR(base.q_WF.angularDistance(attitude(scenario.start)), 0.0, 1e-6);
     const Vector3 lip_B_m(scenario.airframe.cup.joint_x_m + scenario.airframe.cup.lip_offset_m, 0.0,
                           scenario.airframe.cup.joint_z_m);
     const Vector3 lip_W_m = scenario.start.p_WB_m + attitude(scenario.start) * lip_B_m;
-    EXPECT_NEAR((plant->kinematics(Body::cup).p_WF_m - lip_W_m).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((plant->kinematics(plant::Body::cup).p_WF_m - lip_W_m).norm(), 0.0, 1e-6);
 }
 
 TEST_F(GazeboPlantTest, ItsWeightOnTheRotorsHoldsItStill) {
     open();
     run(0.5, [this] { carry(); });
-    const Kinematics base = plant->kinematics(Body::base);
+    const Kinematics base = plant->kinematics(plant::Body::base);
     EXPECT_LT(base.v_WF_W_m_s.norm(), 2e-3);
     // the cup's own weight bends its soft hinges, and the centre of mass with it
     EXPECT_LT(base.w_WF_F_rad_s.norm(), 5e-3);
@@ -92,11 +92,11 @@ TEST_F(GazeboPlantTest, AForceAcceleratesTheWholeMass) {
         carry();
         const double newton_per_m_s2 = scenario.airframe.mass_kg;
         plant->apply(
-            Body::base,
+            plant::Body::base,
             {.force_N = newton_per_m_s2 * Vector3(1.0, 2.0, -0.5), .moment_N_m = Vector3::Zero()},
-            plant->kinematics(Body::base).p_WF_m);
+            plant->kinematics(plant::Body::base).p_WF_m);
     });
-    const Vector3 v_W_m_s = plant->kinematics(Body::base).v_WF_W_m_s;
+    const Vector3 v_W_m_s = plant->kinematics(plant::Body::base).v_WF_W_m_s;
     EXPECT_NEAR(v_W_m_s.x(), 0.2, 0.004);
     EXPECT_NEAR(v_W_m_s.y(), 0.4, 0.008);
     EXPECT_NEAR(v_W_m_s.z(), -0.1, 0.004);
@@ -107,25 +107,25 @@ TEST_F(GazeboPlantTest, AMomentTurnsTheWholeInertia) {
     const Vector3 inertia = scenario.airframe.inertia_kg_m2;
     run(0.1, [&] {
         carry();
-        const Kinematics base = plant->kinematics(Body::base);
+        const Kinematics base = plant->kinematics(plant::Body::base);
         plant->apply(
-            Body::base,
+            plant::Body::base,
             {.force_N = Vector3::Zero(), .moment_N_m = base.q_WF * Vector3(0.0, 0.0, inertia.z())},
             base.p_WF_m);
     });
     // the cup hangs in soft hinges and comes along a little later
-    EXPECT_NEAR(plant->kinematics(Body::base).w_WF_F_rad_s.z(), 0.1, 0.002);
+    EXPECT_NEAR(plant->kinematics(plant::Body::base).w_WF_F_rad_s.z(), 0.1, 0.002);
 }
 
 TEST_F(GazeboPlantTest, APushOnTheLipCompressesTheSliderAsTheSpringSays) {
     open();
     constexpr double kPush_N = 10.0;
-    const Airframe& airframe = scenario.airframe;
+    const vehicle::Airframe& airframe = scenario.airframe;
     run(0.3, [&] {
         carry();
-        const Kinematics cup = plant->kinematics(Body::cup);
+        const Kinematics cup = plant->kinematics(plant::Body::cup);
         plant->apply(
-            Body::cup,
+            plant::Body::cup,
             {.force_N = cup.q_WF * Vector3(-kPush_N, 0.0, 0.0), .moment_N_m = Vector3::Zero()},
             cup.p_WF_m);
     });
@@ -143,8 +143,8 @@ TEST_F(GazeboPlantTest, SpeedsOfTheLipAreThoseOfARigidBody) {
     const Quaternion q_WB =
         quaternion_from_euler({.roll_rad = 0.1, .pitch_rad = 0.2, .yaw_rad = 0.3});
     plant->set_pose({0.1, 0.2, -0.3}, q_WB, v_W_m_s, w_B_rad_s);
-    const Kinematics base = plant->kinematics(Body::base);
-    const Kinematics cup = plant->kinematics(Body::cup);
+    const Kinematics base = plant->kinematics(plant::Body::base);
+    const Kinematics cup = plant->kinematics(plant::Body::cup);
     EXPECT_NEAR((base.p_WF_m - Vector3(0.1, 0.2, -0.3)).norm(), 0.0, 1e-9);
     EXPECT_NEAR(base.q_WF.angularDistance(q_WB), 0.0, 1e-9);
     EXPECT_NEAR((base.v_WF_W_m_s - v_W_m_s).norm(), 0.0, 1e-9);
@@ -157,15 +157,15 @@ TEST_F(GazeboPlantTest, SpeedsOfTheLipAreThoseOfARigidBody) {
 TEST_F(GazeboPlantTest, ARestoredStateGoesOnAsTheFirstTime) {
     open();
     run(0.05, [this] { carry(); });
-    const PlantState saved = plant->save();
+    const plant::PlantState saved = plant->save();
     const auto go_on = [this] {
         run(0.05, [this] {
             plant->apply(
-                Body::base,
+                plant::Body::base,
                 {.force_N = Vector3(1.0, 0.0, -30.0), .moment_N_m = Vector3(0.1, 0.1, 0.1)},
-                plant->kinematics(Body::base).p_WF_m);
+                plant->kinematics(plant::Body::base).p_WF_m);
         });
-        return plant->kinematics(Body::base);
+        return plant->kinematics(plant::Body::base);
     };
     const Kinematics first = go_on();
     plant->restore(saved);
@@ -181,7 +181,7 @@ TEST_F(GazeboPlantTest, RaysFindTheWallBeyondTheVehicleItself) {
     ASSERT_TRUE(ahead);
     EXPECT_NEAR(*ahead, before_m, 1e-6);
     // from above one of its legs, through it, to the floor
-    const Vector3 leg_W_m = plant->kinematics(Body::base).p_WF_m +
+    const Vector3 leg_W_m = plant->kinematics(plant::Body::base).p_WF_m +
                             attitude(scenario.start) * Vector3(scenario.airframe.legs.tip_x_m,
                                                                scenario.airframe.legs.tip_y_m, 0.0);
     const auto down = plant->ray(leg_W_m, Vector3::UnitZ());
@@ -205,7 +205,7 @@ TEST_F(GazeboPlantTest, TheWorldsClockFollowsChangingSteps) {
 class WorldsThatDiffer : public GazeboPlantTest {
 protected:
     void expect_refused(const std::string& from, const std::string& to, const std::string& why) {
-        GazeboWorld text = world_of(scenario, scenario.name, {});
+        models::GazeboWorld text = world_of(scenario, scenario.name, {});
         text.vehicles.front().plugin.reset();
         std::string sdf = write_world(scenario.airframe, text);
         const std::size_t at = sdf.find(from);
@@ -234,7 +234,7 @@ TEST_F(WorldsThatDiffer, InTheEngineAreRefused) {
 
 TEST_F(WorldsThatDiffer, InTheWallsPlaceAreRefused) {
     scenario.wall.geometry.p_WT_m.x() += 0.01;
-    GazeboWorld text = world_of(load_scenario("perch_concrete"), scenario.name, {});
+    models::GazeboWorld text = world_of(load_scenario("perch_concrete"), scenario.name, {});
     text.vehicles.front().plugin.reset();
     try {
         open(write_world(scenario.airframe, text));
@@ -250,4 +250,4 @@ TEST_F(WorldsThatDiffer, InMassAreRefused) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

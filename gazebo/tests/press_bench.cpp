@@ -3,7 +3,7 @@
 
 #include <sdf/sdf.hh>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 std::string box_model(const std::string& name, const std::string& pose, const std::string& size,
                       bool is_static) {
@@ -75,4 +75,4 @@ int PressBench::run_until(const std::function<bool()>& is_so, int limit) {
     return -1;
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -8,7 +8,7 @@
 #include "gazebo/suction_cup_plugin.hpp"
 #include "server.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// A body of 1 kg with a cup, its lip 40 mm before a wall at x = 1, and a hand that pushes it.
 struct PressBench {
@@ -49,4 +49,4 @@ inline constexpr double kHand_N_s_m = 200.0;
 /// A surface of round numbers that seals at 20 N, always; no ripple.
 [[nodiscard]] std::string plain_surface();
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

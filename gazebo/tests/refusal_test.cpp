@@ -9,7 +9,7 @@
 #include "press_bench.hpp"
 #include "served.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using ::testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -8,7 +8,7 @@
 
 #include "served.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 class WhatNoRosVehicleCanUse : public ::testing::TestWithParam<Refused> {};
@@ -36,4 +36,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& row) { return row.param.name; });
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using ::testing::HasSubstr;
@@ -38,7 +38,7 @@ std::string refusal_of(const std::string& inside, const SdfReading& reading) {
 }
 
 TEST(SdfReader, TextSectionsAndAttributesBecomeOneTree) {
-    const YamlNode tree =
+    const scenario::YamlNode tree =
         sdf_tree(plugin("<scenario> hover </scenario><suction><radius_m>0.03</radius_m></suction>"
                         "<target model='wall' surface='metal'/><empty/>"),
                  {.place = "m: P"});
@@ -47,16 +47,17 @@ TEST(SdfReader, TextSectionsAndAttributesBecomeOneTree) {
     ASSERT_NE(tree.find("suction"), nullptr);
     EXPECT_EQ(tree.find("suction")->find("radius_m")->path, "suction.radius_m");
     EXPECT_EQ(tree.find("suction")->find("radius_m")->text, "0.03");
-    ASSERT_EQ(tree.find("target")->kind, YamlNode::Kind::map);
+    ASSERT_EQ(tree.find("target")->kind, scenario::YamlNode::Kind::map);
     EXPECT_EQ(tree.find("target")->find("surface")->text, "metal");
-    EXPECT_EQ(tree.find("empty")->kind, YamlNode::Kind::null);
+    EXPECT_EQ(tree.find("empty")->kind, scenario::YamlNode::Kind::null);
     EXPECT_EQ(tree.find("name"), nullptr) << "attributes of <plugin> are Gazebo's";
 }
 
 TEST(SdfReader, ListsGatherWhatStandsMoreThanOnce) {
     const SdfReading reading{.place = "m: P", .lists = {"set"}};
     EXPECT_EQ(sdf_tree(plugin("<set>a=1</set>"), reading).find("set")->children.size(), 1U);
-    const YamlNode tree = sdf_tree(plugin("<set>a=1</set><speed>1</speed><set>b=2</set>"), reading);
+    const scenario::YamlNode tree =
+        sdf_tree(plugin("<set>a=1</set><speed>1</speed><set>b=2</set>"), reading);
     ASSERT_EQ(tree.find("set")->children.size(), 2U);
     EXPECT_EQ(tree.find("set")->children[1].text, "b=2");
     EXPECT_EQ(tree.find("set")->children[1].path, "set[1]");
@@ -73,7 +74,7 @@ TEST(SdfReader, TheEnvironmentOverridesWhatIsNamed) {
     ::setenv("LIMPET_SPEED", "0.5", 1);
     ::setenv("LIMPET_SET", "a=1; b=2;", 1);
     ::setenv("LIMPET_SEED", "", 1);
-    const YamlNode tree =
+    const scenario::YamlNode tree =
         sdf_tree(plugin("<speed>1</speed><set>c=3</set><seed>4</seed><other/>"),
                  {.place = "m: P", .lists = {"set"}, .from_environment = {"speed", "set", "seed"}});
     EXPECT_EQ(tree.find("speed")->text, "0.5");
@@ -94,4 +95,4 @@ TEST(SdfReader, ABrokenPluginEndsTheProcessWithALineAndItsCode) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -19,7 +19,7 @@
 
 /// Gazebo's own sensors against the truth that ours read, in one flight at real time: hover,
 /// approach, impact, landing, the first seconds of rest.
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
@@ -52,7 +52,7 @@ class GazeboSensorsTest : public ::testing::Test {
 protected:
     GazeboSensorsTest() {
         flight.scenario = load_scenario("perch_concrete", {});
-        GazeboWorld text = world_of(flight.scenario, "perch_concrete", {});
+        models::GazeboWorld text = world_of(flight.scenario, "perch_concrete", {});
         text.vehicles.front().plugin.reset();
         text.sensors = gazebo_sensors(flight.scenario.sensors);
         server.emplace(write_world(flight.scenario.airframe, text));
@@ -84,7 +84,7 @@ protected:
 
     void fly() {
         flight.conduct.speed = 1.0;
-        flight.watch.on_tick = [this](Flight& flown, const EventList&) {
+        flight.watch.on_tick = [this](simulation::Flight& flown, const guidance::EventList&) {
             // The world's clock is ahead by the step that is about to be taken.
             now_s = world->SimTime().Double() - world->Physics()->GetMaxStepSize();
             was.push_back({now_s, flown.state().truth});
@@ -152,7 +152,7 @@ protected:
 
     /// Distance from a LiDAR to the wall's plane by the truth alone.
     [[nodiscard]] double range_m(const Truth& truth, double side) const {
-        const Airframe& frame = flight.scenario.airframe;
+        const vehicle::Airframe& frame = flight.scenario.airframe;
         const Vector3 p_B_m(frame.lidar_x_m, side * 0.5 * frame.lidar_separation_m,
                             frame.lidar_z_m);
         const Vector3 origin_W_m = truth.base.p_WF_m + truth.base.q_WF * p_B_m;
@@ -262,7 +262,7 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
         if (truth == nullptr) {
             return kNone;
         }
-        const SliderParameters& parameters = flight.scenario.airframe.slider;
+        const vehicle::SliderParameters& parameters = flight.scenario.airframe.slider;
         const double spring_N = parameters.preload_N -
                                 parameters.stiffness_N_m * truth->slider.position_m -
                                 parameters.damping_N_s_m * truth->slider.velocity_m_s;
@@ -290,4 +290,4 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -9,7 +9,7 @@
 
 #include "press_bench.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 Ended serve(const std::string& library, const std::string& inside, const std::string& more_models,
             const std::string& limit_s) {
@@ -37,4 +37,4 @@ void PrintTo(const Refused& refused, std::ostream* out) {
     *out << refused.name;
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

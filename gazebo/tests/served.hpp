@@ -4,7 +4,7 @@
 #include <ostream>
 #include <string>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// How a gzserver came to its end.
 struct Ended {
@@ -23,4 +23,4 @@ struct Refused {
 };
 void PrintTo(const Refused& refused, std::ostream* out);
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 int free_port() {
     const int end = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -71,4 +71,4 @@ GazeboServer::~GazeboServer() {
     gazebo::shutdown();
 }
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

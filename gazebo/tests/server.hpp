@@ -5,7 +5,7 @@
 #include <gazebo/physics/physics.hh>
 #include <string>
 
-namespace limpet {
+namespace limpet::gazebo11 {
 
 /// Gazebo's server in this process: gzserver without its main(), a world stepped as asked. One a
 /// process; CTest runs each test in a process of its own.
@@ -43,4 +43,4 @@ private:
 /// Physical memory of this process [B].
 [[nodiscard]] double resident_B();
 
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -9,7 +9,7 @@
 #include "gazebo/suction_cup_plugin.hpp"
 #include "press_bench.hpp"
 
-namespace limpet {
+namespace limpet::gazebo11 {
 namespace {
 
 using ignition::math::Vector3d;
@@ -275,4 +275,4 @@ TEST(SuctionCup, TopicsSwitchThePumpAndTellPressureAndState) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::gazebo11

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/autopilot/aiding.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// Source: PX4's limit for external positions.
@@ -134,4 +134,4 @@ void fuse(Fusion& fusion, Aiding& aiding, const Measurement& measurement, double
     aiding.rejected = 0;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -16,7 +16,7 @@
 /// dv the velocity gained from specific force since. Left out: the IMU's noise within tau, which at
 /// 0.11 s is 1 % of the deviation of the best GPS, and terms of tau^2. So stamps may be late,
 /// jitter or come out of order.
-namespace limpet {
+namespace limpet::autopilot {
 
 /// What became of one kind of aiding.
 struct Aiding {
@@ -62,4 +62,4 @@ struct Fusion {
 void fuse(Fusion& fusion, Aiding& aiding, const Measurement& measurement, double stamp_s,
           double gate, int block);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

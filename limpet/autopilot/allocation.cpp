@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// Share of the range by which yaw may overdrive a motor before it yields; thrust pays for it.
@@ -117,4 +117,4 @@ Allocation allocate(const Mixer& mixer, const Vector3& torque, double thrust) {
     return result;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -6,7 +6,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// What the mixer must know of a rotor.
 struct RotorGeometry {
@@ -50,4 +50,4 @@ struct Allocation {
 /// Source: PX4 ControlAllocationSequentialDesaturation::mixAirmodeDisabled.
 [[nodiscard]] Allocation allocate(const Mixer& mixer, const Vector3& torque, double thrust);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

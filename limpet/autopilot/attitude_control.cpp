@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// Thrust axes closer to opposite than this have no shortest turn between them.
@@ -49,4 +49,4 @@ Vector3 attitude_control(const AutopilotParameters& parameters, const Quaternion
     return error.cwiseProduct(gain).cwiseMax(-limit_rad_s).cwiseMin(limit_rad_s);
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -4,7 +4,7 @@
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// Attitude error to body rates: proportional in the quaternion's error, tilt before heading. No
 /// Euler angles, so that a vehicle that hangs nose up is like any other.
@@ -16,4 +16,4 @@ namespace limpet {
 [[nodiscard]] Vector3 attitude_control(const AutopilotParameters& parameters,
                                        const Quaternion& q_WB, const Quaternion& q_WB_target);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace limpet {
+namespace limpet::autopilot {
 
 const AutopilotKind kCascade = {.name = "cascade",
                                 .description = "PX4's: position, velocity, attitude, rates",
@@ -18,4 +18,4 @@ std::span<const AutopilotKind* const> autopilots() {
     return kAutopilots;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

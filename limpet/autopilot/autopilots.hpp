@@ -8,7 +8,7 @@
 #include "limpet/autopilot.hpp"
 #include "limpet/autopilot/parameters.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// What flies in the loop. An autopilot is a file that defines one of these, and a line in
 /// autopilots.cpp; it flies as an outsider's does (limpet/autopilot.hpp).
@@ -25,4 +25,4 @@ struct AutopilotKind {
 /// PX4's cascade.
 extern const AutopilotKind kCascade;
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -6,7 +6,7 @@
 
 #include "limpet/autopilot/attitude_control.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// A gap in the calls must not be integrated as a whole. Source: PX4 mc_rate_control.
@@ -127,4 +127,4 @@ RotorCommand control(const AutopilotModel& model, AutopilotState& state, const S
     return {.command = allocation.command, .armed = true};
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

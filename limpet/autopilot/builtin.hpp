@@ -22,7 +22,7 @@
 ///                               |
 ///   position -> velocity -> attitude + thrust -> rates -> torque -> allocation -> commands
 ///        setpoints enter wherever their kind says          ^-- saturation --'
-namespace limpet {
+namespace limpet::autopilot {
 
 struct AutopilotModel {
     AutopilotParameters parameters;
@@ -65,4 +65,4 @@ void estimate(const AutopilotModel& model, AutopilotState& state, const Readings
 [[nodiscard]] RotorCommand control(const AutopilotModel& model, AutopilotState& state,
                                    const Setpoint& setpoint, double time_s);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

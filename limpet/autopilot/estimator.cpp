@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 // Bits of EKF2_EV_CTRL and EKF2_GPS_CTRL.
@@ -248,4 +248,4 @@ Estimate estimate_from(const AutopilotParameters& parameters, const EstimatorSta
     return estimate;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -10,7 +10,7 @@
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/readings.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// Error-state Kalman filter over the IMU and what aids it: motion capture, or GPS, barometer and
 /// magnetometer, or all. It lives in the present; late measurements are dealt with in aiding.hpp.
@@ -53,4 +53,4 @@ void update_estimator(const AutopilotParameters& parameters, EstimatorState& sta
 [[nodiscard]] Estimate estimate_from(const AutopilotParameters& parameters,
                                      const EstimatorState& state);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -10,7 +10,7 @@
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/setpoint.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// An autopilot outside of the simulation's state, behind a wire. The loop calls it where it calls
 /// the built-in one, at the same rate; a run with one can neither be saved nor branched.
@@ -32,4 +32,4 @@ public:
     [[nodiscard]] virtual std::string obstacle() const = 0;
 };
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

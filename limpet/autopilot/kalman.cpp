@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// M = M F', three columns at a time: F is the identity but for a few 3x3 blocks. Positions take
@@ -98,4 +98,4 @@ void reset_error(Covariance& covariance, int error, double variance) {
     covariance(error, error) = variance;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

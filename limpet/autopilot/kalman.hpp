@@ -5,7 +5,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// The 15 errors, truth less belief, three each: position and velocity in W, attitude as a rotation
 /// vector in B (q_true = q * exp(error)), gyro bias, accelerometer bias.
@@ -68,4 +68,4 @@ void change_attitude_frame(Covariance& covariance, const Vector3& correction_rad
 /// Forgets what is known of one error: uncorrelated, with this variance.
 void reset_error(Covariance& covariance, int error, double variance);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

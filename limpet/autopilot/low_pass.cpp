@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kSqrt2 = 1.41421356237309504880;
@@ -44,4 +44,4 @@ Vector3 low_pass(LowPass& filter, const Vector3& input, double cutoff_Hz, double
     return output;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

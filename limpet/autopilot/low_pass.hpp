@@ -3,7 +3,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// Second-order Butterworth low-pass of a vector, PX4's LowPassFilter2p. Kept in direct form I,
 /// whose memory is past inputs and outputs, so that a change of the sample interval makes no step.
@@ -27,4 +27,4 @@ void reset(LowPass& filter, const Vector3& value);
 /// @return the filtered value
 Vector3 low_pass(LowPass& filter, const Vector3& input, double cutoff_Hz, double interval_s);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

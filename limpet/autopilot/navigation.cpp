@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 const Vector3 kGravity_W_m_s2 = {0.0, 0.0, kGravity_m_s2};
@@ -64,4 +64,4 @@ std::optional<Navigation> past(const Navigation& now, const ImuHistory& history,
     return state;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

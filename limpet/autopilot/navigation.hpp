@@ -6,7 +6,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// Where the vehicle believes to be: what the error-state filter's errors are errors of.
 struct Navigation {
@@ -46,4 +46,4 @@ void remember(ImuHistory& history, const ImuStep& step);
 [[nodiscard]] std::optional<Navigation> past(const Navigation& now, const ImuHistory& history,
                                              double age_s);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 using P = AutopilotParameters;
@@ -180,4 +180,4 @@ const Table& autopilot_table() {
     return table;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

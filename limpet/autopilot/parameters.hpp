@@ -3,7 +3,7 @@
 
 #include "limpet/core/parameters.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// Parameters of the built-in autopilot. Fields carry PX4's names, units and meaning (the one
 /// exception to snake_case in the house), so that a `.params` file exported from a vehicle loads as
@@ -97,4 +97,4 @@ struct AutopilotParameters {
 /// Table behind the YAML section `autopilot`.
 [[nodiscard]] const ParameterTable<AutopilotParameters>& autopilot_table();
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

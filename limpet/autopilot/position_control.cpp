@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
@@ -142,4 +142,4 @@ AttitudeSetpoint velocity_control(const AutopilotParameters& parameters,
             .thrust = thrust_given.norm()};
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

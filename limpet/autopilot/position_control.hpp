@@ -6,7 +6,7 @@
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/setpoint.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 struct PositionControlState {
     Vector3 integral_m_s2 = Vector3::Zero();      ///< of the velocity error
@@ -36,4 +36,4 @@ void filter_acceleration(const AutopilotParameters& parameters, PositionControlS
                                                 const Vector3& v_WB_m_s, bool hold_integrators,
                                                 double dt_s);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// An error as large as this is a flip, not an offset: it must not be integrated. Source: PX4.
@@ -69,4 +69,4 @@ Vector3 rate_control(const AutopilotParameters& parameters, RateControlState& st
     return torque;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -6,7 +6,7 @@
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 struct RateControlState {
     Vector3 integral = Vector3::Zero();             ///< torque command, within MC_*_INT_LIM
@@ -32,4 +32,4 @@ void filter_rates(const AutopilotParameters& parameters, RateControlState& state
                                    const Vector3& rate_target_rad_s, const Saturation& saturation,
                                    bool hold_integrators, double dt_s);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -6,7 +6,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 std::size_t variant_of(const std::vector<VariedKey>& keys,
                        const std::vector<SampledValue>& sample) {
@@ -22,9 +22,9 @@ std::size_t variant_of(const std::vector<VariedKey>& keys,
     return variant;
 }
 
-Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& sample) {
+scenario::Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& sample) {
     // The text is spelled out: nothing is looked up in any folder of data.
-    LoadOptions options{.overrides = {}, .seed = campaign.seed, .data_root = "."};
+    scenario::LoadOptions options{.overrides = {}, .seed = campaign.seed, .data_root = "."};
     for (std::size_t i = 0; i < sample.size(); ++i) {
         if (!is_named(campaign.keys[i])) {
             options.overrides.push_back(campaign.keys[i].key + "=" + value_text(sample[i]));
@@ -34,4 +34,4 @@ Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& 
                               campaign.scenario_name, options);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -10,7 +10,7 @@
 #include "limpet/core/signals/outcome.hpp"
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// Many flights: a scenario, what differs from run to run, how many. Keys of the file are described
 /// in campaigns/README.md. It stands for itself once it is loaded: its scenario is spelled out, so
@@ -49,7 +49,7 @@ struct Campaign {
 
 /// The scenario with what a run sets in it.
 /// @throws InputError when the values do not fit each other
-[[nodiscard]] Scenario scenario_of(const Campaign& campaign,
-                                   const std::vector<SampledValue>& sample);
+[[nodiscard]] scenario::Scenario scenario_of(const Campaign& campaign,
+                                             const std::vector<SampledValue>& sample);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

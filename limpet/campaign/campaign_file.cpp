@@ -9,7 +9,7 @@
 
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 constexpr double kHuge = 1e300;
@@ -18,12 +18,12 @@ constexpr std::uint64_t kMostPoints = 1'000'000;
 constexpr std::uint64_t kLargestSeed = 9'223'372'036'854'775'807U;  ///< what SQLite can hold
 constexpr double kLeastShare = 1e-3;
 
-double number(const YamlNode& node, double minimum = -kHuge, double maximum = kHuge) {
+double number(const scenario::YamlNode& node, double minimum = -kHuge, double maximum = kHuge) {
     double value = 0.0;
     return read_number(node, {{}, "-", minimum, maximum, &value, {}, {}});
 }
 
-std::uint64_t count(const YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {
+std::uint64_t count(const scenario::YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {
     const std::uint64_t value = read_count(node);
     if (value < minimum || value > maximum) {
         fail(node, fmt::format("{} is out of range, allowed {}..{}", value, minimum, maximum));
@@ -31,41 +31,41 @@ std::uint64_t count(const YamlNode& node, std::uint64_t minimum, std::uint64_t m
     return value;
 }
 
-const YamlNode& needed(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
+const scenario::YamlNode& needed(const scenario::YamlNode& map, std::string_view key) {
+    const scenario::YamlNode* node = map.find(key);
     if (node == nullptr) {
         fail(map, fmt::format("{}: is missing", key));
     }
     return *node;
 }
 
-const YamlNode& section(const YamlNode& node, std::string_view example) {
-    if (node.kind != YamlNode::Kind::map) {
+const scenario::YamlNode& section(const scenario::YamlNode& node, std::string_view example) {
+    if (node.kind != scenario::YamlNode::Kind::map) {
         fail(node, fmt::format("must be written as {}", example));
     }
     return node;
 }
 
-bool is_name(const YamlNode& node) {
+bool is_name(const scenario::YamlNode& node) {
     const std::string& text = node.text;
     const bool begins_as_number = !text.empty() && text.find_first_of("0123456789+-.") == 0;
-    return node.kind == YamlNode::Kind::scalar && (node.quoted || !begins_as_number);
+    return node.kind == scenario::YamlNode::Kind::scalar && (node.quoted || !begins_as_number);
 }
 
 /// All numbers, or all names: a column of the results is one or the other.
-std::vector<SampledValue> read_values(const YamlNode& list) {
-    if (list.kind != YamlNode::Kind::list || list.children.empty()) {
+std::vector<SampledValue> read_values(const scenario::YamlNode& list) {
+    if (list.kind != scenario::YamlNode::Kind::list || list.children.empty()) {
         fail(list, "must be a list of values, as in [0.8, 1.0, 1.2]");
     }
     const bool names = is_name(list.children.front());
     std::vector<SampledValue> values;
-    for (const YamlNode& item : list.children) {
+    for (const scenario::YamlNode& item : list.children) {
         if (names && !is_name(item)) {
-            fail(item, fmt::format("{} is a number among names", shown(item.text)));
+            fail(item, fmt::format("{} is a number among names", scenario::shown(item.text)));
         }
         SampledValue value = names ? SampledValue(read_text(item)) : SampledValue(number(item));
         if (std::find(values.begin(), values.end(), value) != values.end()) {
-            fail(item, fmt::format("{} stands in the list twice", shown(item.text)));
+            fail(item, fmt::format("{} stands in the list twice", scenario::shown(item.text)));
         }
         values.push_back(std::move(value));
     }
@@ -77,7 +77,7 @@ double plain(double value) {
     return std::stod(fmt::format("{:.12g}", value));
 }
 
-void read_range(const YamlNode& node, VariedKey& key) {
+void read_range(const scenario::YamlNode& node, VariedKey& key) {
     check_keys(section(node, "{from: 0.2, to: 1.6, count: 15}"), {"from", "to", "count"});
     const double from = number(needed(node, "from"));
     const double to = number(needed(node, "to"), from);
@@ -92,8 +92,8 @@ void read_range(const YamlNode& node, VariedKey& key) {
     }
 }
 
-void read_uniform(const YamlNode& node, VariedKey& key) {
-    if (node.kind != YamlNode::Kind::list || node.children.size() != 2) {
+void read_uniform(const scenario::YamlNode& node, VariedKey& key) {
+    if (node.kind != scenario::YamlNode::Kind::list || node.children.size() != 2) {
         fail(node, "must be two ends, as in [0.8, 1.2]");
     }
     key.first = number(node.children[0]);
@@ -101,15 +101,16 @@ void read_uniform(const YamlNode& node, VariedKey& key) {
 }
 
 /// normal: {mean, sigma} and lognormal: {median, sigma}, each with from, to.
-void read_bell(const YamlNode& node, std::string_view middle, double least, VariedKey& key) {
+void read_bell(const scenario::YamlNode& node, std::string_view middle, double least,
+               VariedKey& key) {
     const std::string example = fmt::format("{{{}: 1.0, sigma: 0.1}}", middle);
     check_keys(section(node, example), {middle, "sigma", "from", "to"});
     key.first = number(needed(node, middle), least);
     key.second = number(needed(node, "sigma"), 1e-300);
-    if (const YamlNode* from = node.find("from")) {
+    if (const scenario::YamlNode* from = node.find("from")) {
         key.from = number(*from);
     }
-    if (const YamlNode* to = node.find("to")) {
+    if (const scenario::YamlNode* to = node.find("to")) {
         key.to = number(*to);
     }
     if (!(share_within(key) >= kLeastShare)) {
@@ -117,7 +118,7 @@ void read_bell(const YamlNode& node, std::string_view middle, double least, Vari
     }
 }
 
-VariedKey read_key(const YamlNode& node) {
+VariedKey read_key(const scenario::YamlNode& node) {
     section(node, "{grid: [0.8, 1.0, 1.2]}");
     check_keys(node, {"grid", "range", "uniform", "normal", "lognormal", "choice"});
     if (node.children.size() != 1) {
@@ -126,7 +127,7 @@ VariedKey read_key(const YamlNode& node) {
     VariedKey key;
     key.key = node.key;
     key.place = node.place;
-    const YamlNode& spread = node.children.front();
+    const scenario::YamlNode& spread = node.children.front();
     if (spread.key == "grid" || spread.key == "choice") {
         key.spread = spread.key == "grid" ? Spread::grid : Spread::choice;
         key.values = read_values(spread);
@@ -145,12 +146,12 @@ VariedKey read_key(const YamlNode& node) {
     return key;
 }
 
-std::vector<VariedKey> read_keys(const YamlNode* node) {
+std::vector<VariedKey> read_keys(const scenario::YamlNode* node) {
     std::vector<VariedKey> keys;
     if (!is_section(node)) {
         return keys;
     }
-    for (const YamlNode& child : node->children) {
+    for (const scenario::YamlNode& child : node->children) {
         if (child.key == "seed" || child.key == "description") {
             fail(child, "cannot vary; every run has its own random numbers as it is");
         }
@@ -163,9 +164,9 @@ std::vector<VariedKey> read_keys(const YamlNode* node) {
 }
 
 /// `runs` counts all of them, `repeats` those at each point of the grids.
-std::uint32_t read_runs(const YamlNode& root, std::uint64_t points) {
-    const YamlNode* runs = root.find("runs");
-    const YamlNode* repeats = root.find("repeats");
+std::uint32_t read_runs(const scenario::YamlNode& root, std::uint64_t points) {
+    const scenario::YamlNode* runs = root.find("runs");
+    const scenario::YamlNode* repeats = root.find("repeats");
     if (runs != nullptr && repeats != nullptr) {
         fail(*repeats, "runs is given already; give one of them");
     }
@@ -181,20 +182,20 @@ std::uint32_t read_runs(const YamlNode& root, std::uint64_t points) {
     return static_cast<std::uint32_t>(points);
 }
 
-std::vector<Outcome> read_success(const YamlNode* node) {
+std::vector<Outcome> read_success(const scenario::YamlNode* node) {
     if (node == nullptr) {
         return {Outcome::perched, Outcome::released};
     }
-    if (node->kind != YamlNode::Kind::list || node->children.empty()) {
+    if (node->kind != scenario::YamlNode::Kind::list || node->children.empty()) {
         fail(*node, "must be a list of outcomes, as in [perched, released]");
     }
     std::vector<Outcome> success;
-    for (const YamlNode& item : node->children) {
+    for (const scenario::YamlNode& item : node->children) {
         const auto outcome = outcome_from(read_text(item));
         if (!outcome) {
             fail(item, fmt::format("\"{}\" is none of perched, released, failed_to_seal, "
                                    "release_aborted, crashed, timed_out",
-                                   shown(item.text)));
+                                   scenario::shown(item.text)));
         }
         success.push_back(*outcome);
     }
@@ -202,26 +203,26 @@ std::vector<Outcome> read_success(const YamlNode* node) {
 }
 
 /// It becomes a folder.
-std::string read_name(const YamlNode& node) {
+std::string read_name(const scenario::YamlNode& node) {
     const std::string name = read_text(node);
     const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '_' || c == '-';
     });
     if (name.empty() || !plain) {
-        fail(node, fmt::format("\"{}\" must be letters, digits, _ and -", shown(name)));
+        fail(node, fmt::format("\"{}\" must be letters, digits, _ and -", scenario::shown(name)));
     }
     return name;
 }
 
-std::vector<std::string> read_overrides(const YamlNode* node) {
+std::vector<std::string> read_overrides(const scenario::YamlNode* node) {
     std::vector<std::string> overrides;
-    if (node == nullptr || node->kind == YamlNode::Kind::null) {
+    if (node == nullptr || node->kind == scenario::YamlNode::Kind::null) {
         return overrides;
     }
-    if (node->kind != YamlNode::Kind::list) {
+    if (node->kind != scenario::YamlNode::Kind::list) {
         fail(*node, "must be a list, as in [guidance.attempts=1]");
     }
-    for (const YamlNode& item : node->children) {
+    for (const scenario::YamlNode& item : node->children) {
         overrides.push_back(read_text(item));
     }
     return overrides;
@@ -231,7 +232,7 @@ std::vector<std::string> read_overrides(const YamlNode* node) {
 
 CampaignFile parse_campaign(const std::string& text, const std::string& place,
                             const std::string& name) {
-    const YamlNode root = parse_yaml(text, place);
+    const scenario::YamlNode root = scenario::parse_yaml(text, place);
     if (!is_section(&root)) {
         fail(root, "is empty");
     }
@@ -240,18 +241,18 @@ CampaignFile parse_campaign(const std::string& text, const std::string& place,
     CampaignFile file;
     Campaign& campaign = file.campaign;
     campaign.yaml = text;
-    const YamlNode* given_name = root.find("name");
+    const scenario::YamlNode* given_name = root.find("name");
     campaign.name = given_name != nullptr ? read_name(*given_name) : name;
-    if (const YamlNode* description = root.find("description")) {
+    if (const scenario::YamlNode* description = root.find("description")) {
         campaign.description = read_text(*description);
     }
-    const YamlNode& scenario = needed(root, "scenario");
+    const scenario::YamlNode& scenario = needed(root, "scenario");
     file.scenario = read_text(scenario);
     file.scenario_place = scenario.place;
-    const YamlNode* overrides = root.find("overrides");
+    const scenario::YamlNode* overrides = root.find("overrides");
     file.overrides = read_overrides(overrides);
     file.overrides_place = overrides != nullptr ? overrides->place : place;
-    if (const YamlNode* seed = root.find("seed")) {
+    if (const scenario::YamlNode* seed = root.find("seed")) {
         campaign.seed = count(*seed, 0, kLargestSeed);
     }
     campaign.success = read_success(root.find("success"));
@@ -260,4 +261,4 @@ CampaignFile parse_campaign(const std::string& text, const std::string& place,
     return file;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -6,7 +6,7 @@
 
 #include "limpet/campaign/campaign.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// A campaign as it is written, before its scenario is looked at.
 struct CampaignFile {
@@ -23,4 +23,4 @@ struct CampaignFile {
 [[nodiscard]] CampaignFile parse_campaign(const std::string& text, const std::string& place,
                                           const std::string& name);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -8,7 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 constexpr int kPatience_ms = 10'000;  ///< for somebody else's transaction
@@ -71,4 +71,4 @@ std::string sql_name(std::string_view name) {
     return text + "\"";
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::campaign {
 
 enum class Access {
     read,
@@ -38,4 +38,4 @@ auto asking(const SQLite::Database& database, const Work& work) {
 /// @return the name as SQL takes it, whatever it holds: "guidance.dock_speed_m_s"
 [[nodiscard]] std::string sql_name(std::string_view name);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -24,4 +24,4 @@ FolderLock::~FolderLock() {
     close(descriptor_);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// Keeps a second campaign out of a folder for as long as it lives; ends with the process, however
 /// that ends, and leaves no file behind.
@@ -19,4 +19,4 @@ private:
     int descriptor_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -12,7 +12,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,28 +24,29 @@ using Sample = std::vector<SampledValue>;
 
 /// An error that names `--set key=value` was written in the campaign's file: say where.
 std::string told_of_campaign(const CampaignFile& file, const std::string& message) {
-    if (message.rfind(kSet, 0) != 0) {
+    if (message.rfind(scenario::kSet, 0) != 0) {
         return message;
     }
     for (const VariedKey& key : file.campaign.keys) {
-        const std::string assignment = fmt::format("{}{}=", kSet, key.key);
+        const std::string assignment = fmt::format("{}{}=", scenario::kSet, key.key);
         if (message.rfind(assignment, 0) == 0) {
             const std::size_t colon =
                 std::min(message.find(": ", assignment.size()), message.size());
             return fmt::format("{}: parameters.{}{}", key.place, key.key, message.substr(colon));
         }
     }
-    return fmt::format("{}: overrides: {}", file.overrides_place, message.substr(kSet.size()));
+    return fmt::format("{}: overrides: {}", file.overrides_place,
+                       message.substr(scenario::kSet.size()));
 }
 
 /// The file of the scenario that the campaign names; a relative path counts from the campaign's.
 std::string scenario_file(const CampaignFile& file, const fs::path& folder, const fs::path& data) {
     const std::string& wanted = file.scenario;
-    if (is_path(wanted)) {
+    if (scenario::is_path(wanted)) {
         return (fs::path(wanted).is_relative() ? folder / wanted : fs::path(wanted)).string();
     }
     try {
-        return find_file(wanted, "scenario", data / "scenarios").string();
+        return scenario::find_file(wanted, "scenario", data / "scenarios").string();
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: scenario: {}", file.scenario_place, error.what()));
     }
@@ -85,7 +86,8 @@ void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
     campaign.scenario_name = fs::path(path).stem().string();
     const std::size_t count = variants(file);
     for (std::size_t variant = 0; variant < count; ++variant) {
-        LoadOptions options{.overrides = file.overrides, .seed = campaign.seed, .data_root = data};
+        scenario::LoadOptions options{
+            .overrides = file.overrides, .seed = campaign.seed, .data_root = data};
         for (std::string& text : named_overrides(campaign.keys, variant)) {
             options.overrides.push_back(std::move(text));
         }
@@ -148,10 +150,10 @@ void check_extremes(const Campaign& campaign) {
 }  // namespace
 
 Campaign load_campaign(const std::string& wanted, const fs::path& data) {
-    const fs::path root = data.empty() ? data_root() : data;
-    const fs::path path = find_file(wanted, "campaign", root / "campaigns");
-    CampaignFile file =
-        parse_campaign(read_yaml_text(path), shown_path(path), path.stem().string());
+    const fs::path root = data.empty() ? scenario::data_root() : data;
+    const fs::path path = scenario::find_file(wanted, "campaign", root / "campaigns");
+    CampaignFile file = parse_campaign(scenario::read_yaml_text(path), scenario::shown_path(path),
+                                       path.stem().string());
     try {
         resolve(file, path.parent_path(), root);
         check_extremes(file.campaign);
@@ -169,4 +171,4 @@ Campaign restore_campaign(const std::string& yaml, const std::string& name,
     return std::move(file.campaign);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-namespace limpet {
+namespace limpet::campaign {
 
-std::shared_ptr<const PlantModel> PlantCache::get(const Scenario& scenario) {
-    const Scene scene = scene_of(scenario);
+std::shared_ptr<const plant::PlantModel> PlantCache::get(const scenario::Scenario& scenario) {
+    const models::Scene scene = scene_of(scenario);
     const std::lock_guard lock(mutex_);
     const auto found = std::find_if(plants_.begin(), plants_.end(), [&](const Entry& entry) {
         return entry.engine == scenario.engine && entry.scene == scene &&
@@ -23,4 +23,4 @@ std::shared_ptr<const PlantModel> PlantCache::get(const Scenario& scenario) {
     return plants_.back().plant;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +30,7 @@ std::vector<Column> columns_of(const Campaign& campaign) {
     }
     columns.insert(columns.end(),
                    {{"outcome", "TEXT"}, {"reason", "TEXT"}, {"attempts", "INTEGER"}});
-    for (const MetricInfo& metric : metric_table()) {
+    for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         columns.push_back({std::string(metric.name), "REAL"});
     }
     columns.insert(columns.end(),
@@ -254,7 +254,7 @@ void Results::add(const std::vector<RunRow>& rows) {
             insert_->bind(at++, row.outcome);
             insert_->bind(at++, row.reason);
             insert_->bind(at++, std::int64_t{row.attempts});
-            for (const MetricInfo& metric : metric_table()) {
+            for (const simulation::MetricInfo& metric : simulation::metric_table()) {
                 insert_->bind(at++, row.metrics.*metric.field);
             }
             insert_->bind(at++, row.simulated_s);
@@ -332,7 +332,7 @@ RunRow Results::row(std::uint32_t run) {
         row.outcome = select.getColumn(at++).getString();
         row.reason = select.getColumn(at++).getString();
         row.attempts = static_cast<int>(select.getColumn(at++).getInt64());
-        for (const MetricInfo& metric : metric_table()) {
+        for (const simulation::MetricInfo& metric : simulation::metric_table()) {
             row.metrics.*metric.field = number(select.getColumn(at++));
         }
         row.simulated_s = number(select.getColumn(at++));
@@ -359,4 +359,4 @@ Results begin_results(const Campaign& campaign, const fs::path& folder, bool res
     return results;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -12,7 +12,7 @@
 #include "limpet/campaign/database.hpp"
 #include "limpet/simulation/metrics.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// What is kept of a run. Nothing in it depends on the machine, the number of workers or the time.
 struct RunRow {
@@ -23,7 +23,7 @@ struct RunRow {
     std::string outcome;
     std::string reason;
     int attempts = 0;
-    Metrics metrics;
+    simulation::Metrics metrics;
     double simulated_s = 0.0;
     long long physics_steps = 0;
     std::uint64_t state_hash = 0;
@@ -93,4 +93,4 @@ private:
 /// @return 16 hexadecimal digits
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -8,7 +8,7 @@
 #include "limpet/core/random.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 double draw_once(const VariedKey& key, RandomStream& random) {
@@ -94,7 +94,7 @@ std::vector<SampledValue> draw(const std::vector<VariedKey>& keys, std::uint64_t
 
 std::string value_text(const SampledValue& value) {
     const double* number = std::get_if<double>(&value);
-    return number != nullptr ? number_text(*number) : std::get<std::string>(value);
+    return number != nullptr ? scenario::number_text(*number) : std::get<std::string>(value);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// How the values of a varied key are spread.
 enum class Spread {
@@ -53,4 +53,4 @@ struct VariedKey {
 /// @return "1.1" or "porous_concrete", as YAML reads it back to the same bits
 [[nodiscard]] std::string value_text(const SampledValue& value);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 constexpr int kMostIterations = 50;
@@ -156,4 +156,4 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[below] + rest * (sorted[above] - sorted[below]);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// Two-sided 95 % of a standard normal.
 inline constexpr double kNormal95 = 1.959963984540054;
@@ -54,4 +54,4 @@ struct Trials {
 /// @return quantile by linear interpolation between the order statistics (R's type 7)
 [[nodiscard]] double quantile(const std::vector<double>& sorted, double share);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -11,7 +11,7 @@
 
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 constexpr std::size_t kMostValues = 30;  ///< of a grid; more are put into bins
@@ -74,7 +74,7 @@ std::vector<Group> groups_by_name(SQLite::Database& database, const std::string&
 std::vector<Group> groups_by_value(const std::vector<Trials>& trials) {
     std::vector<Group> groups;
     for (const Trials& t : trials) {
-        groups.push_back({number_text(t.x), t.x, t.x, t.proportion});
+        groups.push_back({scenario::number_text(t.x), t.x, t.x, t.proportion});
     }
     return groups;
 }
@@ -117,7 +117,7 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
 
 std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
     std::vector<MetricSummary> summaries;
-    for (const MetricInfo& metric : metric_table()) {
+    for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         std::vector<double> values;
         SQLite::Statement select(
             database,
@@ -177,4 +177,4 @@ CampaignSummary summarise(Results& results) {
     });
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

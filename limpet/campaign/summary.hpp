@@ -9,7 +9,7 @@
 #include "limpet/campaign/results.hpp"
 #include "limpet/campaign/statistics.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// Runs that ended alike; `proportion` is of all runs.
 struct EndingCount {
@@ -75,4 +75,4 @@ struct CampaignSummary {
 std::vector<std::filesystem::path> draw_summary(const CampaignSummary& summary,
                                                 const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

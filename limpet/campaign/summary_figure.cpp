@@ -8,15 +8,15 @@
 #include "limpet/draw/colours.hpp"
 #include "limpet/record/story.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
-using Mark = ChartSeries::Mark;
+using Mark = draw::ChartSeries::Mark;
 
 constexpr std::size_t kMostPanels = 8;
 constexpr int kFitPoints = 120;
 
-void append(ChartSeries& series, double x, const Proportion& proportion) {
+void append(draw::ChartSeries& series, double x, const Proportion& proportion) {
     const Interval interval = proportion.interval();
     series.x.push_back(x);
     series.y.push_back(proportion.probability());
@@ -24,20 +24,20 @@ void append(ChartSeries& series, double x, const Proportion& proportion) {
     series.high.push_back(interval.high);
 }
 
-ChartPanel outcomes(const CampaignSummary& summary) {
-    ChartPanel panel{
-        .y_label = "share of the runs", .y_range = Range{0.0, 1.0}, .height_px = 220.0};
-    ChartSeries shares{.mark = Mark::bars};
+draw::ChartPanel outcomes(const CampaignSummary& summary) {
+    draw::ChartPanel panel{
+        .y_label = "share of the runs", .y_range = draw::Range{0.0, 1.0}, .height_px = 220.0};
+    draw::ChartSeries shares{.mark = Mark::bars};
     for (const EndingCount& ending : summary.outcomes) {
         append(shares, static_cast<double>(panel.categories.size()), ending.proportion);
-        panel.categories.push_back(words(ending.outcome));
+        panel.categories.push_back(record::words(ending.outcome));
     }
     panel.series = {shares};
     return panel;
 }
 
-ChartSeries fitted(const LogisticFit& fit, const Range& range) {
-    ChartSeries curve{.colour = colours::kOrange};
+draw::ChartSeries fitted(const LogisticFit& fit, const draw::Range& range) {
+    draw::ChartSeries curve{.colour = draw::colours::kOrange};
     for (int i = 0; i <= kFitPoints; ++i) {
         curve.x.push_back(range.low + (range.high - range.low) * i / kFitPoints);
         curve.y.push_back(fit.probability(curve.x.back()));
@@ -45,10 +45,11 @@ ChartSeries fitted(const LogisticFit& fit, const Range& range) {
     return curve;
 }
 
-ChartPanel success_against(const KeySummary& key) {
-    ChartPanel panel{
-        .x_label = key.key, .y_label = "probability of success", .y_range = Range{-0.02, 1.02}};
-    ChartSeries points{.mark = Mark::points, .colour = colours::kDarkBlue};
+draw::ChartPanel success_against(const KeySummary& key) {
+    draw::ChartPanel panel{.x_label = key.key,
+                           .y_label = "probability of success",
+                           .y_range = draw::Range{-0.02, 1.02}};
+    draw::ChartSeries points{.mark = Mark::points, .colour = draw::colours::kDarkBlue};
     for (std::size_t i = 0; i < key.groups.size(); ++i) {
         const Group& group = key.groups[i];
         if (key.named) {
@@ -61,7 +62,7 @@ ChartPanel success_against(const KeySummary& key) {
     if (!key.named) {
         const double low = key.groups.front().low, high = key.groups.back().high;
         const double air = high > low ? 0.04 * (high - low) : 0.5;
-        panel.x_range = Range{low - air, high + air};
+        panel.x_range = draw::Range{low - air, high + air};
         if (key.fit) {
             panel.series.push_back(fitted(*key.fit, *panel.x_range));
         }
@@ -77,15 +78,16 @@ std::vector<std::filesystem::path> draw_summary(const CampaignSummary& summary,
     if (summary.finished == 0) {
         return {};
     }
-    Chart chart{.title = summary.name + ": " + summary.description,
-                .subtitle = fmt::format(
-                    "{} of {} runs of {}, seed {}; points and bars with 95 % Wilson intervals",
-                    summary.finished, summary.runs, summary.scenario, summary.seed),
-                .panels = {outcomes(summary)}};
+    draw::Chart chart{
+        .title = summary.name + ": " + summary.description,
+        .subtitle =
+            fmt::format("{} of {} runs of {}, seed {}; points and bars with 95 % Wilson intervals",
+                        summary.finished, summary.runs, summary.scenario, summary.seed),
+        .panels = {outcomes(summary)}};
     for (std::size_t i = 0; i < std::min(summary.keys.size(), kMostPanels); ++i) {
         chart.panels.push_back(success_against(summary.keys[i]));
     }
     return draw_chart(chart, "summary", folder).files;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -8,7 +8,7 @@
 
 #include "limpet/campaign/summary.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -182,4 +182,4 @@ std::string summary_json(const CampaignSummary& summary) {
     return json.dump(2);
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

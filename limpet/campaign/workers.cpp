@@ -14,7 +14,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 /// Between the workers and the writer. Bounded: a slow disk slows the workers down, memory does not
@@ -139,11 +139,11 @@ private:
 };
 
 /// @throws InputError naming the run
-std::shared_ptr<const FlightModel> model_of(const Campaign& campaign, const RunRow& row,
-                                            PlantCache& plants) {
+std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
+                                                        PlantCache& plants) {
     try {
-        const Scenario scenario = scenario_of(campaign, row.sample);
-        return build_model(scenario, plants.get(scenario));
+        const scenario::Scenario scenario = scenario_of(campaign, row.sample);
+        return simulation::build_model(scenario, plants.get(scenario));
     } catch (const InputError& error) {
         throw InputError(fmt::format("run {}: {}", row.run, error.what()));
     }
@@ -158,7 +158,7 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants) 
     row.sample = draw(campaign.keys, campaign.seed, run);
     const auto model = model_of(campaign, row, plants);
     try {
-        const FlightResult result = fly(model, {}, {}, run);
+        const simulation::FlightResult result = fly(model, {}, {}, run);
         row.outcome = to_string(result.outcome);
         row.reason = result.reason;
         row.attempts = result.attempts;
@@ -206,12 +206,13 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
     return progress;
 }
 
-FlightResult replay_run(Results& results, std::uint32_t run, const std::filesystem::path& recording,
-                        const FlightWatch& watch) {
+simulation::FlightResult replay_run(Results& results, std::uint32_t run,
+                                    const std::filesystem::path& recording,
+                                    const simulation::FlightWatch& watch) {
     const RunRow row = results.row(run);
     PlantCache plants;
     const auto model = model_of(results.campaign(), row, plants);
-    const FlightResult result = fly(model, recording, watch, run);
+    const simulation::FlightResult result = fly(model, recording, watch, run);
     if (row.outcome != kFault && result.state_hash != row.state_hash) {
         throw InternalError(fmt::format(
             "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "
@@ -222,4 +223,4 @@ FlightResult replay_run(Results& results, std::uint32_t run, const std::filesyst
     return result;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -12,7 +12,7 @@
 #include "limpet/campaign/results.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// How far a campaign has come. Runs count once they are safe in the database.
 struct Progress {
@@ -44,7 +44,8 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {
 /// Flies a row again, recorded.
 /// @param recording  file to write
 /// @throws InternalError when it does not fly to the row's state hash
-FlightResult replay_run(Results& results, std::uint32_t run, const std::filesystem::path& recording,
-                        const FlightWatch& watch = {});
+simulation::FlightResult replay_run(Results& results, std::uint32_t run,
+                                    const std::filesystem::path& recording,
+                                    const simulation::FlightWatch& watch = {});
 
-}  // namespace limpet
+}  // namespace limpet::campaign

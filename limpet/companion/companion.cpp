@@ -15,7 +15,7 @@
 //   wires -> readings, estimate -> session (watchdog, guidance) -> autopilot's wire
 //     └----> poses to the autopilot                   └----------> mechanism's wire
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 constexpr double kRounding_s = 1e-6;
@@ -269,4 +269,4 @@ void Companion::say_changes(double time_s) {
     told_deaf_ = deaf;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -16,7 +16,7 @@
 #include "limpet/companion/wires.hpp"
 #include "limpet/mavlink/offboard.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 struct CompanionResult {
     CompanionEnd end = CompanionEnd::absent;
@@ -52,7 +52,7 @@ public:
 
     [[nodiscard]] bool over() const { return over_; }
     [[nodiscard]] SessionPhase phase() const { return session_.phase(); }
-    [[nodiscard]] const PerchingMemory& memory() const { return session_.memory(); }
+    [[nodiscard]] const guidance::PerchingMemory& memory() const { return session_.memory(); }
     [[nodiscard]] const CompanionResult& result() const { return result_; }
 
 private:
@@ -95,4 +95,4 @@ private:
     CompanionResult result_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -16,7 +16,7 @@
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,24 +27,25 @@ constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: fr
 /// Reads one file: keeps what is missing until the end, so that it is named in one go.
 class Reader {
 public:
-    Reader(const YamlNode& root, fs::path data, fs::path folder)
+    Reader(const scenario::YamlNode& root, fs::path data, fs::path folder)
         : root_(root), data_(std::move(data)), folder_(std::move(folder)) {}
 
     void read(CompanionConfig& config);
 
 private:
     /// @return nullptr when the section is not there; its keys are then missing
-    [[nodiscard]] const YamlNode* section(std::string_view name) const {
-        const YamlNode* node = root_.find(name);
+    [[nodiscard]] const scenario::YamlNode* section(std::string_view name) const {
+        const scenario::YamlNode* node = root_.find(name);
         return is_section(node) ? node : nullptr;
     }
-    [[nodiscard]] const YamlNode* find(std::string_view name, std::string_view key) const {
-        const YamlNode* node = section(name);
-        const YamlNode* value = node == nullptr ? nullptr : node->find(key);
-        return value == nullptr || value->kind == YamlNode::Kind::null ? nullptr : value;
+    [[nodiscard]] const scenario::YamlNode* find(std::string_view name,
+                                                 std::string_view key) const {
+        const scenario::YamlNode* node = section(name);
+        const scenario::YamlNode* value = node == nullptr ? nullptr : node->find(key);
+        return value == nullptr || value->kind == scenario::YamlNode::Kind::null ? nullptr : value;
     }
-    const YamlNode* wanted(std::string_view name, std::string_view key) {
-        const YamlNode* value = find(name, key);
+    const scenario::YamlNode* wanted(std::string_view name, std::string_view key) {
+        const scenario::YamlNode* value = find(name, key);
         if (value == nullptr) {
             missing_.push_back(fmt::format("{}.{}", name, key));
         }
@@ -53,27 +54,27 @@ private:
     template <class Choice>
     void choose(std::string_view name, std::string_view key, Choice& choice,
                 std::initializer_list<std::pair<std::string_view, Choice>> words) {
-        if (const YamlNode* node = wanted(name, key)) {
+        if (const scenario::YamlNode* node = wanted(name, key)) {
             choice = chosen(*node, words);
         }
     }
     template <class Choice>
-    static Choice chosen(const YamlNode& node,
+    static Choice chosen(const scenario::YamlNode& node,
                          std::initializer_list<std::pair<std::string_view, Choice>> words);
     /// Refuses a key that the chosen source does not use: it would mean nothing.
     void only_with(bool used, std::string_view name, std::string_view key,
                    std::string_view with) const {
-        const YamlNode* node = find(name, key);
+        const scenario::YamlNode* node = find(name, key);
         if (!used && node != nullptr) {
             fail(*node, fmt::format("is of use only with {}", with));
         }
     }
-    [[nodiscard]] static TransportAddress address(const YamlNode& node,
-                                                  std::initializer_list<Medium> media,
-                                                  std::string_view allowed);
-    void serial(std::string_view name, std::string_view key, TransportAddress& into) {
-        if (const YamlNode* node = wanted(name, key)) {
-            into = address(*node, {Medium::serial}, "serial:DEVICE:BAUD");
+    [[nodiscard]] static wire::TransportAddress address(const scenario::YamlNode& node,
+                                                        std::initializer_list<wire::Medium> media,
+                                                        std::string_view allowed);
+    void serial(std::string_view name, std::string_view key, wire::TransportAddress& into) {
+        if (const scenario::YamlNode* node = wanted(name, key)) {
+            into = address(*node, {wire::Medium::serial}, "serial:DEVICE:BAUD");
         }
     }
 
@@ -85,14 +86,14 @@ private:
     void read_sensors(CompanionConfig& config);
     void refuse_shared_wires(const CompanionConfig& config) const;
 
-    const YamlNode& root_;
+    const scenario::YamlNode& root_;
     fs::path data_;
     fs::path folder_;
     std::vector<std::string> missing_;
 };
 
 template <class Choice>
-Choice Reader::chosen(const YamlNode& node,
+Choice Reader::chosen(const scenario::YamlNode& node,
                       std::initializer_list<std::pair<std::string_view, Choice>> words) {
     const std::string word = read_text(node);
     std::string all;
@@ -102,70 +103,72 @@ Choice Reader::chosen(const YamlNode& node,
         }
         all += fmt::format("{}{}", all.empty() ? "" : ", ", name);
     }
-    fail(node, fmt::format("\"{}\" is none of {}", shown(word), all));
+    fail(node, fmt::format("\"{}\" is none of {}", scenario::shown(word), all));
 }
 
-TransportAddress Reader::address(const YamlNode& node, std::initializer_list<Medium> media,
-                                 std::string_view allowed) {
-    TransportAddress address;
+wire::TransportAddress Reader::address(const scenario::YamlNode& node,
+                                       std::initializer_list<wire::Medium> media,
+                                       std::string_view allowed) {
+    wire::TransportAddress address;
     try {
-        address = parse_address(read_text(node));
+        address = wire::parse_address(read_text(node));
     } catch (const InputError& error) {
         fail(node, error.what());
     }
     if (std::find(media.begin(), media.end(), address.medium) == media.end()) {
-        fail(node,
-             fmt::format("\"{}\" cannot be used here, allowed {}", shown(node.text), allowed));
+        fail(node, fmt::format("\"{}\" cannot be used here, allowed {}", scenario::shown(node.text),
+                               allowed));
     }
     return address;
 }
 
 void Reader::read_vehicle(CompanionConfig& config) {
-    const YamlNode* mission = root_.find("mission");
+    const scenario::YamlNode* mission = root_.find("mission");
     if (mission == nullptr) {
         missing_.emplace_back("mission");
     } else {
         config.mission = read_text(*mission);
-        const Mission asked =
-            chosen<Mission>(*mission, {{"hover", Mission::hover},
-                                       {"perch", Mission::perch},
-                                       {"perch_and_take_off", Mission::perch_and_take_off}});
-        config.task = {.perch = asked != Mission::hover,
-                       .take_off = asked == Mission::perch_and_take_off,
+        const scenario::Mission asked = chosen<scenario::Mission>(
+            *mission, {{"hover", scenario::Mission::hover},
+                       {"perch", scenario::Mission::perch},
+                       {"perch_and_take_off", scenario::Mission::perch_and_take_off}});
+        config.task = {.perch = asked != scenario::Mission::hover,
+                       .take_off = asked == scenario::Mission::perch_and_take_off,
                        .hover_s = config.limits.hover_s};
     }
-    const YamlNode* vehicle = root_.find("vehicle");
+    const scenario::YamlNode* vehicle = root_.find("vehicle");
     if (vehicle == nullptr) {
         missing_.emplace_back("vehicle");
         return;
     }
-    Scenario scenario;  // what guidance has to know of the vehicle is derived as for a flight
+    scenario::Scenario
+        scenario;  // what guidance has to know of the vehicle is derived as for a flight
     scenario.airframe = vehicle_from(*vehicle, data_, folder_);
     config.vehicle = vehicle->text;
     if (!scenario.airframe.has_cup && config.task.perch) {
         fail(*vehicle, "has no cup to perch with, allowed with mission hover only");
     }
-    if (const YamlNode* valve = wanted("mechanism", "valve")) {
+    if (const scenario::YamlNode* valve = wanted("mechanism", "valve")) {
         scenario.cup.valve_fitted = read_flag(*valve);
     }
     derive(scenario);
-    if (const YamlNode* valve = find("guidance", "valve_fitted")) {
+    if (const scenario::YamlNode* valve = find("guidance", "valve_fitted")) {
         fail(*valve, "is said by mechanism.valve");
     }
-    const std::vector<BoundParameter> rows = bind(perching_table(), scenario.guidance);
+    const std::vector<BoundParameter> rows = bind(guidance::perching_table(), scenario.guidance);
     read_rows(root_.find("guidance"), rows);
     for (const BoundParameter& row : rows) {
         if (!row.allows(row.value.get())) {
             fail(*vehicle, fmt::format("guidance.{} follows from it as {:.4g}, allowed {}",
-                                       row.name, row.value.get(), allowed_text(row)));
+                                       row.name, row.value.get(), scenario::allowed_text(row)));
         }
     }
     config.guidance = scenario.guidance;
     if (!(config.guidance.land_pressure_Pa < config.guidance.detach_pressure_Pa)) {
-        const YamlNode* node = find("guidance", "land_pressure_Pa");
+        const scenario::YamlNode* node = find("guidance", "land_pressure_Pa");
         fail(node != nullptr ? *node : root_,
              fmt::format("guidance.land_pressure_Pa must be below detach_pressure_Pa, {}",
-                         number_text(config.guidance.detach_pressure_Pa)));
+                         scenario::number_text(config.guidance.detach_pressure_Pa)));
     }
 }
 
@@ -174,14 +177,15 @@ void Reader::read_autopilot(CompanionConfig& config) {
     read_rows(section("autopilot"), bind(autopilot_wire_table(), numbers),
               {"address", "asks_for_mode", "hears_texts", "sets_origin"});
     config.system = numbers.system;
-    config.autopilot = parse_address(kAutopilotAddress);
-    if (const YamlNode* node = find("autopilot", "address")) {
-        config.autopilot = address(*node, {Medium::udp, Medium::tcp, Medium::serial},
-                                   "udp:HOST:PORT (listens), tcp:HOST:PORT (connects), "
-                                   "serial:DEVICE:BAUD");
+    config.autopilot = wire::parse_address(kAutopilotAddress);
+    if (const scenario::YamlNode* node = find("autopilot", "address")) {
+        config.autopilot =
+            address(*node, {wire::Medium::udp, wire::Medium::tcp, wire::Medium::serial},
+                    "udp:HOST:PORT (listens), tcp:HOST:PORT (connects), "
+                    "serial:DEVICE:BAUD");
     }
     const auto flag = [&](std::string_view key, bool& value) {
-        if (const YamlNode* node = find("autopilot", key)) {
+        if (const scenario::YamlNode* node = find("autopilot", key)) {
             value = read_flag(*node);
         }
     };
@@ -211,16 +215,17 @@ void Reader::read_motion_capture(CompanionConfig& config) {
     (void)wanted(kHere, "rigid_body");
     choose<devices::UpAxis>(kHere, "up", config.axes.up,
                             {{"y", devices::UpAxis::y}, {"z", devices::UpAxis::z}});
-    config.pose_address = parse_address(
+    config.pose_address = wire::parse_address(
         fmt::format("udp-multicast:{}:{}", devices::kNatNetGroup, devices::kNatNetDataPort));
-    if (const YamlNode* node = find(kHere, "address")) {
-        config.pose_address = address(*node, {Medium::udp, Medium::udp_multicast},
+    if (const scenario::YamlNode* node = find(kHere, "address")) {
+        config.pose_address = address(*node, {wire::Medium::udp, wire::Medium::udp_multicast},
                                       "udp-multicast:GROUP:PORT[@INTERFACE] or udp:OUR_HOST:PORT");
     }
-    const YamlNode* command = config.pose_address.medium == Medium::udp ? wanted(kHere, "command")
-                                                                        : find(kHere, "command");
+    const scenario::YamlNode* command = config.pose_address.medium == wire::Medium::udp
+                                            ? wanted(kHere, "command")
+                                            : find(kHere, "command");
     if (command != nullptr) {
-        config.pose_command = address(*command, {Medium::udp}, "udp:MOTIVE_HOST:1510");
+        config.pose_command = address(*command, {wire::Medium::udp}, "udp:MOTIVE_HOST:1510");
     }
     config.rigid_body = numbers.rigid_body;
     config.axes.x_axis_yaw_deg = numbers.x_axis_yaw_deg;
@@ -258,7 +263,7 @@ void Reader::read_mechanism(CompanionConfig& config) {
         serial("mechanism", "address", config.mechanism_address);
     }
     config.load_source = line ? ReadingSource::serial : ReadingSource::mavlink;
-    if (const YamlNode* node = find("mechanism", "readings")) {
+    if (const scenario::YamlNode* node = find("mechanism", "readings")) {
         config.load_source = chosen<ReadingSource>(*node, {{"mavlink", ReadingSource::mavlink},
                                                            {"autopilot", ReadingSource::autopilot},
                                                            {"line", ReadingSource::serial}});
@@ -270,7 +275,7 @@ void Reader::read_mechanism(CompanionConfig& config) {
 
 /// After all that may need it. One that is named and not needed is told how the mission goes.
 void Reader::read_sensors(CompanionConfig& config) {
-    const YamlNode* node = section("sensors");
+    const scenario::YamlNode* node = section("sensors");
     if (node != nullptr) {
         check_keys(*node, {"address"});
     }
@@ -281,9 +286,9 @@ void Reader::read_sensors(CompanionConfig& config) {
     if (!needed && find("sensors", "address") == nullptr) {
         return;
     }
-    config.sensors = parse_address(kSensorsAddress);
-    if (const YamlNode* text = find("sensors", "address")) {
-        config.sensors = address(*text, {Medium::udp, Medium::serial},
+    config.sensors = wire::parse_address(kSensorsAddress);
+    if (const scenario::YamlNode* text = find("sensors", "address")) {
+        config.sensors = address(*text, {wire::Medium::udp, wire::Medium::serial},
                                  "udp:OUR_HOST:PORT or serial:DEVICE:BAUD");
     }
 }
@@ -294,7 +299,7 @@ void Reader::read(CompanionConfig& config) {
     }
     check_keys(root_, {"description", "vehicle", "mission", "guidance", "limits", "autopilot",
                        "sensors", "motion_capture", "lidars", "mechanism", "signing_key_file"});
-    if (const YamlNode* node = root_.find("description")) {
+    if (const scenario::YamlNode* node = root_.find("description")) {
         config.description = read_text(*node);
     }
     read_rows(root_.find("limits"), bind(companion_limits_table(), config.limits));
@@ -304,7 +309,7 @@ void Reader::read(CompanionConfig& config) {
     read_lidars(config);
     read_mechanism(config);
     read_sensors(config);
-    if (const YamlNode* node = root_.find("signing_key_file")) {
+    if (const scenario::YamlNode* node = root_.find("signing_key_file")) {
         const fs::path file = read_text(*node);
         config.signing_key_file = file.is_absolute() ? file : folder_ / file;
     }
@@ -356,11 +361,12 @@ std::string text_of(const std::string& text, const std::vector<std::string>& ove
 
 CompanionConfig load_companion(const std::string& wanted, const std::vector<std::string>& overrides,
                                const fs::path& data_root) {
-    const fs::path data = data_root.empty() ? limpet::data_root() : data_root;
-    const fs::path path =
-        is_path(wanted) ? fs::path(wanted) : find_file(wanted, "companion", data / "companions");
-    const std::string text = read_yaml_text(path);
-    YamlNode root = parse_yaml(text, shown_path(path));
+    const fs::path data = data_root.empty() ? limpet::scenario::data_root() : data_root;
+    const fs::path path = scenario::is_path(wanted)
+                              ? fs::path(wanted)
+                              : scenario::find_file(wanted, "companion", data / "companions");
+    const std::string text = scenario::read_yaml_text(path);
+    scenario::YamlNode root = scenario::parse_yaml(text, scenario::shown_path(path));
     for (const std::string& override_text : overrides) {
         set_override(root, override_text);
     }
@@ -371,4 +377,4 @@ CompanionConfig load_companion(const std::string& wanted, const std::vector<std:
     return config;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

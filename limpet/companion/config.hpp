@@ -9,9 +9,9 @@
 #include "limpet/companion/parameters.hpp"
 #include "limpet/devices/mocap_axes.hpp"
 #include "limpet/guidance/perching.hpp"
-#include "limpet/mavlink/address.hpp"
+#include "limpet/wire/address.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// Where poses come from.
 enum class PoseSource {
@@ -37,29 +37,29 @@ struct CompanionConfig {
     std::string yaml;  ///< the text, with what --set has changed behind it
     std::string vehicle;
     std::string mission;  ///< its word
-    PerchingTask task;
-    PerchingParameters guidance;
+    guidance::PerchingTask task;
+    guidance::PerchingParameters guidance;
     CompanionLimits limits;
 
-    TransportAddress autopilot;
+    wire::TransportAddress autopilot;
     int system = 1;
     bool asks_for_mode = false;
     bool hears_texts = false;  ///< beats as a ground station, whose loss PX4 then does not notice
     bool sets_origin = true;   ///< gives the local origin a place on earth
-    std::optional<TransportAddress> sensors;  ///< nothing: neither needed nor named
+    std::optional<wire::TransportAddress> sensors;  ///< nothing: neither needed nor named
 
     PoseSource pose_source = PoseSource::natnet;
-    TransportAddress pose_address;                 ///< NatNet: where its frames come
-    std::optional<TransportAddress> pose_command;  ///< NatNet: Motive's command port
+    wire::TransportAddress pose_address;                 ///< NatNet: where its frames come
+    std::optional<wire::TransportAddress> pose_command;  ///< NatNet: Motive's command port
     int rigid_body = 1;
     devices::MocapAxes axes;
 
     ReadingSource lidar_source = ReadingSource::mavlink;
-    TransportAddress lidar_left;  ///< of serial
-    TransportAddress lidar_right;
+    wire::TransportAddress lidar_left;  ///< of serial
+    wire::TransportAddress lidar_right;
 
     MechanismWire mechanism = MechanismWire::mavlink;
-    TransportAddress mechanism_address;  ///< of line
+    wire::TransportAddress mechanism_address;  ///< of line
     ReadingSource load_source = ReadingSource::mavlink;
 
     std::filesystem::path signing_key_file;  ///< empty: unsigned
@@ -78,4 +78,4 @@ struct CompanionConfig {
 /// What it will do, for people, before it does it: wires, frames, limits, a line each.
 [[nodiscard]] std::vector<std::string> describe(const CompanionConfig& config);
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -4,7 +4,7 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 std::string_view words(ReadingSource source) {
@@ -71,10 +71,10 @@ std::vector<std::string> describe(const CompanionConfig& config) {
     lines.push_back(config.signing_key_file.empty()
                         ? std::string("signing     none: who reaches the wires may command")
                         : "signing     key of " + config.signing_key_file.string());
-    lines.push_back(fmt::format(
-        "speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
-        config.guidance.dock_speed_m_s, config.guidance.pre_distance_m, config.guidance.attempts,
-        config.guidance.retreat_speed_m_s));
+    lines.push_back(
+        fmt::format("speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
+                    config.guidance.dock_speed_m_s, config.guidance.pre_distance_m,
+                    config.guidance.attempts, config.guidance.retreat_speed_m_s));
     lines.push_back(fmt::format(
         "hands back  pose older than {:g} s, autopilot's pose {:g} s, silence {:g} s, a tick {:g} "
         "s "
@@ -83,4 +83,4 @@ std::vector<std::string> describe(const CompanionConfig& config) {
     return lines;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

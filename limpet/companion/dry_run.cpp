@@ -6,7 +6,7 @@
 #include <cmath>
 #include <variant>
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 constexpr double kFar_m = 0.1;
@@ -86,7 +86,7 @@ std::string motion_text(const Setpoint& setpoint) {
     return "idle";
 }
 
-void DryRun::tell(double time_s, const PerchingMemory& memory) {
+void DryRun::tell(double time_s, const guidance::PerchingMemory& memory) {
     const Setpoint& now = memory.setpoint;
     const auto when = [&](bool changed, const std::string& text) {
         if (changed || !begun_) {
@@ -109,4 +109,4 @@ void DryRun::tell(double time_s, const PerchingMemory& memory) {
     begun_ = true;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -9,7 +9,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/guidance/perching.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// A pose as an estimate, for a dry run without an autopilot: the vehicle is carried by hand.
 /// Velocity and rates are differences of poses, low-passed with kFilter_s.
@@ -33,16 +33,16 @@ public:
     using Say = std::function<void(double time_s, const std::string& text)>;
     explicit DryRun(Say say) : say_(std::move(say)) {}
 
-    void tell(double time_s, const PerchingMemory& memory);
+    void tell(double time_s, const guidance::PerchingMemory& memory);
 
 private:
     Say say_;
     bool begun_ = false;
-    PerchingState state_ = PerchingState::hovering;
+    guidance::PerchingState state_ = guidance::PerchingState::hovering;
     Setpoint told_;
 };
 
 /// "position (1.20, 0.00, -0.10) m, yaw 3.0 deg", for people.
 [[nodiscard]] std::string motion_text(const Setpoint& setpoint);
 
-}  // namespace limpet
+}  // namespace limpet::companion

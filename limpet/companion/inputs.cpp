@@ -8,7 +8,7 @@
 
 #include "limpet/mavlink/translate.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 constexpr double kPascal_hPa = 100.0;
@@ -16,11 +16,11 @@ constexpr int kMostPieces = 64;  ///< of one wire in one go: a flood must not st
 
 /// Calls each(byte) for all that a serial port has.
 template <class Each>
-void drain(Transport& wire, Each&& each) {
+void drain(wire::Transport& wire, Each&& each) {
     std::array<std::byte, 512> buffer;
     for (int piece = 0; piece < kMostPieces; ++piece) {
-        const Transfer transfer = wire.receive(buffer, std::chrono::nanoseconds(0));
-        if (transfer.status != TransferStatus::done) {
+        const wire::Transfer transfer = wire.receive(buffer, std::chrono::nanoseconds(0));
+        if (transfer.status != wire::TransferStatus::done) {
             return;
         }
         for (const std::byte byte : std::span(buffer).first(transfer.bytes)) {
@@ -119,8 +119,8 @@ void Inputs::hear_autopilot(const mavlink::Frame& frame, double time_s) {
     hear_battery(frame, time_s);
 }
 
-void Inputs::hear_lidar(Transport& wire, devices::TfminiParser& parser, Sample<RangeReading>& into,
-                        double time_s) {
+void Inputs::hear_lidar(wire::Transport& wire, devices::TfminiParser& parser,
+                        Sample<RangeReading>& into, double time_s) {
     drain(wire, [&](std::byte byte) {
         if (const auto frame = parser.parse(byte)) {
             into = {time_s, devices::range_reading(*frame)};
@@ -128,7 +128,7 @@ void Inputs::hear_lidar(Transport& wire, devices::TfminiParser& parser, Sample<R
     });
 }
 
-void Inputs::hear_mechanism(Transport& wire, double time_s) {
+void Inputs::hear_mechanism(wire::Transport& wire, double time_s) {
     drain(wire, [&](std::byte byte) {
         const auto line = lines_.parse(byte);
         if (!line) {
@@ -173,4 +173,4 @@ void Inputs::poll(Wires& wires, mavlink::Offboard& offboard, double time_s) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

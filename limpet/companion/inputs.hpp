@@ -13,7 +13,7 @@
 #include "limpet/mavlink/mechanism.hpp"
 #include "limpet/mavlink/offboard.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// What came over the wires, as readings. Each is stamped with the time of its arrival: the clocks
 /// of sensors and autopilot are not ours (motion capture less what Motive says it took). Time is
@@ -37,9 +37,9 @@ private:
     void hear_ranges(const mavlink::Frame& frame, double time_s);
     void hear_loads(const mavlink::Frame& frame, double time_s);
     void hear_battery(const mavlink::Frame& frame, double time_s);
-    void hear_lidar(Transport& wire, devices::TfminiParser& parser, Sample<RangeReading>& into,
-                    double time_s);
-    void hear_mechanism(Transport& wire, double time_s);
+    void hear_lidar(wire::Transport& wire, devices::TfminiParser& parser,
+                    Sample<RangeReading>& into, double time_s);
+    void hear_mechanism(wire::Transport& wire, double time_s);
 
     const CompanionConfig& config_;
     Readings readings_;
@@ -50,4 +50,4 @@ private:
     bool refuses_ = false;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -6,11 +6,11 @@
 #include "limpet/core/version.hpp"
 #include "limpet/devices/tfmini.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
-RecordingInfo info_of(const CompanionConfig& config) {
-    RecordingInfo info;
+record::RecordingInfo info_of(const CompanionConfig& config) {
+    record::RecordingInfo info;
     info.scenario = config.name;
     info.version = kVersion;
     info.numbers["land_pressure_Pa"] = fmt::format("{}", config.guidance.land_pressure_Pa);
@@ -38,9 +38,10 @@ void CompanionLog::estimate(const Estimate& estimate) {
     }
 }
 
-void CompanionLog::guidance(double time_s, const Setpoint& setpoint, const PerchingMemory& memory) {
+void CompanionLog::guidance(double time_s, const Setpoint& setpoint,
+                            const guidance::PerchingMemory& memory) {
     recorder_.setpoint(time_s, setpoint);
     recorder_.guidance(time_s, to_string(memory.state), memory.attempt);
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

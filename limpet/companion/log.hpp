@@ -7,7 +7,7 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/record/recorder.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// A companion's flight as a recording: readings as they come, the autopilot's pose, set-points,
 /// guidance, events; no truth. Times are seconds since the companion's start.
@@ -18,14 +18,14 @@ public:
 
     void readings(const Readings& readings);
     void estimate(const Estimate& estimate);
-    void guidance(double time_s, const Setpoint& setpoint, const PerchingMemory& memory);
+    void guidance(double time_s, const Setpoint& setpoint, const guidance::PerchingMemory& memory);
     void event(const Event& event) { recorder_.event(event); }
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:
-    Recorder recorder_;
+    record::Recorder recorder_;
     Readings last_;
     double last_estimate_s_ = 0.0;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -7,7 +7,7 @@
 
 #include "limpet/devices/mechanism_line.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 /// Room in a wire is waited for no longer: guidance must not be late for a pump.
@@ -47,4 +47,4 @@ void MechanismOut::update(Wires& wires, const mavlink::MechanismCommand& wanted,
         kPatience);
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -5,7 +5,7 @@
 #include "limpet/companion/wires.hpp"
 #include "limpet/mavlink/mechanism.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// When to say what pump and valve shall be: at once when that changes, and again so many times a
 /// second, whether or not the mechanism has answered: one that was reset learns it so.
@@ -37,4 +37,4 @@ private:
     MechanismPace pace_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/parameters.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 const ParameterTable<CompanionLimits>& companion_limits_table() {
     using P = CompanionLimits;
@@ -96,4 +96,4 @@ std::vector<ParameterInfo> companion_parameters() {
     return all;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -5,7 +5,7 @@
 
 #include "limpet/core/parameters.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// Rates and patience of the companion: section `limits` of its file.
 struct CompanionLimits {
@@ -54,4 +54,4 @@ struct AutopilotNumbers {
 /// All of these for `limpet params`: sections "companion.limits", ...
 [[nodiscard]] std::vector<ParameterInfo> companion_parameters();
 
-}  // namespace limpet
+}  // namespace limpet::companion

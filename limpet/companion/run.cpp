@@ -9,7 +9,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -102,4 +102,4 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
     return json.dump(2);
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -7,7 +7,7 @@
 
 #include "limpet/companion/companion.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// The companion's only clock. It never steps back.
 struct CompanionClock {
@@ -36,4 +36,4 @@ struct CompanionConduct {
 [[nodiscard]] std::string summary_json(const CompanionConfig& config,
                                        const CompanionResult& result);
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 std::string_view to_string(SessionPhase phase) {
     switch (phase) {
@@ -152,9 +152,9 @@ void PerchingSession::fly(double time_s) {
         return;
     }
     take_in(verdict, time_s);
-    PerchingTask task = task_;
+    guidance::PerchingTask task = task_;
     task.take_off = task.take_off && verdict.action == Action::carry_on;
-    EventList events;
+    guidance::EventList events;
     update(setup_.guidance, task, memory_, inputs_.readings, believe(time_s), time_s, events);
     for (std::size_t k = 0; k < events.count; ++k) {
         const Event& event = events.events[k];
@@ -186,7 +186,7 @@ void PerchingSession::take_in(const Judgement& verdict, double time_s) {
 }
 
 void PerchingSession::come_to_end(double time_s) {
-    const Ending ending = *memory_.ending;
+    const guidance::Ending ending = *memory_.ending;
     const bool alone = pending_.action == Action::carry_on;
     const bool rests = setup_.by_request && rest_on(memory_, time_s);
     if (!rests || !outcome_) {
@@ -259,4 +259,4 @@ std::optional<bool> PerchingSession::wanted_armed() const {
     return setpoint_.armed;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -12,7 +12,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/guidance/perching.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 // Guidance beside an autopilot that is not ours: when it may begin, when control is handed back
 // (watchdog.hpp), what becomes of the pump. `limpet companion` feeds it from wires, the ROS node
@@ -47,8 +47,8 @@ enum class CompanionEnd {
 [[nodiscard]] CompanionEnd ended_by(Cause cause);
 
 struct SessionSetup {
-    PerchingTask task;
-    PerchingParameters guidance;
+    guidance::PerchingTask task;
+    guidance::PerchingParameters guidance;
     CompanionLimits limits;
     bool by_request = false;     ///< begins when asked to perch, and waits for that without limit
     bool rises = false;          ///< arms, and rises off its stand, itself
@@ -125,7 +125,7 @@ public:
     /// Whether to ask it to arm or disarm.
     [[nodiscard]] std::optional<bool> wanted_armed() const;
 
-    [[nodiscard]] const PerchingMemory& memory() const { return memory_; }
+    [[nodiscard]] const guidance::PerchingMemory& memory() const { return memory_; }
     [[nodiscard]] Place place() const;
     /// What keeps it from beginning or from carrying on; empty: nothing.
     [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
@@ -170,8 +170,8 @@ private:
     double last_s_ = -1.0;  ///< of the last tick; < 0: there was none
     double phase_s_ = 0.0;  ///< since when in this phase
     bool asked_ = false;    ///< for a flight
-    PerchingMemory memory_;
-    PerchingTask task_;
+    guidance::PerchingMemory memory_;
+    guidance::PerchingTask task_;
     bool interrupted_ = false;
     bool late_ = false;
     bool engaged_ = false;  ///< the autopilot has flown our set-points
@@ -190,4 +190,4 @@ private:
     std::string reason_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -5,7 +5,7 @@
 
 // What comes before the flight: waiting for the inputs, then for the autopilot.
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 constexpr double kObstacleEvery_s = 5.0;  ///< what is waited for is said again so often
@@ -196,4 +196,4 @@ void PerchingSession::be_patient(double time_s) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

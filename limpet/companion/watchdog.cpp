@@ -5,7 +5,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 struct Row {
@@ -78,26 +78,27 @@ std::string_view to_string(Action action) {
     throw InternalError("action out of range");
 }
 
-Place place_of(const PerchingMemory& memory) {
+Place place_of(const guidance::PerchingMemory& memory) {
     switch (memory.state) {
-        case PerchingState::hovering:
-        case PerchingState::pre_positioning:
-        case PerchingState::aligning:
-        case PerchingState::approaching: return Place::in_air;
-        case PerchingState::holding:
-        case PerchingState::deciding: return Place::pressed;
-        case PerchingState::retreating:
-        case PerchingState::backing_off: return Place::leaving;
-        case PerchingState::pitching_up:
-        case PerchingState::unloading:
-        case PerchingState::spinning_up:
-        case PerchingState::pitching_down:
-        case PerchingState::levelled:
-        case PerchingState::releasing:
-        case PerchingState::resealing: return Place::on_cup;
-        case PerchingState::standing:
-        case PerchingState::resting: return Place::at_rest;
-        case PerchingState::finished: return memory.setpoint.armed ? Place::in_air : Place::at_rest;
+        case guidance::PerchingState::hovering:
+        case guidance::PerchingState::pre_positioning:
+        case guidance::PerchingState::aligning:
+        case guidance::PerchingState::approaching: return Place::in_air;
+        case guidance::PerchingState::holding:
+        case guidance::PerchingState::deciding: return Place::pressed;
+        case guidance::PerchingState::retreating:
+        case guidance::PerchingState::backing_off: return Place::leaving;
+        case guidance::PerchingState::pitching_up:
+        case guidance::PerchingState::unloading:
+        case guidance::PerchingState::spinning_up:
+        case guidance::PerchingState::pitching_down:
+        case guidance::PerchingState::levelled:
+        case guidance::PerchingState::releasing:
+        case guidance::PerchingState::resealing: return Place::on_cup;
+        case guidance::PerchingState::standing:
+        case guidance::PerchingState::resting: return Place::at_rest;
+        case guidance::PerchingState::finished:
+            return memory.setpoint.armed ? Place::in_air : Place::at_rest;
     }
     throw InternalError("perching state out of range");
 }
@@ -134,4 +135,4 @@ bool watch_arming(ArmingWatch& watch, bool asked, bool armed, double arming_s, d
     return watch.seen && !armed;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -7,7 +7,7 @@
 #include "limpet/guidance/perching.hpp"
 #include "limpet/mavlink/offboard.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 // When and how control is handed back: the table of watchdog.cpp. Guidance's own rows handle what
 // it can (LiDAR, force or pressure lost, battery low, position lost on the wall); here stands what
@@ -30,7 +30,7 @@ enum class Place {
     at_rest,  ///< the cup holds, motors off
 };
 [[nodiscard]] std::string_view to_string(Place place);
-[[nodiscard]] Place place_of(const PerchingMemory& memory);
+[[nodiscard]] Place place_of(const guidance::PerchingMemory& memory);
 
 /// What has gone wrong, the gravest first.
 enum class Cause {
@@ -84,4 +84,4 @@ struct ArmingWatch {
 [[nodiscard]] bool watch_arming(ArmingWatch& watch, bool asked, bool armed, double arming_s,
                                 double time_s);
 
-}  // namespace limpet
+}  // namespace limpet::companion

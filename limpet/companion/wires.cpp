@@ -3,16 +3,17 @@
 
 #include "limpet/mavlink/key_file.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 /// UDP and multicast wait for whoever speaks; the others connect.
-Role role_of(const TransportAddress& address) {
-    return address.medium == Medium::tcp ? Role::connect : Role::listen;
+wire::Role role_of(const wire::TransportAddress& address) {
+    return address.medium == wire::Medium::tcp ? wire::Role::connect : wire::Role::listen;
 }
 
 std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
-                                         const TransportAddress& address, std::uint8_t link_id) {
+                                         const wire::TransportAddress& address,
+                                         std::uint8_t link_id) {
     auto link = std::make_unique<mavlink::Link>(
         open_transport(address, role_of(address)),
         mavlink::Sender{.system = static_cast<std::uint8_t>(config.system),
@@ -24,8 +25,8 @@ std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
 std::unique_ptr<devices::NatNetClient> open_natnet(const CompanionConfig& config) {
     return std::make_unique<devices::NatNetClient>(
         devices::NatNetOptions{.body_id = config.rigid_body, .axes = config.axes},
-        open_transport(config.pose_address, Role::listen),
-        config.pose_command ? open_transport(*config.pose_command, Role::connect) : nullptr);
+        open_transport(config.pose_address, wire::Role::listen),
+        config.pose_command ? open_transport(*config.pose_command, wire::Role::connect) : nullptr);
 }
 
 }  // namespace
@@ -40,21 +41,21 @@ Wires open_wires(const CompanionConfig& config) {
         wires.motion_capture = open_natnet(config);
     }
     if (config.lidar_source == ReadingSource::serial) {
-        wires.lidar_left = open_transport(config.lidar_left, Role::connect);
-        wires.lidar_right = open_transport(config.lidar_right, Role::connect);
+        wires.lidar_left = open_transport(config.lidar_left, wire::Role::connect);
+        wires.lidar_right = open_transport(config.lidar_right, wire::Role::connect);
     }
     if (config.mechanism == MechanismWire::line) {
-        wires.mechanism = open_transport(config.mechanism_address, Role::connect);
+        wires.mechanism = open_transport(config.mechanism_address, wire::Role::connect);
     }
     return wires;
 }
 
 bool has_serial(const CompanionConfig& config) {
-    const auto is_serial = [](const TransportAddress& address) {
-        return address.medium == Medium::serial;
+    const auto is_serial = [](const wire::TransportAddress& address) {
+        return address.medium == wire::Medium::serial;
     };
     return is_serial(config.autopilot) || (config.sensors && is_serial(*config.sensors)) ||
            config.lidar_source == ReadingSource::serial || config.mechanism == MechanismWire::line;
 }
 
-}  // namespace limpet
+}  // namespace limpet::companion

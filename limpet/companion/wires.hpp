@@ -9,18 +9,18 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/devices/natnet_client.hpp"
 #include "limpet/mavlink/link.hpp"
-#include "limpet/mavlink/transport.hpp"
+#include "limpet/wire/transport.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// All wires of a companion; null: the configuration has no use for it.
 struct Wires {
     std::unique_ptr<mavlink::Link> autopilot;  ///< always there
     std::unique_ptr<mavlink::Link> sensors;
     std::unique_ptr<devices::NatNetClient> motion_capture;
-    std::unique_ptr<Transport> lidar_left;  ///< TFmini Plus
-    std::unique_ptr<Transport> lidar_right;
-    std::unique_ptr<Transport> mechanism;  ///< its lines
+    std::unique_ptr<wire::Transport> lidar_left;  ///< TFmini Plus
+    std::unique_ptr<wire::Transport> lidar_right;
+    std::unique_ptr<wire::Transport> mechanism;  ///< its lines
 };
 
 /// Opens what the configuration names; signs the MAVLink links when there is a key.
@@ -31,4 +31,4 @@ struct Wires {
 /// @return whether any wire is a serial port: its clock cannot be turned faster
 [[nodiscard]] bool has_serial(const CompanionConfig& config);
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -11,7 +11,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -22,9 +22,9 @@ struct Happening {
     double time_s = 0.0;
 };
 
-std::vector<Happening> happenings(const Recording& recording) {
+std::vector<Happening> happenings(const record::Recording& recording) {
     std::vector<Happening> found;
-    for (const RecordedEvent& event : recording.events) {
+    for (const record::RecordedEvent& event : recording.events) {
         if (event.name != "parameter_set") {
             found.push_back({event.name, 1, event.time_s});
         }
@@ -84,7 +84,7 @@ const EventPair& anchor(const std::vector<EventPair>& events, const Alignment& a
 }
 
 /// A stretch that begins at given times in both and ends where the shorter one ends.
-Piece piece(std::string from, const Window& reference, const Window& other) {
+Piece piece(std::string from, const record::Window& reference, const record::Window& other) {
     const double span_s = std::max(0.0, std::min(reference.span_s(), other.span_s()));
     return {.from = std::move(from),
             .window = {reference.from_s, reference.from_s + span_s},
@@ -94,9 +94,9 @@ Piece piece(std::string from, const Window& reference, const Window& other) {
 }
 
 /// One shift for the whole flight; what lies before the other's beginning is left out too.
-Piece shifted(const Window& reference, const Window& other, double shift_s) {
-    const Window window{std::max(reference.from_s, other.from_s - shift_s),
-                        std::min(reference.to_s, other.to_s - shift_s)};
+Piece shifted(const record::Window& reference, const record::Window& other, double shift_s) {
+    const record::Window window{std::max(reference.from_s, other.from_s - shift_s),
+                                std::min(reference.to_s, other.to_s - shift_s)};
     const double span_s = std::max(0.0, window.span_s());
     return {.from = "start",
             .window = window,
@@ -105,8 +105,8 @@ Piece shifted(const Window& reference, const Window& other, double shift_s) {
             .other_left_out_s = other.span_s() - span_s};
 }
 
-std::vector<Piece> by_events(const std::vector<EventPair>& events, const Window& reference,
-                             const Window& other) {
+std::vector<Piece> by_events(const std::vector<EventPair>& events, const record::Window& reference,
+                             const record::Window& other) {
     const std::vector<EventPair> common = in_same_order(events);
     if (common.empty()) {
         throw InputError(
@@ -114,8 +114,8 @@ std::vector<Piece> by_events(const std::vector<EventPair>& events, const Window&
     }
     std::vector<Piece> pieces;
     std::string from = "start";
-    Window of_reference = reference;
-    Window of_other = other;
+    record::Window of_reference = reference;
+    record::Window of_other = other;
     const auto end_at = [&](double reference_s, double other_s) {
         of_reference.to_s = reference_s;
         of_other.to_s = other_s;
@@ -139,7 +139,8 @@ bool EventPair::in_both() const {
     return !std::isnan(reference_s) && !std::isnan(other_s);
 }
 
-std::vector<EventPair> pair_events(const Recording& reference, const Recording& other) {
+std::vector<EventPair> pair_events(const record::Recording& reference,
+                                   const record::Recording& other) {
     std::vector<EventPair> pairs;
     for (const Happening& event : happenings(reference)) {
         pairs.push_back({event.name, event.occurrence, event.time_s, kNaN});
@@ -161,8 +162,8 @@ std::vector<EventPair> pair_events(const Recording& reference, const Recording& 
     return pairs;
 }
 
-std::vector<Piece> align(const std::vector<EventPair>& events, const Window& reference,
-                         const Window& other, const Alignment& alignment) {
+std::vector<Piece> align(const std::vector<EventPair>& events, const record::Window& reference,
+                         const record::Window& other, const Alignment& alignment) {
     switch (alignment.by) {
         case Alignment::By::events: return by_events(events, reference, other);
         case Alignment::By::start:
@@ -172,8 +173,8 @@ std::vector<Piece> align(const std::vector<EventPair>& events, const Window& ref
     throw InternalError("alignment out of range");
 }
 
-double base_shift_s(const std::vector<EventPair>& events, const Window& reference,
-                    const Window& other, const Alignment& alignment) {
+double base_shift_s(const std::vector<EventPair>& events, const record::Window& reference,
+                    const record::Window& other, const Alignment& alignment) {
     if (alignment.by == Alignment::By::event) {
         const EventPair& at = anchor(events, alignment);
         return at.other_s - at.reference_s;
@@ -181,4 +182,4 @@ double base_shift_s(const std::vector<EventPair>& events, const Window& referenc
     return other.from_s - reference.from_s;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

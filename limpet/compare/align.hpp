@@ -8,7 +8,7 @@
 #include "limpet/record/story.hpp"
 
 /// Two flights laid over each other in time.
-namespace limpet {
+namespace limpet::compare {
 
 /// The n-th time that something happened, in a reference and in another flight.
 struct EventPair {
@@ -22,8 +22,8 @@ struct EventPair {
 
 /// Events of both, in the order of the reference; what only the other has stands where it happened.
 /// Parameters that were set in flight are none.
-[[nodiscard]] std::vector<EventPair> pair_events(const Recording& reference,
-                                                 const Recording& other);
+[[nodiscard]] std::vector<EventPair> pair_events(const record::Recording& reference,
+                                                 const record::Recording& other);
 
 struct Alignment {
     enum class By {
@@ -38,7 +38,7 @@ struct Alignment {
 /// A stretch of the reference that the other flight has as well.
 struct Piece {
     std::string from;                   ///< the event at its beginning; "start"
-    Window window;                      ///< in the reference's time
+    record::Window window;              ///< in the reference's time
     double shift_s = 0.0;               ///< the other's time less the reference's
     double reference_left_out_s = 0.0;  ///< what the reference has longer
     double other_left_out_s = 0.0;      ///< what the other has longer
@@ -50,11 +50,12 @@ struct Piece {
 /// @param other      likewise
 /// @throws InputError when there is no common event to align at
 [[nodiscard]] std::vector<Piece> align(const std::vector<EventPair>& events,
-                                       const Window& reference, const Window& other,
+                                       const record::Window& reference, const record::Window& other,
                                        const Alignment& alignment);
 
 /// The shift that event times are told against: of the starts, or of the event aligned at.
-[[nodiscard]] double base_shift_s(const std::vector<EventPair>& events, const Window& reference,
-                                  const Window& other, const Alignment& alignment);
+[[nodiscard]] double base_shift_s(const std::vector<EventPair>& events,
+                                  const record::Window& reference, const record::Window& other,
+                                  const Alignment& alignment);
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -15,7 +15,7 @@
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -154,7 +154,7 @@ void add(std::vector<FlightChannel>& channels, FlightChannel channel) {
     }
 }
 
-FlightChannel channel_of(const Table& table, const ChannelSource& source,
+FlightChannel channel_of(const record::Table& table, const ChannelSource& source,
                          const std::vector<double>& values) {
     FlightChannel channel{.name = std::string(source.name),
                           .group = std::string(source.group),
@@ -170,14 +170,15 @@ FlightChannel channel_of(const Table& table, const ChannelSource& source,
 }
 
 /// The autopilot's attitude as angles.
-void add_estimated_attitude(std::vector<FlightChannel>& channels, const Recording& recording) {
-    const Table* table = find_table(recording, "/estimate/pose");
+void add_estimated_attitude(std::vector<FlightChannel>& channels,
+                            const record::Recording& recording) {
+    const record::Table* table = find_table(recording, "/estimate/pose");
     if (table == nullptr) {
         return;
     }
     constexpr std::array kParts = {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y",
                                    "pose.orientation.z"};
-    std::array<const Column*, kParts.size()> q{};
+    std::array<const record::Column*, kParts.size()> q{};
     std::transform(kParts.begin(), kParts.end(), q.begin(),
                    [table](const char* part) { return table->find(part); });
     if (std::find(q.begin(), q.end(), nullptr) != q.end()) {
@@ -188,7 +189,7 @@ void add_estimated_attitude(std::vector<FlightChannel>& channels, const Recordin
     std::vector<double> yaw = roll;
     for (std::size_t i = 0; i < roll.size(); ++i) {
         const Quaternion q_ros(q[0]->values[i], q[1]->values[i], q[2]->values[i], q[3]->values[i]);
-        const Euler angles = euler_from_quaternion(ros::enu_flu_from_ned_frd(q_ros));
+        const Euler angles = euler_from_quaternion(record::ros::enu_flu_from_ned_frd(q_ros));
         roll[i] = angles.roll_rad;
         pitch[i] = angles.pitch_rad;
         yaw[i] = angles.yaw_rad;
@@ -202,10 +203,10 @@ void add_estimated_attitude(std::vector<FlightChannel>& channels, const Recordin
     }
 }
 
-void add_guidance_state(std::vector<FlightChannel>& channels, const Recording& recording,
+void add_guidance_state(std::vector<FlightChannel>& channels, const record::Recording& recording,
                         StateNumbers& numbers) {
-    const Table* table = find_table(recording, "/guidance");
-    const TextColumn* states = table == nullptr ? nullptr : table->find_text("state");
+    const record::Table* table = find_table(recording, "/guidance");
+    const record::TextColumn* states = table == nullptr ? nullptr : table->find_text("state");
     if (states == nullptr) {
         return;
     }
@@ -220,29 +221,31 @@ void add_guidance_state(std::vector<FlightChannel>& channels, const Recording& r
                    values));
 }
 
-bool is_ours(const Table& table) {
-    return std::any_of(kTopics.begin(), kTopics.end(),
-                       [&table](const TopicInfo& topic) { return topic.name == table.topic; });
+bool is_ours(const record::Table& table) {
+    return std::any_of(
+        record::kTopics.begin(), record::kTopics.end(),
+        [&table](const record::TopicInfo& topic) { return topic.name == table.topic; });
 }
 
 }  // namespace
 
-std::vector<FlightChannel> flight_channels(const Recording& recording, StateNumbers& numbers) {
+std::vector<FlightChannel> flight_channels(const record::Recording& recording,
+                                           StateNumbers& numbers) {
     std::vector<FlightChannel> channels;
     for (const ChannelSource& source : kChannelSources) {
-        const Table* table = find_table(recording, source.topic);
-        const Column* column = table == nullptr ? nullptr : table->find(source.column);
+        const record::Table* table = find_table(recording, source.topic);
+        const record::Column* column = table == nullptr ? nullptr : table->find(source.column);
         if (column != nullptr) {
             add(channels, channel_of(*table, source, column->values));
         }
     }
     add_estimated_attitude(channels, recording);
     add_guidance_state(channels, recording, numbers);
-    for (const Table& table : recording.tables) {
-        for (const Column& column : table.columns) {
+    for (const record::Table& table : recording.tables) {
+        for (const record::Column& column : table.columns) {
             if (!is_ours(table) && column.name.find("stamp") == std::string::npos) {
                 const std::string name =
-                    table.topic + "/" + column_name_with_unit(table.type, column.name);
+                    table.topic + "/" + record::column_name_with_unit(table.type, column.name);
                 add(channels, channel_of(table, {name, "others", name, "", {}, {}}, column.values));
             }
         }
@@ -294,4 +297,4 @@ double value_at(const FlightChannel& channel, double time_s) {
     return left_value + share * difference_of(channel.kind, left_value, channel.values[right]);
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

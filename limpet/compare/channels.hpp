@@ -10,7 +10,7 @@
 
 /// What two recordings are compared by: one number against time each, in the units that people
 /// read.
-namespace limpet {
+namespace limpet::compare {
 
 enum class ChannelKind {
     number,
@@ -36,7 +36,7 @@ using StateNumbers = std::map<std::string, double, std::less<>>;
 /// Every channel that the recording has: ours by their names, and all numbers of topics that are
 /// not ours as TOPIC/COLUMN with the unit that ROS gives them. World north-east-down, body
 /// forward-right-down.
-[[nodiscard]] std::vector<FlightChannel> flight_channels(const Recording& recording,
+[[nodiscard]] std::vector<FlightChannel> flight_channels(const record::Recording& recording,
                                                          StateNumbers& numbers);
 
 /// @return nullptr if there is none of that name
@@ -51,4 +51,4 @@ using StateNumbers = std::map<std::string, double, std::less<>>;
 /// Other less reference; angles wrapped to [-180, 180); of states 0 when alike, else 1.
 [[nodiscard]] double difference_of(ChannelKind kind, double reference, double other);
 
-}  // namespace limpet
+}  // namespace limpet::compare

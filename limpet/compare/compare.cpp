@@ -11,13 +11,13 @@
 #include "limpet/compare/rest.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 FlightIdentity identity(const FlightTrace& flight) {
-    const Window whole = whole_flight(*flight.recording);
+    const record::Window whole = whole_flight(*flight.recording);
     return {flight.label, flight.recording->path.string(), summary(*flight.recording), whole.from_s,
             whole.to_s};
 }
@@ -34,10 +34,10 @@ Extremes extremes(const FlightChannel& channel) {
 /// Names for instants of the reference.
 class PhaseNames {
 public:
-    PhaseNames(const Recording& recording, const std::vector<Piece>& pieces)
+    PhaseNames(const record::Recording& recording, const std::vector<Piece>& pieces)
         : phases_(phases(recording)), pieces_(pieces) {}
     [[nodiscard]] std::string at(double time_s) const {
-        for (const Phase& phase : phases_) {
+        for (const record::Phase& phase : phases_) {
             if (phase.window.holds(time_s) && time_s < phase.window.to_s) {
                 return phase.state;
             }
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    std::vector<Phase> phases_;
+    std::vector<record::Phase> phases_;
     const std::vector<Piece>& pieces_;
 };
 
@@ -88,7 +88,7 @@ ChannelDifference compare_channel(const FlightChannel& reference, const FlightCh
 }
 
 /// The numbers of a flight's own summary.
-std::vector<std::pair<std::string, double>> metrics(const Recording& recording) {
+std::vector<std::pair<std::string, double>> metrics(const record::Recording& recording) {
     std::vector<std::pair<std::string, double>> found;
     const mcap::Attachment* attached = recording.attachment("summary.json");
     if (attached == nullptr) {
@@ -106,8 +106,8 @@ std::vector<std::pair<std::string, double>> metrics(const Recording& recording) 
     return found;
 }
 
-void add_rest(std::vector<FlightFigure>& figures, const Recording& reference,
-              const Recording& other) {
+void add_rest(std::vector<FlightFigure>& figures, const record::Recording& reference,
+              const record::Recording& other) {
     const auto a = rest_of(reference);
     const auto b = rest_of(other);
     if (!a && !b) {
@@ -130,7 +130,8 @@ void add_rest(std::vector<FlightFigure>& figures, const Recording& reference,
     figures.push_back({"rest_hanging_load_off_weight", share_off(a), share_off(b), true});
 }
 
-std::vector<FlightFigure> figures_of(const Recording& reference, const Recording& other) {
+std::vector<FlightFigure> figures_of(const record::Recording& reference,
+                                     const record::Recording& other) {
     std::vector<FlightFigure> figures;
     for (const auto& [name, value] : metrics(reference)) {
         figures.push_back({name, value, kNaN});
@@ -188,8 +189,8 @@ double FlightComparison::event_difference_s(const EventPair& event) const {
 FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
                          const Alignment& alignment) {
     FlightComparison comparison{.reference = identity(reference), .other = identity(other)};
-    const Window of_reference{comparison.reference.from_s, comparison.reference.to_s};
-    const Window of_other{comparison.other.from_s, comparison.other.to_s};
+    const record::Window of_reference{comparison.reference.from_s, comparison.reference.to_s};
+    const record::Window of_other{comparison.other.from_s, comparison.other.to_s};
     comparison.events = pair_events(*reference.recording, *other.recording);
     try {
         comparison.pieces = align(comparison.events, of_reference, of_other, alignment);
@@ -205,4 +206,4 @@ FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
     return comparison;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -11,7 +11,7 @@
 #include "limpet/record/story.hpp"
 
 /// How a flight differs from a reference: events, figures of merit, every channel.
-namespace limpet {
+namespace limpet::compare {
 
 /// Lowest and highest of a channel in one flight, over the whole of it.
 struct Extremes {
@@ -46,7 +46,7 @@ struct FlightFigure {
 struct FlightIdentity {
     std::string label;
     std::string path;
-    Summary summary;
+    record::Summary summary;
     double from_s = 0.0;
     double to_s = 0.0;
 };
@@ -68,7 +68,7 @@ struct FlightComparison {
 
 /// A recording with its channels; all that are compared share their StateNumbers.
 struct FlightTrace {
-    const Recording* recording = nullptr;  ///< outlives this
+    const record::Recording* recording = nullptr;  ///< outlives this
     std::string label;
     std::vector<FlightChannel> channels;
 };
@@ -77,4 +77,4 @@ struct FlightTrace {
 [[nodiscard]] FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
                                        const Alignment& alignment);
 
-}  // namespace limpet
+}  // namespace limpet::compare

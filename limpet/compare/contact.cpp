@@ -8,7 +8,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/cup_status.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 /// A touch that seals and is lost at once has no curve to compare.
@@ -30,8 +30,8 @@ struct Misfit {
     }
 };
 
-Misfit misfit(const FlightChannel& reference, const FlightChannel& other, const Window& window,
-              double shift_s) {
+Misfit misfit(const FlightChannel& reference, const FlightChannel& other,
+              const record::Window& window, double shift_s) {
     Misfit sum;
     const auto& t = reference.time_s;
     auto i =
@@ -48,7 +48,7 @@ Misfit misfit(const FlightChannel& reference, const FlightChannel& other, const 
 }
 
 double best_shift_s(const FlightChannel& reference, const FlightChannel& other,
-                    const Window& window, double guess_s, double reach_s) {
+                    const record::Window& window, double guess_s, double reach_s) {
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
     double low = guess_s - reach_s;
     double high = guess_s + reach_s;
@@ -64,15 +64,15 @@ double best_shift_s(const FlightChannel& reference, const FlightChannel& other,
 }
 
 /// The pressure that acts [hPa].
-FlightChannel acting_pressure(const Recording& recording,
+FlightChannel acting_pressure(const record::Recording& recording,
                               const std::vector<FlightChannel>& channels) {
     const FlightChannel* recorded = find_channel(channels, "cup_pressure_hPa");
     FlightChannel acting = *recorded;
-    const Table* table = find_table(recording, "/cup");
-    const Column* pull = table->find("pull_N");
-    const Column* margin = table->find("pull_margin_N");
-    const Column* pressure = table->find("pressure_Pa");
-    const Column* phase = table->find("phase");
+    const record::Table* table = find_table(recording, "/cup");
+    const record::Column* pull = table->find("pull_N");
+    const record::Column* margin = table->find("pull_margin_N");
+    const record::Column* pressure = table->find("pressure_Pa");
+    const record::Column* phase = table->find("phase");
     if (pull == nullptr || margin == nullptr || phase == nullptr ||
         !std::is_sorted(table->time_s.begin(), table->time_s.end())) {
         return acting;
@@ -129,8 +129,8 @@ std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels) {
 }
 
 std::vector<ContactDifference> compare_contacts(
-    const Recording& reference, const std::vector<FlightChannel>& reference_channels,
-    const Recording& other, const std::vector<FlightChannel>& other_channels) {
+    const record::Recording& reference, const std::vector<FlightChannel>& reference_channels,
+    const record::Recording& other, const std::vector<FlightChannel>& other_channels) {
     const std::vector<SealStage> ours = seal_stages(reference_channels);
     const std::vector<SealStage> theirs = seal_stages(other_channels);
     std::vector<ContactDifference> found;
@@ -149,7 +149,7 @@ std::vector<ContactDifference> compare_contacts(
         const double from_s = ours[k].window.from_s;
         const double span_s = std::min(ours[k].window.span_s(), theirs[k].window.span_s());
         // Both ends move with the shift: what lies within its reach may be of the stage next door.
-        const Window window{from_s + reach_s, from_s + span_s - reach_s};
+        const record::Window window{from_s + reach_s, from_s + span_s - reach_s};
         const double guess_s = theirs[k].window.from_s - from_s;
         const double shift_s = best_shift_s(a, b, window, guess_s, reach_s);
         const Misfit left = misfit(a, b, window, shift_s);
@@ -167,4 +167,4 @@ std::vector<ContactDifference> compare_contacts(
     return found;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -8,12 +8,12 @@
 #include "limpet/record/story.hpp"
 
 /// Pressure on the same contact: from the instant of sealing on, whenever that was.
-namespace limpet {
+namespace limpet::compare {
 
 /// A stretch of a flight in which the cup is sealed and the air flows one way.
 struct SealStage {
     bool sealing = true;  ///< the pump draws, eq. (5); else the air comes back, eq. (6)
-    Window window;
+    record::Window window;
 };
 /// In time; none when the cup's phase was not recorded.
 [[nodiscard]] std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels);
@@ -35,7 +35,7 @@ struct ContactDifference {
 /// and not from the contact on; else it is the pressure recorded. A stage too short or too sparse
 /// to hold one sample in common is left out.
 [[nodiscard]] std::vector<ContactDifference> compare_contacts(
-    const Recording& reference, const std::vector<FlightChannel>& reference_channels,
-    const Recording& other, const std::vector<FlightChannel>& other_channels);
+    const record::Recording& reference, const std::vector<FlightChannel>& reference_channels,
+    const record::Recording& other, const std::vector<FlightChannel>& other_channels);
 
-}  // namespace limpet
+}  // namespace limpet::compare

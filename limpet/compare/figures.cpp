@@ -11,7 +11,7 @@
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kPanel_px = 200.0;
@@ -21,16 +21,17 @@ constexpr double kNameApart = 0.045;
 constexpr double kLastName = 0.12;
 
 /// Told apart by lightness and by dashes, not by hue alone.
-constexpr std::array kOtherColours = {colours::kOrange, colours::kGreen, colours::kPlum,
-                                      colours::kBlue};
+constexpr std::array kOtherColours = {draw::colours::kOrange, draw::colours::kGreen,
+                                      draw::colours::kPlum, draw::colours::kBlue};
 
 /// Groups in the order of the files; "others" hold what is not ours.
 constexpr std::array kGroups = {"cup",      "force",  "attitude", "rates",    "position", "speed",
                                 "distance", "rotors", "battery",  "setpoint", "others"};
 
 /// A flight on the reference's time, with a gap between the pieces.
-ChartSeries on_reference_time(const FlightChannel& channel, const std::vector<Piece>& pieces) {
-    ChartSeries curve;
+draw::ChartSeries on_reference_time(const FlightChannel& channel,
+                                    const std::vector<Piece>& pieces) {
+    draw::ChartSeries curve;
     const auto& t = channel.time_s;
     for (const Piece& piece : pieces) {
         const auto first =
@@ -44,9 +45,9 @@ ChartSeries on_reference_time(const FlightChannel& channel, const std::vector<Pi
     return curve;
 }
 
-ChartSeries difference_curve(const FlightChannel& reference, const FlightChannel& other,
-                             const std::vector<Piece>& pieces) {
-    ChartSeries curve;
+draw::ChartSeries difference_curve(const FlightChannel& reference, const FlightChannel& other,
+                                   const std::vector<Piece>& pieces) {
+    draw::ChartSeries curve;
     const auto& t = reference.time_s;
     for (const Piece& piece : pieces) {
         const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
@@ -61,13 +62,14 @@ ChartSeries difference_curve(const FlightChannel& reference, const FlightChannel
 }
 
 /// The reference's events, named where there is room: a name begins at its line and goes right.
-std::vector<ChartLine> phase_lines(const Recording& recording, const Window& whole) {
-    std::vector<ChartLine> lines;
+std::vector<draw::ChartLine> phase_lines(const record::Recording& recording,
+                                         const record::Window& whole) {
+    std::vector<draw::ChartLine> lines;
     double last_s = -std::numeric_limits<double>::infinity();
-    for (const RecordedEvent& event : recording.events) {
+    for (const record::RecordedEvent& event : recording.events) {
         if (event.time_s - last_s > kNameApart * whole.span_s()) {
             const bool fits = whole.to_s - event.time_s > kLastName * whole.span_s();
-            lines.push_back({event.time_s, fits ? words(event.name) : ""});
+            lines.push_back({event.time_s, fits ? record::words(event.name) : ""});
             last_s = event.time_s;
         }
     }
@@ -87,34 +89,36 @@ bool worth_drawing(const FlightChannel& channel, const std::vector<FlightCompari
 }
 
 /// The two panels of a channel.
-std::array<ChartPanel, 2> channel_panels(const FlightChannel& channel, const FlightTrace& reference,
-                                         const std::vector<FlightTrace>& others,
-                                         const std::vector<FlightComparison>& comparisons,
-                                         const Window& whole) {
+std::array<draw::ChartPanel, 2> channel_panels(const FlightChannel& channel,
+                                               const FlightTrace& reference,
+                                               const std::vector<FlightTrace>& others,
+                                               const std::vector<FlightComparison>& comparisons,
+                                               const record::Window& whole) {
     const std::string unit = channel.unit.empty() ? "" : fmt::format("  [{}]", channel.unit);
-    ChartPanel overlay{.title = channel.title,
-                       .x_label = "time of the reference  [s]",
-                       .y_label = channel.unit.empty() ? channel.name : channel.unit,
-                       .moments = phase_lines(*reference.recording, whole),
-                       .x_range = Range{whole.from_s, whole.to_s},
-                       .height_px = kPanel_px};
-    ChartPanel difference = overlay;
+    draw::ChartPanel overlay{.title = channel.title,
+                             .x_label = "time of the reference  [s]",
+                             .y_label = channel.unit.empty() ? channel.name : channel.unit,
+                             .moments = phase_lines(*reference.recording, whole),
+                             .x_range = draw::Range{whole.from_s, whole.to_s},
+                             .height_px = kPanel_px};
+    draw::ChartPanel difference = overlay;
     difference.title = fmt::format("{}, difference", channel.title);
     const bool state = channel.kind == ChannelKind::state;
-    overlay.series.push_back({.name = reference.label,
-                              .mark = state ? ChartSeries::Mark::steps : ChartSeries::Mark::line,
-                              .x = channel.time_s,
-                              .y = channel.values,
-                              .colour = colours::kDarkBlue});
+    overlay.series.push_back(
+        {.name = reference.label,
+         .mark = state ? draw::ChartSeries::Mark::steps : draw::ChartSeries::Mark::line,
+         .x = channel.time_s,
+         .y = channel.values,
+         .colour = draw::colours::kDarkBlue});
     for (std::size_t k = 0; k < others.size(); ++k) {
         const FlightChannel* other = find_channel(others[k].channels, channel.name);
         if (other == nullptr) {
             continue;
         }
-        ChartSeries series = on_reference_time(*other, comparisons[k].pieces);
-        series.mark = state ? ChartSeries::Mark::steps : ChartSeries::Mark::dashes;
-        ChartSeries off = difference_curve(channel, *other, comparisons[k].pieces);
-        for (ChartSeries* one : {&series, &off}) {
+        draw::ChartSeries series = on_reference_time(*other, comparisons[k].pieces);
+        series.mark = state ? draw::ChartSeries::Mark::steps : draw::ChartSeries::Mark::dashes;
+        draw::ChartSeries off = difference_curve(channel, *other, comparisons[k].pieces);
+        for (draw::ChartSeries* one : {&series, &off}) {
             one->name = others[k].label;
             one->colour = kOtherColours[k % kOtherColours.size()];
         }
@@ -126,20 +130,21 @@ std::array<ChartPanel, 2> channel_panels(const FlightChannel& channel, const Fli
 
 }  // namespace
 
-Pictures draw_comparison(const FlightTrace& reference, const std::vector<FlightTrace>& others,
-                         const std::vector<FlightComparison>& comparisons,
-                         const std::filesystem::path& folder) {
-    const Window whole = whole_flight(*reference.recording);
-    Pictures pictures;
+draw::Pictures draw_comparison(const FlightTrace& reference, const std::vector<FlightTrace>& others,
+                               const std::vector<FlightComparison>& comparisons,
+                               const std::filesystem::path& folder) {
+    const record::Window whole = whole_flight(*reference.recording);
+    draw::Pictures pictures;
     for (const char* group : kGroups) {
-        Chart chart{.title = fmt::format("{}: {}", reference.label, group),
-                    .subtitle = "left: flights over each other; right: how far off the reference",
-                    .columns = 2};
+        draw::Chart chart{
+            .title = fmt::format("{}: {}", reference.label, group),
+            .subtitle = "left: flights over each other; right: how far off the reference",
+            .columns = 2};
         for (const FlightChannel& channel : reference.channels) {
             if (channel.group == group && worth_drawing(channel, comparisons)) {
                 auto panels = channel_panels(channel, reference, others, comparisons, whole);
-                for (ChartPanel& panel : panels) {
-                    for (ChartLine& moment : panel.moments) {
+                for (draw::ChartPanel& panel : panels) {
+                    for (draw::ChartLine& moment : panel.moments) {
                         moment.label = chart.panels.empty() ? moment.label : "";
                     }
                 }
@@ -147,11 +152,12 @@ Pictures draw_comparison(const FlightTrace& reference, const std::vector<FlightT
             }
         }
         if (!chart.panels.empty()) {
-            const Pictures drawn = draw_chart(chart, fmt::format("compare_{}", group), folder);
+            const draw::Pictures drawn =
+                draw_chart(chart, fmt::format("compare_{}", group), folder);
             pictures.files.insert(pictures.files.end(), drawn.files.begin(), drawn.files.end());
         }
     }
     return pictures;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -7,7 +7,7 @@
 #include "limpet/compare/compare.hpp"
 #include "limpet/draw/pictures.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 
 /// Draws flights over each other, a figure a group of channels (`compare_cup`, `compare_attitude`,
 /// ...): on the left the curves against the reference's time, every other flight shifted piece by
@@ -15,9 +15,9 @@ namespace limpet {
 /// @param comparisons  of the same reference, in the order of `others`
 /// @param folder       made when it is not there
 /// @throws InputError for an unwritable folder, or when gnuplot is not installed
-[[nodiscard]] Pictures draw_comparison(const FlightTrace& reference,
-                                       const std::vector<FlightTrace>& others,
-                                       const std::vector<FlightComparison>& comparisons,
-                                       const std::filesystem::path& folder);
+[[nodiscard]] draw::Pictures draw_comparison(const FlightTrace& reference,
+                                             const std::vector<FlightTrace>& others,
+                                             const std::vector<FlightComparison>& comparisons,
+                                             const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -3,7 +3,7 @@
 
 #include "limpet/compare/text.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -105,4 +105,4 @@ std::string comparison_json(const std::vector<FlightComparison>& comparisons,
     return all.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -11,7 +11,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
@@ -131,4 +131,4 @@ std::vector<Excess> check_limits(const std::vector<FlightComparison>& comparison
     return checked;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

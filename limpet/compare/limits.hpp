@@ -7,7 +7,7 @@
 #include "limpet/compare/compare.hpp"
 
 /// How far a flight may be off its reference.
-namespace limpet {
+namespace limpet::compare {
 
 /// `name` may be a channel (its largest difference), a figure, "event" (the largest difference of
 /// an event's time [s]; one that only one flight has is beyond any limit), "contact_pressure_hPa"
@@ -35,4 +35,4 @@ struct Excess {
 [[nodiscard]] std::vector<Excess> check_limits(const std::vector<FlightComparison>& comparisons,
                                                const std::vector<DifferenceLimit>& limits);
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -11,19 +11,19 @@
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/story.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 constexpr double kLeastRest_s = 1.0;
 constexpr double kMillimetres = 1e3;
 
 /// Weight of all that hangs on "base" [N].
-double weight_N(const Recording& recording) {
+double weight_N(const record::Recording& recording) {
     const mcap::Attachment* attached = recording.attachment("model.xml");
     if (attached == nullptr) {
         return std::numeric_limits<double>::quiet_NaN();
     }
-    const MujocoModel model = compile_mjcf(attached->text);
+    const draw::MujocoModel model = draw::compile_mjcf(attached->text);
     const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
     return base < 0 ? std::numeric_limits<double>::quiet_NaN()
                     : model->body_subtreemass[base] * kGravity_m_s2;
@@ -31,8 +31,9 @@ double weight_N(const Recording& recording) {
 
 /// Columns of one table by name; empty when one is missing.
 template <std::size_t N>
-std::array<const Column*, N> columns(const Table* table, const std::array<const char*, N>& names) {
-    std::array<const Column*, N> found{};
+std::array<const record::Column*, N> columns(const record::Table* table,
+                                             const std::array<const char*, N>& names) {
+    std::array<const record::Column*, N> found{};
     for (std::size_t i = 0; i < N; ++i) {
         found[i] = table == nullptr ? nullptr : table->find(names[i]);
         if (found[i] == nullptr) {
@@ -43,9 +44,9 @@ std::array<const Column*, N> columns(const Table* table, const std::array<const 
 }
 
 /// The last rest but its first half.
-std::optional<Window> settled(const Recording& recording) {
-    std::optional<Window> window;
-    for (const Phase& phase : phases(recording)) {
+std::optional<record::Window> settled(const record::Recording& recording) {
+    std::optional<record::Window> window;
+    for (const record::Phase& phase : phases(recording)) {
         if (phase.state == "resting" && phase.window.span_s() >= kLeastRest_s) {
             window = {0.5 * (phase.window.from_s + phase.window.to_s), phase.window.to_s};
         }
@@ -55,11 +56,11 @@ std::optional<Window> settled(const Recording& recording) {
 
 }  // namespace
 
-std::optional<Rest> rest_of(const Recording& recording) {
+std::optional<Rest> rest_of(const record::Recording& recording) {
     const auto window = settled(recording);
-    const Table* truth = find_table(recording, "/truth/vehicle");
-    const Table* wrench = find_table(recording, "/truth/cup_wrench");
-    const Table* cup = find_table(recording, "/cup");
+    const record::Table* truth = find_table(recording, "/truth/vehicle");
+    const record::Table* wrench = find_table(recording, "/truth/cup_wrench");
+    const record::Table* cup = find_table(recording, "/cup");
     const auto v =
         columns<8>(truth, {"roll_rad", "pitch_rad", "yaw_rad", "cup_pitch_rad", "cup_yaw_rad",
                            "slider_position_m", "legs_force_north_N", "legs_force_down_N"});
@@ -76,12 +77,13 @@ std::optional<Rest> rest_of(const Recording& recording) {
         if (!window->holds(truth->time_s[i])) {
             continue;
         }
-        const auto at = [i](const Column* column) { return column->values[i]; };
+        const auto at = [i](const record::Column* column) { return column->values[i]; };
         const Quaternion q_WB = quaternion_from_euler(
             {.roll_rad = at(v[0]), .pitch_rad = at(v[1]), .yaw_rad = at(v[2])});
         const Quaternion q_BC = Eigen::AngleAxisd(at(v[3]), Vector3::UnitY()) *
                                 Eigen::AngleAxisd(at(v[4]), Vector3::UnitZ());
-        const Vector3 cup_W = q_WB * q_BC * ros::flu_from_frd({at(w[0]), at(w[1]), at(w[2])});
+        const Vector3 cup_W =
+            q_WB * q_BC * record::ros::flu_from_frd({at(w[0]), at(w[1]), at(w[2])});
         sum.pitch_deg += degrees(at(v[1]));
         sum.roll_deg += degrees(at(v[0]));
         sum.slider_mm += kMillimetres * at(v[5]);
@@ -102,4 +104,4 @@ std::optional<Rest> rest_of(const Recording& recording) {
     return sum;
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

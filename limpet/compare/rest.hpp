@@ -5,7 +5,7 @@
 
 #include "limpet/record/recording.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 
 /// How a vehicle hangs on the wall with its motors off: means over the second half of the rest,
 /// when it has come to stand still.
@@ -21,6 +21,6 @@ struct Rest {
 };
 
 /// @return nullopt when it did not rest for a second, or when loads or attitude were not recorded
-[[nodiscard]] std::optional<Rest> rest_of(const Recording& recording);
+[[nodiscard]] std::optional<Rest> rest_of(const record::Recording& recording);
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 /// Leftovers shorter than this are of no interest: a few samples.
@@ -94,7 +94,7 @@ std::string short_of(double value, int digits = 4) {
 }
 
 std::string flight_line(const FlightIdentity& flight, std::size_t width) {
-    const Summary& s = flight.summary;
+    const record::Summary& s = flight.summary;
     return fmt::format("{:<{}}  {}{}: {}{}\n", flight.label, width,
                        s.scenario.empty() ? "flight" : s.scenario,
                        s.seed.empty() ? "" : ", seed " + s.seed,
@@ -268,4 +268,4 @@ std::string comparison_markdown(const std::vector<FlightComparison>& comparisons
     return markdown(table);
 }
 
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -7,7 +7,7 @@
 #include "limpet/compare/compare.hpp"
 #include "limpet/compare/limits.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 
 /// For people: outcomes, events, figures, contacts, channels, what was left out.
 [[nodiscard]] std::string comparison_text(const FlightComparison& comparison);
@@ -22,4 +22,4 @@ namespace limpet {
 /// A table of Markdown, a column a flight: outcome, events, what perching is judged by.
 [[nodiscard]] std::string comparison_markdown(const std::vector<FlightComparison>& comparisons);
 
-}  // namespace limpet
+}  // namespace limpet::compare

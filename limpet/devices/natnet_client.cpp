@@ -16,8 +16,8 @@ constexpr std::int64_t kRestart_frames = 1000;
 
 }  // namespace
 
-NatNetClient::NatNetClient(const NatNetOptions& options, std::unique_ptr<Transport> data,
-                           std::unique_ptr<Transport> command)
+NatNetClient::NatNetClient(const NatNetOptions& options, std::unique_ptr<wire::Transport> data,
+                           std::unique_ptr<wire::Transport> command)
     : options_(options),
       data_(std::move(data)),
       command_(std::move(command)),
@@ -49,11 +49,11 @@ std::optional<Sample<PoseReading>> NatNetClient::receive(double time_s) {
     return newest_;
 }
 
-void NatNetClient::hear_all(Transport& wire, double time_s) {
+void NatNetClient::hear_all(wire::Transport& wire, double time_s) {
     constexpr int kBurst = 1000;  // more than a socket holds: a flood does not stop the loop
     for (int i = 0; i < kBurst; ++i) {
-        const Transfer transfer = wire.receive(in_, {});
-        if (transfer.status != TransferStatus::done) {
+        const wire::Transfer transfer = wire.receive(in_, {});
+        if (transfer.status != wire::TransferStatus::done) {
             return;
         }
         hear(std::span(in_).first(transfer.bytes), time_s);

@@ -9,7 +9,7 @@
 
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/devices/natnet.hpp"
-#include "limpet/mavlink/transport.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::devices {
 
@@ -36,8 +36,8 @@ class NatNetClient {
 public:
     /// @param data     listens to the group; null with unicast
     /// @param command  speaks to the server's command port; may be null with multicast
-    NatNetClient(const NatNetOptions& options, std::unique_ptr<Transport> data,
-                 std::unique_ptr<Transport> command);
+    NatNetClient(const NatNetOptions& options, std::unique_ptr<wire::Transport> data,
+                 std::unique_ptr<wire::Transport> command);
 
     /// Says connect or keep-alive when it is time.
     void update(double time_s);
@@ -53,12 +53,12 @@ public:
 
 private:
     void hear(std::span<const std::byte> packet, double time_s);
-    void hear_all(Transport& wire, double time_s);
+    void hear_all(wire::Transport& wire, double time_s);
     [[nodiscard]] double delay_s(const NatNetFrame& frame) const;
 
     NatNetOptions options_;
-    std::unique_ptr<Transport> data_;
-    std::unique_ptr<Transport> command_;
+    std::unique_ptr<wire::Transport> data_;
+    std::unique_ptr<wire::Transport> command_;
     NatNetCount count_;
     std::optional<NatNetServer> server_;
     std::optional<std::int32_t> last_number_;

@@ -7,8 +7,8 @@
 
 namespace limpet::devices {
 
-NatNetSource::NatNetSource(NatNetServer server, std::unique_ptr<Transport> group,
-                           std::unique_ptr<Transport> command)
+NatNetSource::NatNetSource(NatNetServer server, std::unique_ptr<wire::Transport> group,
+                           std::unique_ptr<wire::Transport> command)
     : server_(server), group_(std::move(group)), command_(std::move(command)) {
     require(group_ != nullptr || command_ != nullptr, "motion capture has a wire");
     server_.multicast = group_ != nullptr;
@@ -21,8 +21,8 @@ void NatNetSource::answer() {
     constexpr int kBurst = 100;  // a flood does not stop the simulator
     std::array<std::byte, 2048> in;
     for (int i = 0; i < kBurst; ++i) {
-        const Transfer transfer = command_->receive(in, {});
-        if (transfer.status != TransferStatus::done) {
+        const wire::Transfer transfer = command_->receive(in, {});
+        if (transfer.status != wire::TransferStatus::done) {
             return;
         }
         if (natnet_message(std::span(in).first(transfer.bytes)) == NatNetMessage::connect) {
@@ -38,7 +38,7 @@ void NatNetSource::stream(const NatNetFrame& frame) {
         return;
     }
     NatNetBuffer packet;
-    Transport& wire = group_ != nullptr ? *group_ : *command_;
+    wire::Transport& wire = group_ != nullptr ? *group_ : *command_;
     (void)wire.send(encode_frame(frame, server_.version, packet), std::chrono::nanoseconds(0));
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "limpet/devices/natnet.hpp"
-#include "limpet/mavlink/transport.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::devices {
 
@@ -15,8 +15,8 @@ class NatNetSource {
 public:
     /// @param group    speaks to the multicast group; null: unicast
     /// @param command  listens on the command port; may be null with a group
-    NatNetSource(NatNetServer server, std::unique_ptr<Transport> group,
-                 std::unique_ptr<Transport> command);
+    NatNetSource(NatNetServer server, std::unique_ptr<wire::Transport> group,
+                 std::unique_ptr<wire::Transport> command);
 
     /// Answers whoever has asked since.
     void answer();
@@ -30,8 +30,8 @@ public:
 
 private:
     NatNetServer server_;
-    std::unique_ptr<Transport> group_;
-    std::unique_ptr<Transport> command_;
+    std::unique_ptr<wire::Transport> group_;
+    std::unique_ptr<wire::Transport> command_;
     bool connected_ = false;
 };
 

@@ -13,7 +13,7 @@
 #include <cstring>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mavlink/readiness.hpp"
+#include "limpet/wire/readiness.hpp"
 
 namespace limpet::devices {
 namespace {
@@ -33,7 +33,7 @@ void set_raw(int terminal) {
     tcsetattr(terminal, TCSANOW, &settings);
 }
 
-class PseudoTerminal final : public Transport {
+class PseudoTerminal final : public wire::Transport {
 public:
     explicit PseudoTerminal(const fs::path& link) : link_(link) {
         cable_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -62,8 +62,8 @@ public:
     PseudoTerminal(const PseudoTerminal&) = delete;
     PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 
-    Transfer send(std::span<const std::byte> bytes, nanoseconds timeout) override {
-        const Deadline deadline(timeout);
+    wire::Transfer send(std::span<const std::byte> bytes, nanoseconds timeout) override {
+        const wire::Deadline deadline(timeout);
         std::size_t sent = 0;
         while (cable_ >= 0 && sent < bytes.size()) {
             const ssize_t count = ::write(cable_, bytes.data() + sent, bytes.size() - sent);
@@ -71,29 +71,29 @@ public:
                 sent += static_cast<std::size_t>(count);
             } else if (errno != EINTR && !ready(POLLOUT, deadline)) {
                 ++statistics_.cut_sends;
-                return {TransferStatus::timed_out, sent};
+                return {wire::TransferStatus::timed_out, sent};
             }
         }
         if (cable_ < 0) {
-            return {TransferStatus::closed, 0};
+            return {wire::TransferStatus::closed, 0};
         }
         statistics_.bytes_sent += sent;
         ++statistics_.sends;
-        return {TransferStatus::done, sent};
+        return {wire::TransferStatus::done, sent};
     }
 
-    Transfer receive(std::span<std::byte> into, nanoseconds timeout) override {
+    wire::Transfer receive(std::span<std::byte> into, nanoseconds timeout) override {
         require(!into.empty(), "receive is given room");
-        const Deadline deadline(timeout);
+        const wire::Deadline deadline(timeout);
         while (cable_ >= 0 && ready(POLLIN, deadline)) {
             const ssize_t count = ::read(cable_, into.data(), into.size());
             if (count > 0) {
                 ++statistics_.receives;
                 statistics_.bytes_received += static_cast<std::uint64_t>(count);
-                return {TransferStatus::done, static_cast<std::size_t>(count)};
+                return {wire::TransferStatus::done, static_cast<std::size_t>(count)};
             }
         }
-        return {cable_ < 0 ? TransferStatus::closed : TransferStatus::timed_out, 0};
+        return {cable_ < 0 ? wire::TransferStatus::closed : wire::TransferStatus::timed_out, 0};
     }
 
     bool wait_for_peer(nanoseconds) override { return cable_ >= 0; }
@@ -109,11 +109,11 @@ public:
         cable_ = -1;
     }
 
-    TransportAddress address() const override {
-        return {.medium = Medium::serial, .device = link_.string(), .baud = kBaud};
+    wire::TransportAddress address() const override {
+        return {.medium = wire::Medium::serial, .device = link_.string(), .baud = kBaud};
     }
     std::string describe() const override { return "pty:" + link_.string(); }
-    const TransportStatistics& statistics() const override { return statistics_; }
+    const wire::TransportStatistics& statistics() const override { return statistics_; }
 
 private:
     static constexpr unsigned kBaud = 115200;  // to be named: there is no line
@@ -124,7 +124,7 @@ private:
         refuse(link_, why);
     }
 
-    bool ready(short events, const Deadline& deadline) const {
+    bool ready(short events, const wire::Deadline& deadline) const {
         pollfd fd{cable_, events, 0};
         return wait_ready({&fd, 1}, deadline);
     }
@@ -132,12 +132,12 @@ private:
     fs::path link_;
     int cable_ = -1;
     int terminal_ = -1;
-    TransportStatistics statistics_;
+    wire::TransportStatistics statistics_;
 };
 
 }  // namespace
 
-std::unique_ptr<Transport> open_pseudo_terminal(const fs::path& link) {
+std::unique_ptr<wire::Transport> open_pseudo_terminal(const fs::path& link) {
     return std::make_unique<PseudoTerminal>(link);
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "limpet/mavlink/transport.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::devices {
 
@@ -14,6 +14,7 @@ namespace limpet::devices {
 /// @param link  made as a symbolic link to the terminal, removed at the end; it must not exist, or
 ///              be such a link
 /// @throws InputError when the link cannot be made or no terminal is to be had
-[[nodiscard]] std::unique_ptr<Transport> open_pseudo_terminal(const std::filesystem::path& link);
+[[nodiscard]] std::unique_ptr<wire::Transport> open_pseudo_terminal(
+    const std::filesystem::path& link);
 
 }  // namespace limpet::devices

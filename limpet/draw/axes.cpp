@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using Mark = ChartSeries::Mark;
@@ -169,4 +169,4 @@ bool drawable(double value, bool logarithmic) {
     return std::isfinite(value) && (!logarithmic || value > 0.0);
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -5,7 +5,7 @@
 #include "limpet/draw/sketch.hpp"
 
 /// Where the axes of a chart begin and end; their ticks are gnuplot's.
-namespace limpet {
+namespace limpet::draw {
 
 /// @return the panel's own range, or one that holds every number that is drawn: x exactly but for
 /// points and bars, y with some air. Never empty: {0, 1} (logarithmic {1, 10}) without a number.
@@ -31,4 +31,4 @@ void set_axis(Sketch& sketch, const char* axis, const Range& range, bool logarit
 /// True where a number can be drawn on the axis.
 [[nodiscard]] bool drawable(double value, bool logarithmic);
 
-}  // namespace limpet
+}  // namespace limpet::draw

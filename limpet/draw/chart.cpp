@@ -9,7 +9,7 @@
 #include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 constexpr double kMargin_px = 14.0;
@@ -151,4 +151,4 @@ Pictures draw_chart(const Chart& chart, const std::string& stem,
     return {publish(draw(sketch, data.text, stem, work.path()), folder), {}};
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -12,7 +12,7 @@
 /// Charts of any numbers: curves, points with intervals, bars, maps. Texts are shown as they are
 /// and carry their units: "impact speed  [m/s]". What comes in is not checked for sense; lengths
 /// that do not agree are a broken promise (InternalError).
-namespace limpet {
+namespace limpet::draw {
 
 /// Ends of an axis.
 struct Range {
@@ -115,4 +115,4 @@ struct Chart {
 [[nodiscard]] Pictures draw_chart(const Chart& chart, const std::string& stem,
                                   const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::draw

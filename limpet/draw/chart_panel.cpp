@@ -8,7 +8,7 @@
 #include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using Mark = ChartSeries::Mark;
@@ -459,4 +459,4 @@ void draw_panel(Sketch& sketch, ChartData& data, const ChartPanel& panel, const 
     PanelDrawing(sketch, data, panel, box).draw();
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

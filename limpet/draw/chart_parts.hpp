@@ -9,7 +9,7 @@
 #include "limpet/draw/sketch.hpp"
 
 /// How the panels of a chart.hpp are drawn, each in a place that the chart gives it.
-namespace limpet {
+namespace limpet::draw {
 
 /// A chart's letters [px].
 inline constexpr double kChartFont_px = 16.0;
@@ -60,4 +60,4 @@ struct Grid {
 /// The value between four points of the grid, bilinear; NaN next to what is no number and outside.
 [[nodiscard]] double interpolated(const Grid& grid, double x, double y);
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -3,7 +3,7 @@
 
 /// The colours of all that the house draws: restrained, told apart by lightness as well as by hue
 /// (Okabe and Ito's set, toned down).
-namespace limpet::colours {
+namespace limpet::draw::colours {
 
 inline constexpr const char* kInk = "#222B33";
 inline constexpr const char* kFaint = "#5F6A74";
@@ -21,4 +21,4 @@ inline constexpr const char* kRust = "#A34700";
 inline constexpr const char* kGreen = "#1B7F5C";
 inline constexpr const char* kPlum = "#8C4A7D";
 
-}  // namespace limpet::colours
+}  // namespace limpet::draw::colours

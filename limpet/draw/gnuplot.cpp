@@ -17,7 +17,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet::gnuplot {
+namespace limpet::draw::gnuplot {
 namespace {
 
 constexpr const char* kScript = "script.gp";
@@ -117,4 +117,4 @@ void run(const std::filesystem::path& folder, const std::string& script) {
     }
 }
 
-}  // namespace limpet::gnuplot
+}  // namespace limpet::draw::gnuplot

@@ -7,7 +7,7 @@
 
 /// The bridge to gnuplot: a script and its data in a folder of their own, so that no path of the
 /// user's ever stands in a script or on a command line.
-namespace limpet::gnuplot {
+namespace limpet::draw::gnuplot {
 
 /// A new folder under the system's folder for temporary files; goes away with its owner.
 class TemporaryFolder {
@@ -33,4 +33,4 @@ private:
 ///         does not accept the script
 void run(const std::filesystem::path& folder, const std::string& script);
 
-}  // namespace limpet::gnuplot
+}  // namespace limpet::draw::gnuplot

@@ -8,7 +8,7 @@
 #include "limpet/draw/chart_parts.hpp"
 #include "limpet/draw/colours.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 constexpr double kBarGap_px = 20.0;
@@ -256,4 +256,4 @@ void draw_panel(Sketch& sketch, ChartData& data, const HeatPanel& panel, const B
     MapDrawing(sketch, data, panel, box).draw();
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -9,7 +9,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet::html {
+namespace limpet::draw::html {
 namespace {
 
 /// Turns pairs of a mark into an element.
@@ -109,4 +109,4 @@ Embedded embedded(std::string bytes) {
     return image;
 }
 
-}  // namespace limpet::html
+}  // namespace limpet::draw::html

@@ -5,7 +5,7 @@
 #include <string_view>
 
 /// Pieces of HTML.
-namespace limpet::html {
+namespace limpet::draw::html {
 
 /// Text as text, also within quotes.
 [[nodiscard]] std::string escaped(std::string_view text);
@@ -28,4 +28,4 @@ struct Embedded {
 /// @throws InternalError for anything else
 [[nodiscard]] Embedded embedded(std::string bytes);
 
-}  // namespace limpet::html
+}  // namespace limpet::draw::html

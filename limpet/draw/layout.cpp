@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 /// Area that two boxes share.
@@ -100,4 +100,4 @@ std::vector<std::string> wrapped(std::string_view text, double size_px, double w
     return lines;
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

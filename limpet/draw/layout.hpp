@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Where things go on a picture, in pixels from its top left corner.
-namespace limpet {
+namespace limpet::draw {
 
 struct Canvas {
     int width_px = 0;
@@ -49,4 +49,4 @@ struct Box {
 [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double size_px,
                                                double width_px);
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 
 MujocoModel compile_mjcf(const std::string& mjcf) {
     constexpr const char* kName = "model.xml";
@@ -27,4 +27,4 @@ MujocoModel compile_mjcf(const std::string& mjcf) {
     return model;
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

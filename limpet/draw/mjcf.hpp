@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace limpet {
+namespace limpet::draw {
 
 struct DeleteModel {
     void operator()(mjModel* model) const { mj_deleteModel(model); }
@@ -17,4 +17,4 @@ using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
 /// @throws InputError with MuJoCo's words
 [[nodiscard]] MujocoModel compile_mjcf(const std::string& mjcf);
 
-}  // namespace limpet
+}  // namespace limpet::draw

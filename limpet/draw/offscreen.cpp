@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 [[noreturn]] void give_up(const char* what) {
@@ -61,4 +61,4 @@ OffscreenContext::~OffscreenContext() {
     // The display is the process's: ending it here would take it from every other context.
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace limpet {
+namespace limpet::draw {
 
 /// OpenGL without a screen: an EGL context, in use on the thread that made it. Mesa's software
 /// renderer will do; no display server and no graphics card are needed.
@@ -21,4 +21,4 @@ private:
     void* context_ = nullptr;
 };
 
-}  // namespace limpet
+}  // namespace limpet::draw

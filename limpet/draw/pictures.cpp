@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ std::vector<fs::path> publish(const std::vector<fs::path>& files, const fs::path
     return published;
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

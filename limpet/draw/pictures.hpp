@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace limpet {
+namespace limpet::draw {
 
 /// What came out of a recording. What damage took from it is in Recording::damage.
 struct Pictures {
@@ -20,4 +20,4 @@ struct Pictures {
 [[nodiscard]] std::vector<std::filesystem::path> publish(
     const std::vector<std::filesystem::path>& files, const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::draw

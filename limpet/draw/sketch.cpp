@@ -8,7 +8,7 @@
 #include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 
 Sketch::Sketch(const Canvas& canvas, double font_px) : canvas_(canvas), font_px_(font_px) {
     add("set multiplot\nset encoding utf8\n");
@@ -80,4 +80,4 @@ std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string&
     return {folder / (stem + ".png"), folder / (stem + ".svg")};
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -10,7 +10,7 @@
 
 #include "limpet/draw/layout.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 
 /// Writes gnuplot's commands for one picture; positions are in pixels from its top left corner.
 class Sketch {
@@ -64,4 +64,4 @@ private:
                                                       const std::string& stem,
                                                       const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::draw

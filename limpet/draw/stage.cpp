@@ -10,7 +10,7 @@
 #include "limpet/draw/mjcf.hpp"
 #include "limpet/draw/offscreen.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 constexpr int kOversampling = 2;  // on top of multisampling: thin rods and shadow edges
@@ -224,4 +224,4 @@ Image Stage::photograph(const Pose& pose, const View& view) {
     return shrunk(picture, p.width_px, p.height_px);
 }
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -9,7 +9,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 
 /// How the vehicle stands, in the axes of the models that vehicle/model_writer.hpp writes: a world
 /// with x north, y west, z up, and a body forward-left-up.
@@ -65,4 +65,4 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -11,10 +11,10 @@
 #include "limpet/simulation/flight_log.hpp"
 #include "limpet/simulation/result_json.hpp"
 
-namespace limpet::face {
+namespace limpet {
 
 struct Moment::Inside {
-    Snapshot snapshot;
+    simulation::Snapshot snapshot;
     Stations stations;
     std::vector<Event> events;
     std::vector<double> guidance_memory;
@@ -23,14 +23,14 @@ struct Moment::Inside {
 
 namespace {
 
-std::shared_ptr<const FlightModel> model_of(const HouseScenario& scenario,
-                                            const Stations& stations) {
-    auto model =
-        stations.plant == nullptr ? build_model(scenario) : build_model(scenario, stations.plant);
+std::shared_ptr<const simulation::FlightModel> model_of(const HouseScenario& scenario,
+                                                        const Stations& stations) {
+    auto model = stations.plant == nullptr ? simulation::build_model(scenario)
+                                           : simulation::build_model(scenario, stations.plant);
     if (stations.autopilot == nullptr) {
         return model;
     }
-    auto own = std::make_shared<FlightModel>(*model);
+    auto own = std::make_shared<simulation::FlightModel>(*model);
     own->autopilot.own = stations.autopilot;
     return own;
 }
@@ -45,13 +45,13 @@ double Result::metric(std::string_view name) const {
         for (const Metric& metric : metrics) {
             names.push_back(metric.name);
         }
-        throw InputError(unknown_name(std::string(name), "metric", names));
+        throw InputError(scenario::unknown_name(std::string(name), "metric", names));
     }
     return found->value;
 }
 
 struct Flight::Inside {
-    Inside(std::shared_ptr<const FlightModel> made, const Stations& own)
+    Inside(std::shared_ptr<const simulation::FlightModel> made, const Stations& own)
         : model(std::move(made)), stations(own) {
         if (stations.guidance != nullptr) {
             guidance.emplace(stations.guidance, model->guidance_rate_Hz);
@@ -60,11 +60,11 @@ struct Flight::Inside {
             cup.emplace(stations.cup);
         }
     }
-    [[nodiscard]] Outside outside() {
+    [[nodiscard]] simulation::Outside outside() {
         return {.guidance = guidance ? &*guidance : nullptr, .cup = cup ? &*cup : nullptr};
     }
-    [[nodiscard]] FlightResult result() const {
-        FlightResult result = result_of(*flight, 0.0);
+    [[nodiscard]] simulation::FlightResult result() const {
+        simulation::FlightResult result = result_of(*flight, 0.0);
         result.events = events;
         return result;
     }
@@ -73,7 +73,7 @@ struct Flight::Inside {
             last = events.size();
             return;
         }
-        const EventList& happened = flight->tick();
+        const guidance::EventList& happened = flight->tick();
         last = events.size();
         events.insert(events.end(), happened.events.begin(),
                       happened.events.begin() + static_cast<std::ptrdiff_t>(happened.count));
@@ -89,12 +89,12 @@ struct Flight::Inside {
         }
     }
 
-    std::shared_ptr<const FlightModel> model;
+    std::shared_ptr<const simulation::FlightModel> model;
     Stations stations;
     std::optional<GuidanceSeat> guidance;
     std::optional<CupSeat> cup;
     std::optional<HouseFlight> flight;
-    std::optional<FlightLog> log;
+    std::optional<simulation::FlightLog> log;
     std::vector<Event> events;
     std::size_t last = 0;  ///< events from here on are the last tick's
 };
@@ -107,7 +107,7 @@ Flight::Flight(const Scenario& scenario, const Stations& stations, std::uint32_t
 Flight::Flight(const Scenario& scenario, const Moment& from, const Stations& stations)
     : inside_(std::make_unique<Inside>(model_of(scenario.inside_->scenario, stations), stations)) {
     const Moment::Inside& then = *from.inside_;
-    Snapshot snapshot = then.snapshot;
+    simulation::Snapshot snapshot = then.snapshot;
     if (stations.autopilot != then.stations.autopilot) {
         start_memory(inside_->model->autopilot, snapshot.state.autopilot);
     }
@@ -172,7 +172,7 @@ std::span<const Event> Flight::events() const {
 
 Result Flight::result() const {
     require(ended(), "the flight whose result is asked for has ended");
-    const FlightResult ended = inside_->result();
+    const simulation::FlightResult ended = inside_->result();
     Result result{.outcome = ended.outcome,
                   .reason = ended.reason,
                   .simulated_s = ended.performance.simulated_s,
@@ -180,7 +180,7 @@ Result Flight::result() const {
                   .events = ended.events,
                   .metrics = {},
                   .state_hash = ended.state_hash};
-    for (const MetricInfo& metric : metric_table()) {
+    for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         result.metrics.push_back({std::string(metric.name), ended.metrics.*metric.field});
     }
     return result;
@@ -197,4 +197,4 @@ Moment Flight::save() const {
     return moment;
 }
 
-}  // namespace limpet::face
+}  // namespace limpet

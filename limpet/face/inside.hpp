@@ -10,11 +10,11 @@
 #include "limpet/simulation/flight.hpp"
 
 /// What the public face stands on: the house's own things that have the same names.
-namespace limpet::face {
+namespace limpet {
 
-using HouseScenario = limpet::Scenario;
-using HouseFlight = limpet::Flight;
-using HouseRecording = limpet::Recording;
+using HouseScenario = scenario::Scenario;
+using HouseFlight = simulation::Flight;
+using HouseRecording = record::Recording;
 
 struct Scenario::Inside {
     HouseScenario scenario;
@@ -22,4 +22,4 @@ struct Scenario::Inside {
     std::vector<std::string> changes;
 };
 
-}  // namespace limpet::face
+}  // namespace limpet

@@ -3,7 +3,7 @@
 
 #include "limpet/face/inside.hpp"
 
-namespace limpet::face {
+namespace limpet {
 
 struct Recording::Inside {
     HouseRecording recording;
@@ -11,8 +11,8 @@ struct Recording::Inside {
 };
 
 Recording::Recording(const std::filesystem::path& file) {
-    Inside inside{.recording = read_recording(file), .events = {}};
-    for (const RecordedEvent& event : inside.recording.events) {
+    Inside inside{.recording = record::read_recording(file), .events = {}};
+    for (const record::RecordedEvent& event : inside.recording.events) {
         inside.events.push_back(
             {event.time_s, event.station, event.name, event.reason, event.values});
     }
@@ -53,4 +53,4 @@ const std::string& Recording::damage() const {
     return inside_->recording.damage;
 }
 
-}  // namespace limpet::face
+}  // namespace limpet

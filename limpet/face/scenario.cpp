@@ -16,7 +16,7 @@ std::string_view library_version() {
 
 }  // namespace limpet
 
-namespace limpet::face {
+namespace limpet {
 
 Scenario::Scenario(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
 
@@ -41,13 +41,13 @@ Scenario Scenario::with(const std::vector<std::string>& changes) const {
 
 Scenario load(const std::string& wanted, const std::vector<std::string>& changes) {
     return Scenario(std::make_shared<const Scenario::Inside>(
-        Scenario::Inside{.scenario = load_scenario(wanted, {.overrides = changes}),
+        Scenario::Inside{.scenario = scenario::load_scenario(wanted, {.overrides = changes}),
                          .wanted = wanted,
                          .changes = changes}));
 }
 
 std::vector<std::string> scenario_names() {
-    return names_in(data_root() / "scenarios");
+    return scenario::names_in(scenario::data_root() / "scenarios");
 }
 
-}  // namespace limpet::face
+}  // namespace limpet

@@ -7,13 +7,13 @@
 
 #include "limpet/core/time.hpp"
 
-namespace limpet::face {
+namespace limpet {
 
 GuidanceSeat::GuidanceSeat(std::shared_ptr<const Guidance> guidance, int rate_Hz)
     : memory(guidance->memory_size()), guidance_(std::move(guidance)), rate_Hz_(rate_Hz) {}
 
 void GuidanceSeat::exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                            PerchingMemory& guidance, EventList& events) {
+                            guidance::PerchingMemory& guidance, guidance::EventList& events) {
     if (!due(std::llround(time_s * kTicksPerSecond), rate_Hz_)) {
         return;
     }
@@ -28,15 +28,16 @@ void GuidanceSeat::exchange(const Readings& readings, const Estimate& estimate, 
 CupSeat::CupSeat(std::shared_ptr<const CupPressure> pressure)
     : memory(pressure->memory_size()), pressure_(std::move(pressure)) {}
 
-CupOutput CupSeat::step(const CupModel& model, CupState& state, const Surface& surface,
-                        const Kinematics& cup, const CupInput& input, double dt_s) {
+suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupState& state,
+                                 const suction::Surface& surface, const Kinematics& cup,
+                                 const suction::CupInput& input, double dt_s) {
     CupPressureInput air{.pressure_Pa = state.mean_pressure_Pa,
                          .radius_m = model.parameters.lip.radius_m,
                          .vacuum_pressure_Pa = surface.vacuum_pressure_Pa,
                          .sealing_time_constant_s = surface.sealing_time_constant_s,
                          .unsealing_time_constant_s = surface.unsealing_time_constant_s,
                          .dt_s = dt_s};
-    CupOutput output = limpet::step(model, state, surface, cup, input, dt_s);
+    suction::CupOutput output = suction::step(model, state, surface, cup, input, dt_s);
     const CupPhase phase = state.status.phase;
     if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
         air.pump_running = input.pump_on;
@@ -50,4 +51,4 @@ CupOutput CupSeat::step(const CupModel& model, CupState& state, const Surface& s
     return output;
 }
 
-}  // namespace limpet::face
+}  // namespace limpet

@@ -9,15 +9,15 @@
 #include "limpet/simulation/outside.hpp"
 
 // An outsider's stations where the loop has room for them.
-namespace limpet::face {
+namespace limpet {
 
 /// Guidance at its rate; what it remembers is here.
-class GuidanceSeat final : public ExternalGuidance {
+class GuidanceSeat final : public simulation::ExternalGuidance {
 public:
     GuidanceSeat(std::shared_ptr<const Guidance> guidance, int rate_Hz);
 
     void exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                  PerchingMemory& guidance, EventList& events) override;
+                  guidance::PerchingMemory& guidance, guidance::EventList& events) override;
     [[nodiscard]] std::string obstacle() const override { return {}; }
     /// That it has asked for.
     [[nodiscard]] const std::optional<Outcome>& outcome() const { return said_.outcome; }
@@ -32,12 +32,13 @@ private:
 };
 
 /// The cup as it is, but for the pressure while it is sealed.
-class CupSeat final : public ExternalCup {
+class CupSeat final : public simulation::ExternalCup {
 public:
     explicit CupSeat(std::shared_ptr<const CupPressure> pressure);
 
-    CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
-                   const Kinematics& cup, const CupInput& input, double dt_s) override;
+    suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
+                            const suction::Surface& surface, const Kinematics& cup,
+                            const suction::CupInput& input, double dt_s) override;
 
     std::vector<double> memory;
 
@@ -45,4 +46,4 @@ private:
     std::shared_ptr<const CupPressure> pressure_;
 };
 
-}  // namespace limpet::face
+}  // namespace limpet

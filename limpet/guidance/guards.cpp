@@ -7,7 +7,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/guidance/motion.hpp"
 
-namespace limpet::guards {
+namespace limpet::guidance::guards {
 namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
@@ -203,4 +203,4 @@ bool reseals_blind(const Scene& s) {
     return s.elapsed_s() > s.parameters.reseal_limit_s && !s.pressure_known();
 }
 
-}  // namespace limpet::guards
+}  // namespace limpet::guidance::guards

@@ -4,7 +4,7 @@
 #include "limpet/guidance/perching.hpp"
 
 /// The guards of the perching table: small questions about one instant, no memory of their own.
-namespace limpet::guards {
+namespace limpet::guidance::guards {
 
 /// All that a guard may look at.
 struct Scene {
@@ -90,4 +90,4 @@ struct Scene {
 /// Nothing tells of the vacuum: to let go would be a guess, to rest with the pump on is none.
 [[nodiscard]] bool reseals_blind(const Scene& s);
 
-}  // namespace limpet::guards
+}  // namespace limpet::guidance::guards

@@ -6,7 +6,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 AttitudeSetpoint attitude(const PerchingMemory& memory, double pitch_rad, double thrust) {
@@ -218,4 +218,4 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
     throw InternalError("perching state out of range");
 }
 
-}  // namespace limpet
+}  // namespace limpet::guidance

@@ -3,7 +3,7 @@
 
 #include "limpet/guidance/perching.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 /// Speed and acceleration along a straight run.
 struct RunReference {
@@ -32,4 +32,4 @@ struct RunReference {
 [[nodiscard]] Vector3 pre_position_W(const PerchingParameters& parameters,
                                      const PerchingMemory& memory);
 
-}  // namespace limpet
+}  // namespace limpet::guidance

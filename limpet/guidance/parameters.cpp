@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/guidance/parameters.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 const ParameterTable<PerchingParameters>& perching_table() {
     using P = PerchingParameters;
@@ -118,4 +118,4 @@ const ParameterTable<PerchingParameters>& perching_table() {
     return table;
 }
 
-}  // namespace limpet
+}  // namespace limpet::guidance

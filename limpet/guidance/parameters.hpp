@@ -4,7 +4,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 /// How to perch and how to take off. Distances to the wall are those of the LiDARs unless said
 /// otherwise. Sources: the paper, section IV; baseline.md for what the paper does not say.
@@ -74,4 +74,4 @@ struct PerchingParameters {
 
 [[nodiscard]] const ParameterTable<PerchingParameters>& perching_table();
 
-}  // namespace limpet
+}  // namespace limpet::guidance

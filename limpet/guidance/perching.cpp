@@ -7,7 +7,7 @@
 #include "limpet/guidance/guards.hpp"
 #include "limpet/guidance/motion.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 // --- the table --------------------------------------------------------------------------------
@@ -270,4 +270,4 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
     memory.setpoint = motion(parameters, memory, estimate, time_s);
 }
 
-}  // namespace limpet
+}  // namespace limpet::guidance

@@ -14,7 +14,7 @@
 #include "limpet/guidance/parameters.hpp"
 #include "limpet/guidance/wall_angle.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 // Fig. 7 of the paper as one table (perching.cpp): from, guard, to, reason, event, outcome. Faults
 // have rows as success has; those that end a mission at once are left out of the drawing.
@@ -131,4 +131,4 @@ struct EventList {
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
             const Readings& readings, const Estimate& estimate, double time_s, EventList& events);
 
-}  // namespace limpet
+}  // namespace limpet::guidance

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::guidance {
 
 double wall_angle(double left_m, double right_m, double separation_m) {
     return std::atan((left_m - right_m) / separation_m);
@@ -49,4 +49,4 @@ void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readin
     wall.ever = true;
 }
 
-}  // namespace limpet
+}  // namespace limpet::guidance

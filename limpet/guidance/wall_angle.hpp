@@ -7,7 +7,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/guidance/parameters.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 /// Angle between the vehicle and the wall.
 /// @param left_m        d_1, distance measured by the left LiDAR [m]
@@ -37,4 +37,4 @@ struct WallSeen {
 void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readings& readings,
               const Estimate& estimate);
 
-}  // namespace limpet
+}  // namespace limpet::guidance

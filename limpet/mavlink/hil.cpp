@@ -49,7 +49,7 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec) {
         count_.send_jitter.add(std::abs(took_s - meant_s));
     }
     (void)link_.send(sensor);
-    if (link_.uncork() == TransferStatus::done) {
+    if (link_.uncork() == wire::TransferStatus::done) {
         ++count_.sensors_sent;
     }
     ++sends_;

@@ -10,9 +10,9 @@
 
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
-#include "limpet/mavlink/histogram.hpp"
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/translate.hpp"
+#include "limpet/wire/histogram.hpp"
 
 namespace limpet::mavlink {
 
@@ -44,10 +44,10 @@ enum class HilStatus {
 struct HilCount {
     std::uint64_t sensors_sent = 0;
     std::uint64_t answers = 0;
-    std::uint64_t unanswered = 0;   ///< sensors without an answer, the first ones left out
-    std::uint64_t strays = 0;       ///< answers to other sensors than the last
-    DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
-    DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
+    std::uint64_t unanswered = 0;         ///< sensors without an answer, the first ones left out
+    std::uint64_t strays = 0;             ///< answers to other sensors than the last
+    wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
+    wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
     /// From HIL_SENSOR handed to the kernel (which may let the autopilot run at once) to its answer
     /// or the end of the wait; the rest of the time is the simulator's own.
     double waited_s = 0.0;

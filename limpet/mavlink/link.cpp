@@ -13,7 +13,7 @@ constexpr int kMostPieces = 256;
 
 }  // namespace
 
-Link::Link(std::unique_ptr<Transport> transport, Sender self)
+Link::Link(std::unique_ptr<wire::Transport> transport, Sender self)
     : transport_(std::move(transport)), self_(self) {}
 
 void Link::sign(LinkSigning signing) {
@@ -22,11 +22,11 @@ void Link::sign(LinkSigning signing) {
 }
 
 std::uint64_t Link::generation() const {
-    const TransportStatistics& seen = transport_->statistics();
+    const wire::TransportStatistics& seen = transport_->statistics();
     return seen.peers + seen.peers_lost;
 }
 
-TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout) {
+wire::TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout) {
     if (signing_) {
         frame = signing_->sign(out_, frame, signing_time(unix_us_()));
     }
@@ -34,9 +34,9 @@ TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout
         return send_bytes(frame, 1, timeout);
     }
     if (kept_bytes_ + frame.size() > kept_.size()) {
-        const TransferStatus status = uncork(timeout);
+        const wire::TransferStatus status = uncork(timeout);
         corked_ = true;
-        if (status != TransferStatus::done) {
+        if (status != wire::TransferStatus::done) {
             ++count_.not_sent;
             return status;
         }
@@ -44,23 +44,23 @@ TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout
     std::copy(frame.begin(), frame.end(), kept_.data() + kept_bytes_);
     kept_bytes_ += frame.size();
     ++kept_messages_;
-    return TransferStatus::done;
+    return wire::TransferStatus::done;
 }
 
-TransferStatus Link::send_bytes(ByteView bytes, std::uint64_t messages,
-                                std::chrono::nanoseconds timeout) {
-    const Transfer transfer = transport_->send(std::as_bytes(bytes), timeout);
-    (transfer.status == TransferStatus::done ? count_.sent : count_.not_sent) += messages;
+wire::TransferStatus Link::send_bytes(ByteView bytes, std::uint64_t messages,
+                                      std::chrono::nanoseconds timeout) {
+    const wire::Transfer transfer = transport_->send(std::as_bytes(bytes), timeout);
+    (transfer.status == wire::TransferStatus::done ? count_.sent : count_.not_sent) += messages;
     return transfer.status;
 }
 
-TransferStatus Link::uncork(std::chrono::nanoseconds timeout) {
+wire::TransferStatus Link::uncork(std::chrono::nanoseconds timeout) {
     corked_ = false;
     const ByteView bytes(kept_.data(), kept_bytes_);
     const std::uint64_t messages = kept_messages_;
     kept_bytes_ = 0;
     kept_messages_ = 0;
-    return messages == 0 ? TransferStatus::done : send_bytes(bytes, messages, timeout);
+    return messages == 0 ? wire::TransferStatus::done : send_bytes(bytes, messages, timeout);
 }
 
 bool Link::accepts(const Frame& frame) {
@@ -81,11 +81,11 @@ std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
                 return frame;
             }
         }
-        const Transfer transfer = transport_->receive(
+        const wire::Transfer transfer = transport_->receive(
             in_,
             std::max(std::chrono::nanoseconds(0),
                      std::chrono::duration_cast<std::chrono::nanoseconds>(end - Clock::now())));
-        if (transfer.status != TransferStatus::done) {
+        if (transfer.status != wire::TransferStatus::done) {
             return std::nullopt;
         }
         if (generation() != heard_generation_) {  // half a frame of the last peer is nobody's

@@ -11,7 +11,7 @@
 
 #include "limpet/mavlink/codec.hpp"
 #include "limpet/mavlink/signing.hpp"
-#include "limpet/mavlink/transport.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::mavlink {
 
@@ -47,21 +47,21 @@ struct LinkCount {
 class Link {
 public:
     /// @param self  system and component that its messages carry
-    Link(std::unique_ptr<Transport> transport, Sender self);
+    Link(std::unique_ptr<wire::Transport> transport, Sender self);
 
     void sign(LinkSigning signing);
 
     /// @param timeout  longest wait for room in the wire
     template <class Message>
-    TransferStatus send(const Message& message,
-                        std::chrono::nanoseconds timeout = std::chrono::milliseconds(100)) {
+    wire::TransferStatus send(const Message& message,
+                              std::chrono::nanoseconds timeout = std::chrono::milliseconds(100)) {
         return send_frame(encode(message, self_, out_), timeout);
     }
 
     /// From here on messages are kept, up to uncork(), which sends them in one piece: one system
     /// call, and a peer that wakes up once.
     void cork() { corked_ = true; }
-    TransferStatus uncork(std::chrono::nanoseconds timeout = std::chrono::milliseconds(100));
+    wire::TransferStatus uncork(std::chrono::nanoseconds timeout = std::chrono::milliseconds(100));
 
     /// Waits for the next frame. A peer that goes shows in generation().
     /// @param timeout  longest wait; 0: what is there already
@@ -76,15 +76,15 @@ public:
 
     [[nodiscard]] LinkCount count() const;
     [[nodiscard]] const Sender& self() const { return self_; }
-    [[nodiscard]] const Transport& transport() const { return *transport_; }
+    [[nodiscard]] const wire::Transport& transport() const { return *transport_; }
 
 private:
-    TransferStatus send_frame(ByteView frame, std::chrono::nanoseconds timeout);
-    TransferStatus send_bytes(ByteView bytes, std::uint64_t messages,
-                              std::chrono::nanoseconds timeout);
+    wire::TransferStatus send_frame(ByteView frame, std::chrono::nanoseconds timeout);
+    wire::TransferStatus send_bytes(ByteView bytes, std::uint64_t messages,
+                                    std::chrono::nanoseconds timeout);
     [[nodiscard]] bool accepts(const Frame& frame);
 
-    std::unique_ptr<Transport> transport_;
+    std::unique_ptr<wire::Transport> transport_;
     Sender self_;
     Parser parser_;
     std::optional<Signing> signing_;

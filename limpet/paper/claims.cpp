@@ -6,13 +6,13 @@
 #include <cmath>
 #include <variant>
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 /// Evidence that is 1 or 0.
 constexpr const char* kYesNo = "yes/no";
 
-Quantity shown(double value, const std::string& unit) {
+report::Quantity shown(double value, const std::string& unit) {
     if (!std::isfinite(value)) {
         return std::string("did not come to pass");
     }
@@ -25,7 +25,7 @@ Quantity shown(double value, const std::string& unit) {
 
 /// "0.8 … 1.4", "at least 2", "2"
 std::string accepted_text(const PaperStatement& statement) {
-    const Range& range = statement.accepted;
+    const draw::Range& range = statement.accepted;
     if (statement.unit == kYesNo) {
         return "yes";
     }
@@ -43,14 +43,14 @@ double rounded(double difference, double scale) {
 }
 
 /// Simulated less paper, where that means something.
-Quantity difference(const PaperStatement& statement, double value, bool holds) {
+report::Quantity difference(const PaperStatement& statement, double value, bool holds) {
     if (!std::isfinite(value)) {
         return std::string("no value");
     }
     if (const double* paper = std::get_if<double>(&statement.paper)) {
         return rounded(value - *paper, *paper);
     }
-    if (const Range* range = std::get_if<Range>(&statement.paper)) {
+    if (const draw::Range* range = std::get_if<draw::Range>(&statement.paper)) {
         const double below = value - range->low, above = value - range->high;
         if (below >= 0.0 && above <= 0.0) {
             return std::string("inside");
@@ -62,18 +62,18 @@ Quantity difference(const PaperStatement& statement, double value, bool holds) {
 
 }  // namespace
 
-Claim judge(const PaperStatement& statement, const Evidence& evidence) {
-    Claim claim{.id = statement.id,
-                .section = statement.section,
-                .statement = statement.text,
-                .paper = statement.paper,
-                .simulated = std::string("not simulated"),
-                .unit = statement.unit == kYesNo ? "" : statement.unit,
-                .difference = std::string("not compared"),
-                .verdict = Verdict::not_modelled,
-                .basis = statement.basis,
-                .note = statement.note,
-                .figure = statement.figure};
+report::Claim judge(const PaperStatement& statement, const Evidence& evidence) {
+    report::Claim claim{.id = statement.id,
+                        .section = statement.section,
+                        .statement = statement.text,
+                        .paper = statement.paper,
+                        .simulated = std::string("not simulated"),
+                        .unit = statement.unit == kYesNo ? "" : statement.unit,
+                        .difference = std::string("not compared"),
+                        .verdict = report::Verdict::not_modelled,
+                        .basis = statement.basis,
+                        .note = statement.note,
+                        .figure = statement.figure};
     if (!statement.flight.empty()) {
         claim.recording = fmt::format("flights/{}/flight.mcap", statement.flight);
     }
@@ -85,8 +85,8 @@ Claim judge(const PaperStatement& statement, const Evidence& evidence) {
     const bool holds = value >= statement.accepted.low && value <= statement.accepted.high;
     claim.simulated = shown(value, statement.unit);
     claim.difference = difference(statement, value, holds);
-    claim.verdict = holds ? Verdict::reproduced : Verdict::differs;
+    claim.verdict = holds ? report::Verdict::reproduced : report::Verdict::differs;
     return claim;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

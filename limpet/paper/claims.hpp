@@ -8,17 +8,17 @@
 #include "limpet/paper/evidence.hpp"
 #include "limpet/report/claims.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
 /// A statement of the paper and what would bear it out. The verdict is not in it: judge() finds it.
 struct PaperStatement {
     std::string id = {};
     std::string section = {};
     std::string text = {};
-    Quantity paper = {};  ///< its number, range or words
+    report::Quantity paper = {};  ///< its number, range or words
     std::string unit = {};
     std::string evidence = {};  ///< name in Evidence; empty: the simulation has no such thing
-    Range accepted = {};        ///< of the evidence, ends included
+    draw::Range accepted = {};  ///< of the evidence, ends included
     std::string note = {};      ///< where the bounds come from, what is assumed
     std::string figure = {};
     std::string flight = {};  ///< whose recording shows it
@@ -36,6 +36,6 @@ struct PaperStatement {
 
 /// reproduced: the evidence lies within the accepted range; differs: it does not, or did not come
 /// to pass; not modelled: there is no evidence to look for.
-[[nodiscard]] Claim judge(const PaperStatement& statement, const Evidence& evidence);
+[[nodiscard]] report::Claim judge(const PaperStatement& statement, const Evidence& evidence);
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace limpet {
+namespace limpet::paper {
 
 /// What was measured on the simulation, under names that claims refer to: "perch_metal.release_s",
 /// "press_metal.tau_1_s". NaN: it was looked for and did not come to pass.
@@ -31,4 +31,4 @@ private:
     std::map<std::string, double> values_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -10,7 +10,7 @@
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -23,11 +23,11 @@ struct Stretch {
 };
 
 /// A column's samples within a stretch.
-std::vector<double> within(const Recording& recording, const char* topic, const char* column,
-                           const Stretch& stretch) {
+std::vector<double> within(const record::Recording& recording, const char* topic,
+                           const char* column, const Stretch& stretch) {
     std::vector<double> values;
-    const Table* table = find_table(recording, topic);
-    const Column* found = table == nullptr ? nullptr : table->find(column);
+    const record::Table* table = find_table(recording, topic);
+    const record::Column* found = table == nullptr ? nullptr : table->find(column);
     for (std::size_t i = 0; found != nullptr && i < found->values.size(); ++i) {
         if (table->time_s[i] >= stretch.from_s && table->time_s[i] <= stretch.to_s) {
             values.push_back(found->values[i]);
@@ -61,11 +61,11 @@ double setback(const std::vector<double>& values) {
     return values.size() < 2 ? kNone : worst / std::max(1e-9, values.front() - least(values));
 }
 
-double time_of(const RecordedEvent* event) {
+double time_of(const record::RecordedEvent* event) {
     return event == nullptr ? kNone : event->time_s;
 }
 
-double value_of(const RecordedEvent* event, const char* name) {
+double value_of(const record::RecordedEvent* event, const char* name) {
     if (event != nullptr) {
         for (const auto& [key, value] : event->values) {
             if (key == name) {
@@ -82,7 +82,7 @@ public:
         : recording_(flight.recording), name_(flight.name), evidence_(evidence) {}
 
     void approach() {
-        const RecordedEvent* first = first_event(recording_, "approach_started");
+        const record::RecordedEvent* first = first_event(recording_, "approach_started");
         set("distance_before_approach_m", value_of(first, "distance_m"));
         // The walls of the paper's flights face south: the true angle is the yaw.
         const auto yaw = within(recording_, "/truth/vehicle", "yaw_rad",
@@ -90,7 +90,7 @@ public:
         set("wall_angle_error_deg",
             yaw.empty() ? kNone
                         : std::abs(value_of(first, "misalignment_deg") + degrees(yaw.front())));
-        const RecordedEvent* impact = first_event(recording_, "impact");
+        const record::RecordedEvent* impact = first_event(recording_, "impact");
         set("spike_after_s", time_of(impact) - time_of(first));
         set("contact_s", first_contact_s());
         // The last 0.2 s, up to 50 ms before the force sensor said so.
@@ -102,8 +102,8 @@ public:
 
     /// How long the lip first met the wall.
     [[nodiscard]] double first_contact_s() const {
-        const Table* table = find_table(recording_, "/cup");
-        const Column* phase = table == nullptr ? nullptr : table->find("phase");
+        const record::Table* table = find_table(recording_, "/cup");
+        const record::Column* phase = table == nullptr ? nullptr : table->find("phase");
         double from_s = kNone;
         for (std::size_t i = 0; phase != nullptr && i < phase->values.size(); ++i) {
             const bool touches = phase->values[i] > 0.0;
@@ -116,7 +116,7 @@ public:
         return kNone;
     }
 
-    void touch(const std::string& prefix, const RecordedEvent* impact) {
+    void touch(const std::string& prefix, const record::RecordedEvent* impact) {
         const Stretch after{time_of(impact) - 0.05, time_of(impact) + kSpikeWindow_s};
         set(prefix + "spike_N",
             least(within(recording_, "/sensors/force", "wrench.force.x", after)));
@@ -127,13 +127,13 @@ public:
         set(prefix + "lowest_pressure_hPa",
             hectopascals(
                 least(within(recording_, "/sensors/cup_pressure", "fluid_pressure", after))));
-        const RecordedEvent* over = first_event(recording_, "hold_over", time_of(impact));
+        const record::RecordedEvent* over = first_event(recording_, "hold_over", time_of(impact));
         set(prefix + "hold_s", time_of(over) - time_of(impact));
     }
 
     void landing() {
-        const RecordedEvent* start = last_event(recording_, "landing_started");
-        const RecordedEvent* end = first_event(recording_, "perched", time_of(start));
+        const record::RecordedEvent* start = last_event(recording_, "landing_started");
+        const record::RecordedEvent* end = first_event(recording_, "perched", time_of(start));
         const Stretch land{time_of(start), time_of(end)};
         set("pressure_at_landing_hPa", hectopascals(value_of(start, "pressure_Pa")));
         set("landing_pitch_rise_deg", value_of(end, "pitch_deg") - value_of(start, "pitch_deg"));
@@ -145,7 +145,7 @@ public:
 
     void rest() {
         const double off_s = time_of(first_event(recording_, "motors_off"));
-        const RecordedEvent* on = first_event(recording_, "motors_on", off_s);
+        const record::RecordedEvent* on = first_event(recording_, "motors_on", off_s);
         const Stretch end{std::max(off_s, time_of(on) - kSteady_s), time_of(on)};
         // The pump's own part: true pressure, so that the sensor's noise does not count.
         const auto ripple = within(recording_, "/cup", "pressure_Pa", end);
@@ -154,9 +154,9 @@ public:
     }
 
     void take_off() {
-        const RecordedEvent* on = last_event(recording_, "motors_on");
-        const RecordedEvent* level = first_event(recording_, "level", time_of(on));
-        const RecordedEvent* off = first_event(recording_, "pump_off", time_of(on));
+        const record::RecordedEvent* on = last_event(recording_, "motors_on");
+        const record::RecordedEvent* level = first_event(recording_, "level", time_of(on));
+        const record::RecordedEvent* off = first_event(recording_, "pump_off", time_of(on));
         const Stretch up{time_of(on), time_of(level)};
         set("take_off_pressure_hPa", hectopascals(value_of(on, "pressure_Pa")));
         const auto thrust = within(recording_, "/truth/vehicle", "thrust_N", up);
@@ -166,7 +166,8 @@ public:
         set("take_off_force_fall_N", value_of(on, "force_N") - value_of(level, "force_N"));
         set("pump_off_pitch_deg", std::abs(value_of(off, "pitch_deg")));
         set("pump_off_after_level_s", time_of(off) - time_of(level));
-        const RecordedEvent* released = first_event(recording_, "pressure_released", time_of(off));
+        const record::RecordedEvent* released =
+            first_event(recording_, "pressure_released", time_of(off));
         set("pressure_released_hPa", hectopascals(value_of(released, "pressure_Pa")));
         set("waited_s",
             (released != nullptr ? time_of(released)
@@ -176,8 +177,9 @@ public:
     }
 
     void first_failure() {
-        const RecordedEvent* retreat = first_event(recording_, "retreat_started");
-        const RecordedEvent* again = first_event(recording_, "pre_positioned", time_of(retreat));
+        const record::RecordedEvent* retreat = first_event(recording_, "retreat_started");
+        const record::RecordedEvent* again =
+            first_event(recording_, "pre_positioned", time_of(retreat));
         set("retreated_to_m", value_of(again, "distance_m"));
         set("second_attempt_after_s",
             time_of(first_event(recording_, "approach_started", time_of(retreat))) -
@@ -187,7 +189,7 @@ public:
     void set(const std::string& what, double value) { evidence_.set(name_ + "." + what, value); }
 
 private:
-    const Recording& recording_;
+    const record::Recording& recording_;
     std::string name_;
     Evidence& evidence_;
 };
@@ -195,19 +197,20 @@ private:
 }  // namespace
 
 PaperFlight fly_recorded(const FlightOrder& order, const std::filesystem::path& folder) {
-    const Scenario scenario = load_scenario(order.scenario, {.overrides = order.overrides});
+    const scenario::Scenario scenario =
+        scenario::load_scenario(order.scenario, {.overrides = order.overrides});
     std::filesystem::create_directories(folder / order.name);
     const std::filesystem::path file = folder / order.name / "flight.mcap";
     PaperFlight flight;
     flight.name = order.name;
-    flight.result = fly(build_model(scenario), file);
-    flight.recording = read_recording(file);
+    flight.result = simulation::fly(simulation::build_model(scenario), file);
+    flight.recording = record::read_recording(file);
     return flight;
 }
 
 void measure(const PaperFlight& flight, Evidence& evidence) {
     Reader take(flight, evidence);
-    for (const MetricInfo& metric : metric_table()) {
+    for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         take.set(std::string(metric.name), flight.result.metrics.*metric.field);
     }
     take.set("attempts", flight.result.attempts);
@@ -234,4 +237,4 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
     take.first_failure();
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

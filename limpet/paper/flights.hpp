@@ -9,13 +9,13 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
 /// A flight of the paper's experiments, recorded and read back.
 struct PaperFlight {
     std::string name;  ///< the evidence's prefix and the recording's folder
-    FlightResult result;
-    Recording recording;
+    simulation::FlightResult result;
+    record::Recording recording;
 };
 
 struct FlightOrder {
@@ -33,4 +33,4 @@ struct FlightOrder {
 /// NaN.
 void measure(const PaperFlight& flight, Evidence& evidence);
 
-}  // namespace limpet
+}  // namespace limpet::paper

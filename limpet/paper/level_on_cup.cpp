@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/advance.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -26,7 +26,7 @@ constexpr double kResting = 1e-8;   ///< by how much the rest may move in a peri
 
 }  // namespace
 
-LevelOnCup::LevelOnCup(std::shared_ptr<const FlightModel> model)
+LevelOnCup::LevelOnCup(std::shared_ptr<const simulation::FlightModel> model)
     : model_(std::move(model)),
       plant_(model_->plant),
       state_(start(*model_, plant_)),
@@ -43,7 +43,7 @@ void LevelOnCup::put_on_wall() {
     const Vector3 x_T_W = wall.R_WT.col(0);
     const double yaw_rad = std::atan2(x_T_W.y(), x_T_W.x());
     const Quaternion q_WB = quaternion_from_euler({.yaw_rad = yaw_rad});
-    const CupMountParameters& mount = model_->airframe.cup;
+    const vehicle::CupMountParameters& mount = model_->airframe.cup;
     const Vector3 lip_B_m(mount.joint_x_m + mount.lip_offset_m, 0.0, mount.joint_z_m);
     plant_.set_pose(wall.p_WT_m - q_WB * lip_B_m, q_WB);
     see_motion(*model_, state_.truth, plant_);
@@ -62,12 +62,12 @@ void LevelOnCup::put_on_wall() {
 
 /// As the loop does it: control, rotors, bodies and cup.
 void LevelOnCup::period() {
-    const Airframe& airframe = model_->airframe;
+    const vehicle::Airframe& airframe = model_->airframe;
     const Quaternion before = state_.truth.base.q_WF;
     state_.autopilot.estimate.q_WB = before;
     state_.command = control(model_->autopilot, state_.autopilot, state_.guidance.setpoint,
                              seconds(state_.tick));
-    TickReport report;
+    simulation::TickReport report;
     for (int k = 0; k < ticks_; ++k) {
         step(airframe.rotor, state_.rotors, state_.command, kTick_s);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
@@ -80,7 +80,7 @@ void LevelOnCup::period() {
         (ticks_ * kTick_s);
 }
 
-void LevelOnCup::restore(const Snapshot& snapshot) {
+void LevelOnCup::restore(const simulation::Snapshot& snapshot) {
     state_ = snapshot.state;
     plant_.restore(snapshot.plant);
 }
@@ -90,7 +90,7 @@ Eigen::Index LevelOnCup::size() const {
 }
 
 /// @return the bodies' displacement from `origin`, then the carried numbers as they are
-Vector LevelOnCup::numbers(const PlantState& origin) {
+Vector LevelOnCup::numbers(const plant::PlantState& origin) {
     Vector all(size());
     plant_.displacement_from(origin, {all.data(), 2 * plant_.freedoms()});
     auto at = static_cast<Eigen::Index>(2 * plant_.freedoms());
@@ -115,7 +115,7 @@ void LevelOnCup::add(const Vector& step) {
 /// one another. Clocks, settings and what is worked out anew in every period are not among them.
 void LevelOnCup::find_carried() {
     carried_.clear();
-    const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+    const simulation::Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
     const auto watch = [&](double push) {
         restore(here);
         add(Vector::Constant(size(), push));
@@ -147,7 +147,7 @@ void LevelOnCup::find_carried() {
 
 /// Of what is carried, the groups of so many whose nudge reaches the bodies in the end.
 void LevelOnCup::keep_what_reaches(Eigen::Index group) {
-    const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+    const simulation::Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
     const Eigen::Index n = size();
     const auto bodies = static_cast<Eigen::Index>(2 * plant_.freedoms());
     const Vector at_rest = image(here, Vector::Zero(n));
@@ -180,14 +180,14 @@ void LevelOnCup::keep_what_reaches(Eigen::Index group) {
 }
 
 /// Where one period leads from `from` and a step aside.
-Vector LevelOnCup::image(const Snapshot& from, const Vector& step) {
+Vector LevelOnCup::image(const simulation::Snapshot& from, const Vector& step) {
     restore(from);
     add(step);
     period();
     return numbers(from.plant);
 }
 
-Matrix LevelOnCup::jacobian(const Snapshot& at) {
+Matrix LevelOnCup::jacobian(const simulation::Snapshot& at) {
     const Eigen::Index n = size();
     Matrix jacobian(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -206,7 +206,7 @@ std::vector<Mode> LevelOnCup::modes() {
     const Eigen::Index n = size();
     Matrix map;
     for (int k = 0;; ++k) {
-        const Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
+        const simulation::Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
         const Vector now = numbers(here.plant);
         map = jacobian(here);
         const Vector miss = image(here, Vector::Zero(n)) - now;
@@ -256,4 +256,4 @@ Mode pitch_mode(const std::vector<Mode>& modes) {
     return *found;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -9,7 +9,7 @@
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/snapshot.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
 /// A mode of a linear system: x ~ exp(growth t) sin(2 pi frequency t).
 struct Mode {
@@ -27,7 +27,7 @@ struct Mode {
 class LevelOnCup {
 public:
     /// @param model  its vehicle has a cup and its scenario a wall
-    explicit LevelOnCup(std::shared_ptr<const FlightModel> model);
+    explicit LevelOnCup(std::shared_ptr<const simulation::FlightModel> model);
 
     /// Modes of the linearised loop, fastest growing first. Jacobian by central differences at the
     /// rest, which is found by Newton's method.
@@ -37,18 +37,19 @@ public:
 private:
     void put_on_wall();
     void period();
-    void restore(const Snapshot& snapshot);
+    void restore(const simulation::Snapshot& snapshot);
     void find_carried();
     void keep_what_reaches(Eigen::Index group);
     [[nodiscard]] Eigen::Index size() const;
-    [[nodiscard]] Eigen::VectorXd numbers(const PlantState& origin);
+    [[nodiscard]] Eigen::VectorXd numbers(const plant::PlantState& origin);
     void add(const Eigen::VectorXd& step);
-    [[nodiscard]] Eigen::VectorXd image(const Snapshot& from, const Eigen::VectorXd& step);
-    [[nodiscard]] Eigen::MatrixXd jacobian(const Snapshot& at);
+    [[nodiscard]] Eigen::VectorXd image(const simulation::Snapshot& from,
+                                        const Eigen::VectorXd& step);
+    [[nodiscard]] Eigen::MatrixXd jacobian(const simulation::Snapshot& at);
 
-    std::shared_ptr<const FlightModel> model_;
-    MujocoPlant plant_;
-    FlightState state_;
+    std::shared_ptr<const simulation::FlightModel> model_;
+    plant::MujocoPlant plant_;
+    simulation::FlightState state_;
     int ticks_ = 1;  ///< of a control period
     /// Which of the state's numbers, in the order of the walk, the loop carries beside the bodies'
     /// own from one period to the next: rotors and their dead time, filters, integrators.
@@ -59,4 +60,4 @@ private:
 /// @throws InternalError when there is none
 [[nodiscard]] Mode pitch_mode(const std::vector<Mode>& modes);
 
-}  // namespace limpet
+}  // namespace limpet::paper

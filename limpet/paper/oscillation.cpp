@@ -15,7 +15,7 @@
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 constexpr double kWatch_s = 20.0;
@@ -32,7 +32,7 @@ bool holds(std::string_view text, std::string_view part) {
 }
 
 /// Nothing random: a kick alone is to be seen.
-void silence(Scenario& scenario) {
+void silence(scenario::Scenario& scenario) {
     for (const BoundParameter& row : sensor_rows(scenario.sensors)) {
         if (holds(row.name, "_noise") || holds(row.name, "_bias") || holds(row.name, "_walk") ||
             holds(row.name, "_dropout")) {
@@ -45,7 +45,8 @@ void silence(Scenario& scenario) {
 }
 
 /// Turns the vehicle about its cup's joint with a speed, the cup itself staying as it is.
-void turn_about_joint(MujocoPlant& plant, const Airframe& airframe, double pitch_rate_rad_s) {
+void turn_about_joint(plant::MujocoPlant& plant, const vehicle::Airframe& airframe,
+                      double pitch_rate_rad_s) {
     // Freedoms in MuJoCo's axes (x ahead, y left, z up): place, attitude, slider, cup_pitch,
     // cup_yaw.
     constexpr std::size_t kUp = 2, kAboutLeft = 4, kCupPitch = 7;
@@ -57,16 +58,16 @@ void turn_about_joint(MujocoPlant& plant, const Airframe& airframe, double pitch
     plant.displace(step);
 }
 
-double pitch_deg(const Flight& flight) {
+double pitch_deg(const simulation::Flight& flight) {
     return degrees(euler_from_quaternion(flight.state().truth.base.q_WF).pitch_rad);
 }
 
-bool waits(const Flight& flight) {
-    return !flight.ended() && flight.state().guidance.state == PerchingState::releasing;
+bool waits(const simulation::Flight& flight) {
+    return !flight.ended() && flight.state().guidance.state == guidance::PerchingState::releasing;
 }
 
 /// Flies to the moment at which the vehicle begins to wait for the release.
-void fly_to_release(Flight& flight) {
+void fly_to_release(simulation::Flight& flight) {
     while (!waits(flight)) {
         require(!flight.ended(), "a flight that comes to its release");
         flight.tick();
@@ -105,7 +106,8 @@ std::vector<Extreme> extremes(const std::vector<double>& time_s, const std::vect
 }  // namespace
 
 Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
-    LevelOnCup loop(build_model(load_scenario(scenario, {.overrides = overrides})));
+    LevelOnCup loop(
+        simulation::build_model(scenario::load_scenario(scenario, {.overrides = overrides})));
     return pitch_mode(loop.modes());
 }
 
@@ -141,21 +143,22 @@ KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_
 KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides, double kick_deg) {
     const Overrides patient = {"guidance.rest_s=0.5", "guidance.release_limit_s=600",
                                "guidance.oscillation_limit_deg=60", "guidance.stuck_s=60"};
-    Scenario quiet = load_scenario(scenario, {.overrides = joined(patient, overrides)});
+    scenario::Scenario quiet =
+        scenario::load_scenario(scenario, {.overrides = joined(patient, overrides)});
     silence(quiet);
-    const auto model = build_model(quiet);
+    const auto model = simulation::build_model(quiet);
     constexpr double kLeast_Hz = 0.3;  // where the loop hardly swings at all
     const double frequency_Hz =
         std::max(kLeast_Hz, pitch_mode(LevelOnCup(model).modes()).frequency_Hz);
-    Flight twin(model);
+    simulation::Flight twin(model);
     fly_to_release(twin);
-    Flight kicked(model);
-    Snapshot snapshot = twin.save();
-    MujocoPlant plant(model->plant);
+    simulation::Flight kicked(model);
+    simulation::Snapshot snapshot = twin.save();
+    plant::MujocoPlant plant(model->plant);
     plant.restore(snapshot.plant);
     turn_about_joint(plant, quiet.airframe, radians(kick_deg) * 2.0 * kPi * frequency_Hz);
     snapshot.plant = plant.save();
-    see_motion(*model, snapshot.state.truth, plant);
+    simulation::see_motion(*model, snapshot.state.truth, plant);
     kicked.restore(snapshot);
 
     std::vector<double> time_s, difference_deg;
@@ -183,37 +186,38 @@ Overrides motors_and_pivot(double lag_s, double pivot_m) {
 
 void fill(StabilityMap& map, int jobs) {
     map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
-    PlantCache plants;
+    campaign::PlantCache plants;
     for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
         const Overrides point =
             motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
-        const Scenario scenario =
-            load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
-        LevelOnCup loop(build_model(scenario, plants.get(scenario)));
+        const scenario::Scenario scenario =
+            scenario::load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
+        LevelOnCup loop(simulation::build_model(scenario, plants.get(scenario)));
         map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
     });
 }
 
 double SwingMissions::quantile(double share) const {
     return pitch_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
-                             : limpet::quantile(pitch_deg, share);
+                             : limpet::campaign::quantile(pitch_deg, share);
 }
 
 double SwingMissions::median_swing_deg() const {
     return swing_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
-                             : limpet::quantile(swing_deg, 0.5);
+                             : limpet::campaign::quantile(swing_deg, 0.5);
 }
 
 SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,
                              std::uint32_t runs, int jobs) {
-    const auto model = build_model(load_scenario(scenario, {.overrides = overrides}));
-    std::vector<FlightResult> results(runs);
+    const auto model =
+        simulation::build_model(scenario::load_scenario(scenario, {.overrides = overrides}));
+    std::vector<simulation::FlightResult> results(runs);
     for_each_index(runs, jobs, [&](std::size_t run) {
-        results[run] = fly(model, {}, {}, static_cast<std::uint32_t>(run));
+        results[run] = simulation::fly(model, {}, {}, static_cast<std::uint32_t>(run));
     });
     SwingMissions missions;
     missions.runs = runs;
-    for (const FlightResult& result : results) {
+    for (const simulation::FlightResult& result : results) {
         missions.attached += std::isfinite(result.metrics.perched_pitch_deg) ? 1U : 0U;
         missions.crashed += result.outcome == Outcome::crashed ? 1U : 0U;
         if (std::isfinite(result.metrics.pitch_oscillation_max_deg)) {
@@ -228,7 +232,8 @@ SwingMissions swing_missions(const std::string& scenario, const Overrides& overr
 
 double hover_tilt_deg(const std::string& scenario) {
     constexpr double kSettle_s = 5.0;
-    Flight flight(build_model(load_scenario(scenario, {.overrides = {"mission=hover"}})));
+    simulation::Flight flight(simulation::build_model(
+        scenario::load_scenario(scenario, {.overrides = {"mission=hover"}})));
     double worst_rad = 0.0;
     while (!flight.ended()) {
         flight.tick();
@@ -241,4 +246,4 @@ double hover_tilt_deg(const std::string& scenario) {
     return degrees(worst_rad);
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -12,7 +12,7 @@
 /// The question that the paper leaves open: why its real vehicle swings in pitch while the cup
 /// waits to release, and its simulation does not. Candidate: attitude control with a rate
 /// integrator, on a pivot with seven times the inertia, behind motors slower than Gazebo's.
-namespace limpet {
+namespace limpet::paper {
 
 /// `--set` texts that make a scenario another case.
 using Overrides = std::vector<std::string>;
@@ -75,4 +75,4 @@ struct SwingMissions {
 /// @return largest tilt after the first seconds [deg]
 [[nodiscard]] double hover_tilt_deg(const std::string& scenario);
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -4,7 +4,7 @@
 #include <array>
 
 /// What the paper prints in its tables, and nothing of ours.
-namespace limpet {
+namespace limpet::paper {
 
 /// A column of Table I.
 struct TableOne {
@@ -30,4 +30,4 @@ inline constexpr std::array<TableTwo, 4> kTableTwo = {{
     {"press_metal", "metallic surface", 275.0, 0.25, 0.03, 16.0, 1.0},
 }};
 
-}  // namespace limpet
+}  // namespace limpet::paper

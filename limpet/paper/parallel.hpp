@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace limpet {
+namespace limpet::paper {
 
 /// Calls work(0), ..., work(count - 1) on `jobs` threads; each writes to a place of its own. The
 /// first exception stops what has not begun and is thrown here.
@@ -43,4 +43,4 @@ void for_each_index(std::size_t count, int jobs, const Work& work) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -5,13 +5,13 @@
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
-PageFigure release_figure(const std::vector<ReleaseTime>& times, const Study& study) {
-    ChartPanel panel{.x_label = "surface", .y_label = "from pump off to detached  [s]"};
-    ChartSeries without{.name = "without a valve", .mark = ChartSeries::Mark::points};
-    ChartSeries with{.name = "with the valve", .mark = ChartSeries::Mark::points};
+report::PageFigure release_figure(const std::vector<ReleaseTime>& times, const Study& study) {
+    draw::ChartPanel panel{.x_label = "surface", .y_label = "from pump off to detached  [s]"};
+    draw::ChartSeries without{.name = "without a valve", .mark = draw::ChartSeries::Mark::points};
+    draw::ChartSeries with{.name = "with the valve", .mark = draw::ChartSeries::Mark::points};
     for (const ReleaseTime& time : times) {
         const auto x = static_cast<double>(panel.categories.size());
         panel.categories.push_back(time.surface);
@@ -22,7 +22,7 @@ PageFigure release_figure(const std::vector<ReleaseTime>& times, const Study& st
     }
     panel.series = {without, with};
     panel.log_y = true;
-    panel.y_range = Range{0.05, 200.0};
+    panel.y_range = draw::Range{0.05, 200.0};
     return study.figure(
         {.title = "A solenoid valve against none", .panels = {panel}}, "fig-valve",
         "Whole flights, a vehicle that waits as long as it takes. The paper proposes the valve in "
@@ -30,26 +30,26 @@ PageFigure release_figure(const std::vector<ReleaseTime>& times, const Study& st
         "Release time on four surfaces with and without a valve, logarithmic");
 }
 
-PageTable release_table(const std::vector<ReleaseTime>& times) {
-    PageTable table{.id = "release-table",
-                    .title = "Release time",
-                    .columns = {"surface", "without a valve, s", "with the valve, s"}};
+report::PageTable release_table(const std::vector<ReleaseTime>& times) {
+    report::PageTable table{.id = "release-table",
+                            .title = "Release time",
+                            .columns = {"surface", "without a valve, s", "with the valve, s"}};
     for (const ReleaseTime& time : times) {
         table.rows.push_back({time.surface, time.without_valve_s, time.with_valve_s});
     }
     return table;
 }
 
-PageFigure energy_figure(const std::vector<EnergyUse>& uses, const Study& study) {
-    ChartPanel panel{.y_label = "energy for an hour  [Wh]"};
-    ChartSeries bars{.mark = ChartSeries::Mark::bars};
+report::PageFigure energy_figure(const std::vector<EnergyUse>& uses, const Study& study) {
+    draw::ChartPanel panel{.y_label = "energy for an hour  [Wh]"};
+    draw::ChartSeries bars{.mark = draw::ChartSeries::Mark::bars};
     for (const EnergyUse& use : uses) {
         bars.x.push_back(static_cast<double>(panel.categories.size()));
         bars.y.push_back(use.power_W);
         panel.categories.push_back(use.what);
     }
     panel.series = {bars};
-    panel.y_range = Range{0.0, 500.0};
+    panel.y_range = draw::Range{0.0, 500.0};
     return study.figure(
         {.title = "An hour on the wall against an hour in the air", .panels = {panel}},
         "fig-energy",
@@ -58,8 +58,8 @@ PageFigure energy_figure(const std::vector<EnergyUse>& uses, const Study& study)
         "Energy of an hour hovering and perched on four surfaces");
 }
 
-PageTable energy_table(const std::vector<EnergyUse>& uses) {
-    PageTable table{
+report::PageTable energy_table(const std::vector<EnergyUse>& uses) {
+    report::PageTable table{
         .id = "energy-table",
         .title = "Power and endurance",
         .columns = {"what", "power, W", "an hour with getting there, Wh", "endurance, h"},
@@ -74,25 +74,26 @@ PageTable energy_table(const std::vector<EnergyUse>& uses) {
     return table;
 }
 
-PageTable break_off_table(const std::vector<BreakOff>& loads) {
-    PageTable table{.id = "break-off-table",
-                    .title = "What breaks the cup off",
-                    .columns = {"surface", "pressure, hPa", "pull, N", "shear, N", "peel, N m",
-                                "pull in weights"},
-                    .caption =
-                        "A sealed cup of 80 mm (assumed) moved away from the wall, along "
-                        "it, or tilted, each alone, until it lets go: at its best vacuum and "
-                        "at P_land. Closed forms: pull (P_atm - P) A, shear mu times that, "
-                        "peel that times R/2."};
+report::PageTable break_off_table(const std::vector<BreakOff>& loads) {
+    report::PageTable table{
+        .id = "break-off-table",
+        .title = "What breaks the cup off",
+        .columns = {"surface", "pressure, hPa", "pull, N", "shear, N", "peel, N m",
+                    "pull in weights"},
+        .caption =
+            "A sealed cup of 80 mm (assumed) moved away from the wall, along "
+            "it, or tilted, each alone, until it lets go: at its best vacuum and "
+            "at P_land. Closed forms: pull (P_atm - P) A, shear mu times that, "
+            "peel that times R/2."};
     for (const BreakOff& load : loads) {
-        table.rows.push_back({load.surface, hectopascals(load.pressure_Pa), load.pull_N,
+        table.rows.push_back({load.surface, limpet::hectopascals(load.pressure_Pa), load.pull_N,
                               load.shear_N, load.peel_N_m, load.pull_in_weights});
     }
     return table;
 }
 
 void study_beyond(Study& study) {
-    PageSection section{.id = "part-beyond"};
+    report::PageSection section{.id = "part-beyond"};
     study.say("release times");
     const std::vector<ReleaseTime> times = release_times(study.jobs);
     section.blocks.emplace_back(
@@ -119,4 +120,4 @@ StudyPart beyond_part() {
             {"release.valve_gain_metal", "energy.perched_share"}};
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -10,11 +10,11 @@
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
-#include "limpet/record/story.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,28 +86,29 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                           evidence.get("vehicle.pitch_on_legs_deg")));
     evidence.set("slider.contact_ratio", evidence.get("failed_perch.contact_s") /
                                              evidence.get("failed_perch_stiff_slider.contact_s"));
-    const Recording& concrete = find(flights, "perch_concrete").recording;
-    const RecordedEvent* approach = first_event(concrete, "approach_started");
+    const record::Recording& concrete = find(flights, "perch_concrete").recording;
+    const record::RecordedEvent* approach = first_event(concrete, "approach_started");
     const auto chapter = perching(concrete);
     evidence.set("fig11.approach_at_s", approach != nullptr && chapter
                                             ? approach->time_s - chapter->window.from_s
                                             : std::numeric_limits<double>::quiet_NaN());
 }
 
-PageTable flight_table(const std::vector<PaperFlight>& flights) {
-    PageTable table{.id = "flights-table",
-                    .title = "Flights",
-                    .columns = {"flight", "outcome", "docks", "impact, m/s", "press, N",
-                                "880 hPa after, s", "perched pitch, deg", "release, s", "hash"},
-                    .caption =
-                        "One row a flight; each recording lies beside this page in "
-                        "`flights/NAME/flight.mcap` (Foxglove, PlotJuggler, ros2 bag). An "
-                        "empty value did not come to pass."};
+report::PageTable flight_table(const std::vector<PaperFlight>& flights) {
+    report::PageTable table{
+        .id = "flights-table",
+        .title = "Flights",
+        .columns = {"flight", "outcome", "docks", "impact, m/s", "press, N", "880 hPa after, s",
+                    "perched pitch, deg", "release, s", "hash"},
+        .caption =
+            "One row a flight; each recording lies beside this page in "
+            "`flights/NAME/flight.mcap` (Foxglove, PlotJuggler, ros2 bag). An "
+            "empty value did not come to pass."};
     const auto cell = [](double value) {
-        return std::isfinite(value) ? Quantity(value) : Quantity(std::string("–"));
+        return std::isfinite(value) ? report::Quantity(value) : report::Quantity(std::string("–"));
     };
     for (const PaperFlight& flight : flights) {
-        const Metrics& m = flight.result.metrics;
+        const simulation::Metrics& m = flight.result.metrics;
         table.rows.push_back({flight.name, std::string(to_string(flight.result.outcome)),
                               static_cast<double>(flight.result.attempts), cell(m.impact_speed_m_s),
                               cell(m.impact_force_N), cell(m.time_to_land_pressure_s),
@@ -132,13 +133,13 @@ void study_flights(Study& study) {
     const std::vector<std::string> drawn = {"perch_concrete", "perch_metal", "failed_perch"};
     for_each_index(drawn.size(), study.jobs, [&](std::size_t i) {
         const PaperFlight& flight = find(flights, drawn[i]);
-        (void)plot(flight.recording, study.folder / "flights" / flight.name);
+        (void)report::plot(flight.recording, study.folder / "flights" / flight.name);
     });
     study.say("filmstrips");
-    (void)film(find(flights, "perch_concrete").recording,
-               study.folder / "flights" / "perch_concrete");
+    (void)report::film(find(flights, "perch_concrete").recording,
+                       study.folder / "flights" / "perch_concrete");
 
-    PageSection section{.id = "part-flights"};
+    report::PageSection section{.id = "part-flights"};
     section.blocks.emplace_back(
         "The paper's flights, flown by the same method (its Fig. 7) on the simulated vehicle. Dark "
         "lines are the truth, light ones under them what the sensors said; events are those of the "
@@ -176,4 +177,4 @@ StudyPart flights_part() {
     return part;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

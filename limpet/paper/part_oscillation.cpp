@@ -13,7 +13,7 @@
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 constexpr const char* kSlow = "slow_motors_metal";
@@ -69,23 +69,23 @@ std::vector<MapPoint> samples(const Study& study) {
     return all;
 }
 
-PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<MapPoint>& samples,
-                      const Study& study) {
-    Chart chart{
+report::PageFigure map_figure(const std::vector<StabilityMap>& maps,
+                              const std::vector<MapPoint>& samples, const Study& study) {
+    draw::Chart chart{
         .title = "Where the swing grows",
         .subtitle = "growth rate of the pitch mode, vehicle level on its cup; dead time 16 ms"};
     for (const StabilityMap& map : maps) {
-        HeatPanel panel{.title = map.title,
-                        .x_label = "time constant of the motors  [ms]",
-                        .y_label = "pivot ahead of the centre of mass  [m]",
-                        .z_label = "growth  [1/s]"};
+        draw::HeatPanel panel{.title = map.title,
+                              .x_label = "time constant of the motors  [ms]",
+                              .y_label = "pivot ahead of the centre of mass  [m]",
+                              .z_label = "growth  [1/s]"};
         for (const double lag_s : map.lag_s) {
             panel.x.push_back(1000.0 * lag_s);
         }
         panel.y = map.pivot_m;
         panel.z = map.growth_1_s;
         panel.levels = {-0.4, -0.2, 0.2, 0.4};
-        panel.z_range = Range{-0.6, 0.6};
+        panel.z_range = draw::Range{-0.6, 0.6};
         if (map.gains.empty()) {
             for (const MapPoint& sample : samples) {
                 panel.points.push_back({.x = 1000.0 * sample.lag_s,
@@ -97,7 +97,7 @@ PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<M
         chart.panels.emplace_back(std::move(panel));
     }
     chart.columns = 2;
-    PageFigure figure = study.figure(
+    report::PageFigure figure = study.figure(
         chart, "fig-map",
         "From the linearised closed loop, the simulation's own stations differentiated at rest. "
         "Blue decays, orange grows, the thick line parts them. Points with numbers: the same "
@@ -109,8 +109,8 @@ PageFigure map_figure(const std::vector<StabilityMap>& maps, const std::vector<M
     return figure;
 }
 
-PageTable sample_table(const std::vector<MapPoint>& samples) {
-    PageTable table{
+report::PageTable sample_table(const std::vector<MapPoint>& samples) {
+    report::PageTable table{
         .id = "map-check",
         .title = "The map against whole flights",
         .columns = {"motors, ms", "pivot, m", "linearised, 1/s", "kicked flight, 1/s",
@@ -168,14 +168,15 @@ std::vector<Change> changes(const Study& study) {
     return all;
 }
 
-PageFigure change_figure(const std::vector<Change>& changes, const Study& study) {
-    ChartPanel traces{.title = "pitch after a kick",
-                      .x_label = "since the kick  [s]",
-                      .y_label = "pitch, less that without the kick  [deg]",
-                      .y_range = Range{-4.0, 4.0}};
-    ChartPanel bars{.title = "growth", .y_label = "growth  [1/s]", .y_range = Range{-0.8, 0.6}};
-    ChartSeries linear{.name = "linearised", .mark = ChartSeries::Mark::bars};
-    ChartSeries flown{.name = "kicked flight", .mark = ChartSeries::Mark::bars};
+report::PageFigure change_figure(const std::vector<Change>& changes, const Study& study) {
+    draw::ChartPanel traces{.title = "pitch after a kick",
+                            .x_label = "since the kick  [s]",
+                            .y_label = "pitch, less that without the kick  [deg]",
+                            .y_range = draw::Range{-4.0, 4.0}};
+    draw::ChartPanel bars{
+        .title = "growth", .y_label = "growth  [1/s]", .y_range = draw::Range{-0.8, 0.6}};
+    draw::ChartSeries linear{.name = "linearised", .mark = draw::ChartSeries::Mark::bars};
+    draw::ChartSeries flown{.name = "kicked flight", .mark = draw::ChartSeries::Mark::bars};
     for (const Change& change : changes) {
         if (change.traced) {
             traces.series.push_back(
@@ -201,20 +202,21 @@ PageFigure change_figure(const std::vector<Change>& changes, const Study& study)
         "Pitch after a kick for four cases, and growth rates");
 }
 
-PageTable change_table(const std::vector<Change>& changes) {
-    PageTable table{
+report::PageTable change_table(const std::vector<Change>& changes) {
+    report::PageTable table{
         .id = "cures",
         .title = "Growth and frequency",
         .columns = {"vehicle", "linearised, 1/s", "at, Hz", "kicked flight, 1/s", "at, Hz "}};
     const auto cell = [](double value) {
-        return std::isfinite(value) ? Quantity(value) : Quantity(std::string("no swing left"));
+        return std::isfinite(value) ? report::Quantity(value)
+                                    : report::Quantity(std::string("no swing left"));
     };
     for (const Change& change : changes) {
         const std::string none = "not linearised";
-        table.rows.push_back({change.name,
-                              change.linear ? cell(change.mode.growth_1_s) : Quantity(none),
-                              change.linear ? cell(change.mode.frequency_Hz) : Quantity(none),
-                              cell(change.kicked.growth_1_s), cell(change.kicked.frequency_Hz)});
+        table.rows.push_back(
+            {change.name, change.linear ? cell(change.mode.growth_1_s) : report::Quantity(none),
+             change.linear ? cell(change.mode.frequency_Hz) : report::Quantity(none),
+             cell(change.kicked.growth_1_s), cell(change.kicked.frequency_Hz)});
     }
     return table;
 }
@@ -258,11 +260,11 @@ const SwingMissions& of(const std::vector<MissionCase>& cases, std::string_view 
     return found->missions;
 }
 
-PageFigure mission_figure(const std::vector<MissionCase>& cases, const Study& study) {
-    ChartPanel panel{.x_label = "largest pitch while waiting for the release  [deg]",
-                     .y_label = "share of the missions below"};
+report::PageFigure mission_figure(const std::vector<MissionCase>& cases, const Study& study) {
+    draw::ChartPanel panel{.x_label = "largest pitch while waiting for the release  [deg]",
+                           .y_label = "share of the missions below"};
     for (const MissionCase& one : cases) {
-        ChartSeries series{.name = one.name, .mark = ChartSeries::Mark::steps};
+        draw::ChartSeries series{.name = one.name, .mark = draw::ChartSeries::Mark::steps};
         const std::vector<double>& sorted = one.missions.pitch_deg;
         series.x.push_back(sorted.empty() ? 0.0 : sorted.front());
         series.y.push_back(0.0);
@@ -273,8 +275,8 @@ PageFigure mission_figure(const std::vector<MissionCase>& cases, const Study& st
         panel.series.push_back(std::move(series));
     }
     panel.moments = {{.at = 5.0, .label = "paper: 5 deg"}};
-    panel.x_range = Range{0.0, 1.05 * of(cases, "metal").quantile(1.0)};
-    panel.y_range = Range{0.0, 1.02};
+    panel.x_range = draw::Range{0.0, 1.05 * of(cases, "metal").quantile(1.0)};
+    panel.y_range = draw::Range{0.0, 1.02};
     return study.figure({.title = "Whole missions", .panels = {panel}}, "fig-swing",
                         "Over seeds, with the sensors' noise; waiting ends after 16 s on metal. "
                         "The limit of 10 deg "
@@ -282,11 +284,11 @@ PageFigure mission_figure(const std::vector<MissionCase>& cases, const Study& st
                         "Distributions of the largest pitch while waiting, for four cases");
 }
 
-PageTable mission_table(const std::vector<MissionCase>& cases) {
-    PageTable table{.id = "swing-missions",
-                    .title = "Largest pitch while waiting",
-                    .columns = {"vehicle and wall", "missions", "perched", "5 %, deg",
-                                "median, deg", "95 %, deg"}};
+report::PageTable mission_table(const std::vector<MissionCase>& cases) {
+    report::PageTable table{.id = "swing-missions",
+                            .title = "Largest pitch while waiting",
+                            .columns = {"vehicle and wall", "missions", "perched", "5 %, deg",
+                                        "median, deg", "95 %, deg"}};
     for (const MissionCase& one : cases) {
         table.rows.push_back({std::string(one.name), static_cast<double>(one.missions.runs),
                               static_cast<double>(one.missions.attached),
@@ -297,7 +299,7 @@ PageTable mission_table(const std::vector<MissionCase>& cases) {
 }
 
 /// Take-offs of the slow vehicle, for Figs. 12 and 14.
-std::vector<PageFigure> slow_flights(Study& study) {
+std::vector<report::PageFigure> slow_flights(Study& study) {
     struct Order {
         FlightOrder flight;
         const char* id;
@@ -310,10 +312,10 @@ std::vector<PageFigure> slow_flights(Study& study) {
         {{.name = "slow_metal", .scenario = "slow_motors_metal"},
          "fig14-slow",
          "Fig. 14 again, with slow motors and air at the wall"}};
-    std::vector<PageFigure> figures;
+    std::vector<report::PageFigure> figures;
     for (const Order& order : orders) {
         const PaperFlight flight = fly_recorded(order.flight, study.folder / "flights");
-        (void)plot(flight.recording, study.folder / "flights" / flight.name);
+        (void)report::plot(flight.recording, study.folder / "flights" / flight.name);
         figures.push_back(study.flight_figure(
             flight.name, "take_off",
             {.id = order.id,
@@ -326,7 +328,7 @@ std::vector<PageFigure> slow_flights(Study& study) {
 }
 
 std::string candidate_text() {
-    const Airframe airframe = load_scenario(kSlow).airframe;
+    const vehicle::Airframe airframe = scenario::load_scenario(kSlow).airframe;
     const double arm_m = airframe.cup.joint_x_m;
     const double free_kg_m2 = airframe.inertia_kg_m2.y();
     return fmt::format(
@@ -381,7 +383,7 @@ void study_oscillation(Study& study) {
     const std::vector<MissionCase> cases = fly_missions(study);
     collect(cases, all_changes, study.evidence);
 
-    PageSection section{.id = "part-oscillation"};
+    report::PageSection section{.id = "part-oscillation"};
     section.blocks.emplace_back(
         "While the cup waits to release, the paper's vehicle swings in pitch and its simulation "
         "does not; on metal the swing grows past 5 deg within 16 s. The paper suspects "
@@ -394,7 +396,7 @@ void study_oscillation(Study& study) {
         "{:.1f} deg at most, the other by {:.1f} deg. With a valve it is away before the swing "
         "has grown: {:.1f} deg, median of the missions.",
         hover_tilt_deg(kSlow), hover_tilt_deg(kGazebo), of(cases, "valve").quantile(0.5)));
-    for (PageFigure& figure : slow_flights(study)) {
+    for (report::PageFigure& figure : slow_flights(study)) {
         section.blocks.emplace_back(std::move(figure));
     }
     section.blocks.emplace_back(map_figure(all_maps, flown, study));
@@ -416,4 +418,4 @@ StudyPart oscillation_part() {
              "swing.rate_p_growth_1_s"}};
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

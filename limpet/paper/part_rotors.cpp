@@ -3,51 +3,53 @@
 
 #include <array>
 
+#include "limpet/identification/rotor_bench.hpp"
 #include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
-#include "limpet/vehicle/rotor_bench.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 /// A vehicle's rotor, measured.
 struct Bench {
     TableOne paper = {};
-    RotorParameters used = {};
-    std::vector<ThrustStandRow> stand = {};
-    RotorConstants constants = {};
-    CrossWindResult tunnel = {};
+    vehicle::RotorParameters used = {};
+    std::vector<identification::ThrustStandRow> stand = {};
+    identification::RotorConstants constants = {};
+    identification::CrossWindResult tunnel = {};
 };
 
 constexpr double kAir_kg_m3 = 1.225;  ///< sea level; it cancels out of eqs. (3), (4)
 
 /// Weighs a rotor as the paper's source did, and takes eqs. (3), (4) of it.
 void weigh(Bench& bench) {
-    bench.used = load_vehicle(bench.paper.vehicle, data_root()).rotor;
+    bench.used = scenario::load_vehicle(bench.paper.vehicle, scenario::data_root()).rotor;
     const double highest_rpm = bench.used.speed_max_rad_s * 60.0 / (2.0 * kPi);
     std::vector<double> speeds_rpm;
     constexpr int kSpeeds = 12;
     for (int i = 3; i <= kSpeeds; ++i) {
         speeds_rpm.push_back(highest_rpm * i / kSpeeds);
     }
-    bench.stand = static_thrust_stand(bench.used, speeds_rpm);
-    std::vector<PropellerRow> rows;
-    for (const ThrustStandRow& row : bench.stand) {
+    bench.stand = identification::static_thrust_stand(bench.used, speeds_rpm);
+    std::vector<identification::PropellerRow> rows;
+    for (const identification::ThrustStandRow& row : bench.stand) {
         rows.push_back(row.coefficients);
     }
     bench.constants = fitted_constants(rows, 2.0 * bench.used.radius_m, kAir_kg_m3);
-    bench.tunnel = cross_wind_tunnel(bench.used, 0.7 * highest_rpm, {1.0, 2.0, 4.0, 8.0});
+    bench.tunnel =
+        identification::cross_wind_tunnel(bench.used, 0.7 * highest_rpm, {1.0, 2.0, 4.0, 8.0});
 }
 
-PageFigure thrust_figure(const std::array<Bench, 2>& benches, const Study& study) {
-    ChartPanel thrust{.x_label = "rotor speed  [rad/s]", .y_label = "thrust of one rotor  [N]"};
+report::PageFigure thrust_figure(const std::array<Bench, 2>& benches, const Study& study) {
+    draw::ChartPanel thrust{.x_label = "rotor speed  [rad/s]",
+                            .y_label = "thrust of one rotor  [N]"};
     for (const Bench& bench : benches) {
-        ChartSeries points{.name = std::string(bench.paper.vehicle) + ", weighed",
-                           .mark = ChartSeries::Mark::points};
-        ChartSeries curve{.name = std::string(bench.paper.vehicle) + ", paper's k_mot w²"};
-        for (const ThrustStandRow& row : bench.stand) {
+        draw::ChartSeries points{.name = std::string(bench.paper.vehicle) + ", weighed",
+                                 .mark = draw::ChartSeries::Mark::points};
+        draw::ChartSeries curve{.name = std::string(bench.paper.vehicle) + ", paper's k_mot w²"};
+        for (const identification::ThrustStandRow& row : bench.stand) {
             points.x.push_back(row.speed_rad_s);
             points.y.push_back(row.thrust_N);
         }
@@ -66,14 +68,14 @@ PageFigure thrust_figure(const std::array<Bench, 2>& benches, const Study& study
         "Thrust over rotor speed for both vehicles, points on the lines of Table I");
 }
 
-PageTable table_one(const std::array<Bench, 2>& benches) {
-    PageTable table{.id = "table1",
-                    .title = "Table I: used, and recovered from simulated measurements",
-                    .columns = {"quantity", "vehicle", "paper", "used", "recovered"},
-                    .caption =
-                        "k_mot and k_mom by eqs. (3), (4) from C_T and C_P of the static "
-                        "stand, as `limpet rotor` does from a UIUC file; lambda_1 from the "
-                        "drag in a cross wind."};
+report::PageTable table_one(const std::array<Bench, 2>& benches) {
+    report::PageTable table{.id = "table1",
+                            .title = "Table I: used, and recovered from simulated measurements",
+                            .columns = {"quantity", "vehicle", "paper", "used", "recovered"},
+                            .caption =
+                                "k_mot and k_mom by eqs. (3), (4) from C_T and C_P of the static "
+                                "stand, as `limpet rotor` does from a UIUC file; lambda_1 from the "
+                                "drag in a cross wind."};
     const auto text = [](double value) { return fmt::format("{:.3g}", value); };
     for (const Bench& bench : benches) {
         const std::string vehicle = bench.paper.vehicle;
@@ -101,7 +103,7 @@ void study_rotors(Study& study) {
         study.evidence.set(key + ".moment_constant_m", bench.constants.moment_constant_m);
         study.evidence.set(key + ".drag_constant_kg", bench.tunnel.drag_constant_kg);
     }
-    PageSection section{.id = "part-rotors"};
+    report::PageSection section{.id = "part-rotors"};
     section.blocks.emplace_back(
         "The rotor model's constants, measured on the model as it flies: a static thrust stand and "
         "a cross wind.");
@@ -123,4 +125,4 @@ StudyPart rotors_part() {
     return part;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

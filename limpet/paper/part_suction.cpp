@@ -6,38 +6,40 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/identification/identification.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/suction/identification.hpp"
 #include "limpet/suction/pneumatics.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 /// One surface of Fig. 2 on the press rig, and what the log tells.
 struct Press {
     std::string name;  ///< of the surface, for people
     std::string flight;
-    Surface surface = {};
-    PressureTrace trace = {};
-    PressureFit fit = {};
-    PressureFit pneumatic = {};  ///< of the same experiment with the pneumatic model
+    suction::Surface surface = {};
+    identification::PressureTrace trace = {};
+    identification::PressureFit fit = {};
+    identification::PressureFit pneumatic =
+        {};  ///< of the same experiment with the pneumatic model
 };
 
 /// What the vehicle's sensor said, with its noise.
-PressureTrace trace_of(const Recording& recording) {
-    const Table* table = find_table(recording, "/sensors/cup_pressure");
-    const Column* pressure = table == nullptr ? nullptr : table->find("fluid_pressure");
+identification::PressureTrace trace_of(const record::Recording& recording) {
+    const record::Table* table = find_table(recording, "/sensors/cup_pressure");
+    const record::Column* pressure = table == nullptr ? nullptr : table->find("fluid_pressure");
     require(pressure != nullptr, "a cup pressure in the recording");
     return {.t_s = table->time_s, .pressure_Pa = pressure->values};
 }
 
 /// The pneumatic model's leak depends on the clamping; Table II was fitted at 20 N (0008).
-const std::vector<std::string> kPneumatic = {"suction.pressure_model=pneumatic", "press_rig.press_N=20",
+const std::vector<std::string> kPneumatic = {"suction.pressure_model=pneumatic",
+                                             "press_rig.press_N=20",
                                              "wall.surface.seal_threshold_median_N=10"};
 
 Press fly_press(const TableTwo& column, const Study& study) {
@@ -45,7 +47,7 @@ Press fly_press(const TableTwo& column, const Study& study) {
     Press result{.name = column.name, .flight = scenario};
     const PaperFlight flight =
         fly_recorded({.name = scenario, .scenario = scenario}, study.folder / "flights");
-    result.surface = load_scenario(scenario).wall.surface;
+    result.surface = scenario::load_scenario(scenario).wall.surface;
     result.trace = trace_of(flight.recording);
     result.fit = identify_pressure(result.trace);
     const std::string other = scenario + "_pneumatic";
@@ -56,16 +58,16 @@ Press fly_press(const TableTwo& column, const Study& study) {
 }
 
 /// P_vac below the log's own atmosphere, so that the sensor's offset does not count.
-std::optional<Fitted> true_vacuum_Pa(const PressureFit& fit) {
+std::optional<identification::Fitted> true_vacuum_Pa(const identification::PressureFit& fit) {
     if (!fit.vacuum_Pa || !fit.atmosphere_Pa) {
         return fit.vacuum_Pa;
     }
-    return Fitted{
+    return identification::Fitted{
         .value = kAtmosphere_Pa - (fit.atmosphere_Pa->value - fit.vacuum_Pa->value),
         .half_width = std::hypot(fit.vacuum_Pa->half_width, fit.atmosphere_Pa->half_width)};
 }
 
-double value_or_nan(const std::optional<Fitted>& fitted) {
+double value_or_nan(const std::optional<identification::Fitted>& fitted) {
     return fitted ? fitted->value : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -98,16 +100,16 @@ void collect(const std::vector<Press>& presses, Evidence& evidence) {
         value_or_nan(presses[1].fit.sealing_time_s) - value_or_nan(presses[0].fit.sealing_time_s));
 }
 
-PageFigure pressure_figure(const std::vector<Press>& presses, const Study& study) {
-    Chart chart{.title = "Fig. 2: pressure in the pressed cup",
-                .subtitle = "sensor on the simulated press rig, and the fit of eq. (5)",
-                .columns = 2};
+report::PageFigure pressure_figure(const std::vector<Press>& presses, const Study& study) {
+    draw::Chart chart{.title = "Fig. 2: pressure in the pressed cup",
+                      .subtitle = "sensor on the simulated press rig, and the fit of eq. (5)",
+                      .columns = 2};
     for (const Press& press : presses) {
         const double begin_s = value_or_nan(press.fit.sealing_begins_s);
-        ChartSeries sensor{
-            .name = "sensor", .mark = ChartSeries::Mark::points, .colour = "#9DB8CC"};
-        ChartSeries curve{
-            .name = "fit of eq. (5)", .mark = ChartSeries::Mark::dashes, .colour = "#D98E04"};
+        draw::ChartSeries sensor{
+            .name = "sensor", .mark = draw::ChartSeries::Mark::points, .colour = "#9DB8CC"};
+        draw::ChartSeries curve{
+            .name = "fit of eq. (5)", .mark = draw::ChartSeries::Mark::dashes, .colour = "#D98E04"};
         constexpr double kBefore_s = 0.2, kShown_s = 2.5;
         for (std::size_t i = 0; i < press.trace.t_s.size(); ++i) {
             const double since_s = press.trace.t_s[i] - begin_s;
@@ -119,15 +121,15 @@ PageFigure pressure_figure(const std::vector<Press>& presses, const Study& study
                     hectopascals(mean_pressure_Pa(press.fit.curve, press.trace.t_s[i])));
             }
         }
-        ChartPanel panel{.title = press.name,
-                         .x_label = "since sealing began  [s]",
-                         .y_label = "pressure  [hPa]",
-                         .series = {sensor, curve},
-                         .y_range = Range{200.0, 1060.0},
-                         .height_px = 260.0};
+        draw::ChartPanel panel{.title = press.name,
+                               .x_label = "since sealing began  [s]",
+                               .y_label = "pressure  [hPa]",
+                               .series = {sensor, curve},
+                               .y_range = draw::Range{200.0, 1060.0},
+                               .height_px = 260.0};
         chart.panels.emplace_back(std::move(panel));
     }
-    PageFigure figure = study.figure(
+    report::PageFigure figure = study.figure(
         chart, "fig2",
         "The vehicle clamped and pressed on four surfaces, pump on, as the paper's bench test. "
         "Dots "
@@ -137,14 +139,14 @@ PageFigure pressure_figure(const std::vector<Press>& presses, const Study& study
     return figure;
 }
 
-std::string with_interval(const std::optional<Fitted>& fitted, double scale) {
+std::string with_interval(const std::optional<identification::Fitted>& fitted, double scale) {
     return fitted
                ? fmt::format("{:.4g} ± {:.2g}", scale * fitted->value, scale * fitted->half_width)
                : "not found";
 }
 
-PageTable table_two(const std::vector<Press>& presses) {
-    PageTable table{
+report::PageTable table_two(const std::vector<Press>& presses) {
+    report::PageTable table{
         .id = "table2",
         .title = "Table II: used, and recovered from the simulated logs",
         .columns = {"surface", "quantity", "paper", "used", "recovered (95 %)", "pneumatic model"},
@@ -160,7 +162,7 @@ PageTable table_two(const std::vector<Press>& presses) {
     for (std::size_t i = 0; i < presses.size(); ++i) {
         const Press& press = presses[i];
         const TableTwo& paper = kTableTwo[i];
-        const Surface& used = press.surface;
+        const suction::Surface& used = press.surface;
         table.rows.push_back({press.name, std::string("P_vac, hPa"),
                               fmt::format("{:g}", paper.vacuum_hPa),
                               hectopascals(used.vacuum_pressure_Pa),
@@ -179,7 +181,8 @@ PageTable table_two(const std::vector<Press>& presses) {
 }
 
 /// Steady pressure of each cup that shares a pump, or of one alone.
-std::vector<double> steady_hPa(const PneumaticParameters& pump, const std::vector<CupAir>& cups) {
+std::vector<double> steady_hPa(const suction::PneumaticParameters& pump,
+                               const std::vector<suction::CupAir>& cups) {
     constexpr double kLong_s = 20.0;
     std::vector<double> pressures_Pa(cups.size(), kAtmosphere_Pa);
     advance_network(pump_of(pump, true), cups, pressures_Pa, kLong_s);
@@ -190,12 +193,12 @@ std::vector<double> steady_hPa(const PneumaticParameters& pump, const std::vecto
 }
 
 /// What the pneumatic model predicts where eqs. (5), (6) have nothing to say.
-PageTable beyond_the_exponential() {
-    const Scenario scenario = load_scenario("press_concrete");
+report::PageTable beyond_the_exponential() {
+    const scenario::Scenario scenario = scenario::load_scenario("press_concrete");
     const double radius_m = scenario.cup.lip.radius_m;
     constexpr double kPress_N = 20.0;
-    PneumaticParameters parameters = scenario.cup.pressure;
-    PageTable table{
+    suction::PneumaticParameters parameters = scenario.cup.pressure;
+    report::PageTable table{
         .id = "pneumatic-predictions",
         .title = "What eqs. (5) and (6) cannot tell: porous concrete",
         .columns = {"seal", "steady pressure, hPa", "of the second cup, hPa"},
@@ -233,7 +236,7 @@ void study_suction(Study& study) {
                    [&](std::size_t i) { presses[i] = fly_press(kTableTwo[i], study); });
     collect(presses, study.evidence);
 
-    PageSection section{.id = "part-suction"};
+    report::PageSection section{.id = "part-suction"};
     section.blocks.emplace_back(
         "The cup is pressed on each surface by a rig, the pump runs until the pressure is steady, "
         "then stops.");
@@ -264,4 +267,4 @@ StudyPart suction_part() {
     return part;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -10,24 +10,24 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/study.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 constexpr const char* kSpeedKey = "pendulum.impact_speed_m_s";
 
 /// Flies a campaign of the data anew into campaigns/NAME/results.sqlite.
-CampaignSummary fly_trials(const char* name, const Study& study) {
-    const Campaign campaign = load_campaign(name);
+campaign::CampaignSummary fly_trials(const char* name, const Study& study) {
+    const campaign::Campaign campaign = campaign::load_campaign(name);
     const std::filesystem::path folder = study.folder / "campaigns" / campaign.name;
-    std::filesystem::remove(Results::file_of(folder));
+    std::filesystem::remove(campaign::Results::file_of(folder));
     std::filesystem::create_directories(folder);
-    Results results = begin_results(campaign, folder, false);
+    campaign::Results results = begin_results(campaign, folder, false);
     run_campaign(results, study.jobs);
     return summarise(results);
 }
 
-const KeySummary& by_speed(const CampaignSummary& summary) {
-    for (const KeySummary& key : summary.keys) {
+const campaign::KeySummary& by_speed(const campaign::CampaignSummary& summary) {
+    for (const campaign::KeySummary& key : summary.keys) {
         if (key.key == kSpeedKey) {
             return key;
         }
@@ -36,7 +36,7 @@ const KeySummary& by_speed(const CampaignSummary& summary) {
 }
 
 /// Share that attaches of the groups first..last.
-double share(const std::vector<Group>& groups, std::size_t first, std::size_t last) {
+double share(const std::vector<campaign::Group>& groups, std::size_t first, std::size_t last) {
     double successes = 0.0, runs = 0.0;
     for (std::size_t i = first; i <= last; ++i) {
         successes += groups[i].proportion.successes;
@@ -47,7 +47,7 @@ double share(const std::vector<Group>& groups, std::size_t first, std::size_t la
 
 /// By how much the last three speeds, 1.0 to 1.2 m/s, attach more often than any three neighbours
 /// below 1 m/s.
-double best_margin(const std::vector<Group>& groups) {
+double best_margin(const std::vector<campaign::Group>& groups) {
     constexpr double kPaperBest_m_s = 1.0;
     const std::size_t n = groups.size();
     require(n >= 6 && std::abs(groups[n - 3].middle() - kPaperBest_m_s) < 1e-6,
@@ -60,9 +60,9 @@ double best_margin(const std::vector<Group>& groups) {
 }
 
 /// Share of the failures whose reason is the force.
-double failed_for_force(const CampaignSummary& summary) {
+double failed_for_force(const campaign::CampaignSummary& summary) {
     double force = 0.0, all = 0.0;
-    for (const EndingCount& failure : summary.failures) {
+    for (const campaign::EndingCount& failure : summary.failures) {
         all += failure.proportion.successes;
         force += failure.reason.find("not enough force") != std::string::npos
                      ? failure.proportion.successes
@@ -71,18 +71,21 @@ double failed_for_force(const CampaignSummary& summary) {
     return force / all;
 }
 
-int mixed(const std::vector<Group>& groups) {
-    return static_cast<int>(std::count_if(groups.begin(), groups.end(), [](const Group& group) {
-        return group.proportion.successes > 0 && group.proportion.successes < group.proportion.runs;
-    }));
+int mixed(const std::vector<campaign::Group>& groups) {
+    return static_cast<int>(
+        std::count_if(groups.begin(), groups.end(), [](const campaign::Group& group) {
+            return group.proportion.successes > 0 &&
+                   group.proportion.successes < group.proportion.runs;
+        }));
 }
 
-void collect(const CampaignSummary& trials, const CampaignSummary& alike, Evidence& evidence) {
-    const std::vector<Group>& groups = by_speed(trials).groups;
+void collect(const campaign::CampaignSummary& trials, const campaign::CampaignSummary& alike,
+             Evidence& evidence) {
+    const std::vector<campaign::Group>& groups = by_speed(trials).groups;
     evidence.set("fig3.runs", trials.finished);
     constexpr double kPaperLeast_m_s = 0.4;
     double successes = 0.0, runs = 0.0;
-    for (const Group& group : groups) {
+    for (const campaign::Group& group : groups) {
         if (group.middle() < kPaperLeast_m_s - 1e-9) {
             successes += group.proportion.successes;
             runs += group.proportion.runs;
@@ -94,26 +97,26 @@ void collect(const CampaignSummary& trials, const CampaignSummary& alike, Eviden
     evidence.set("fig3.mixed_speeds_less", mixed(groups) - mixed(by_speed(alike).groups));
 }
 
-PageFigure trials_figure(const CampaignSummary& summary, const Study& study) {
-    const KeySummary& key = by_speed(summary);
-    ChartSeries points{.name = "simulated trials, 95 % Wilson intervals",
-                       .mark = ChartSeries::Mark::points};
-    for (const Group& group : key.groups) {
-        const Interval interval = group.proportion.interval();
+report::PageFigure trials_figure(const campaign::CampaignSummary& summary, const Study& study) {
+    const campaign::KeySummary& key = by_speed(summary);
+    draw::ChartSeries points{.name = "simulated trials, 95 % Wilson intervals",
+                             .mark = draw::ChartSeries::Mark::points};
+    for (const campaign::Group& group : key.groups) {
+        const campaign::Interval interval = group.proportion.interval();
         points.x.push_back(group.middle());
         points.y.push_back(group.proportion.probability());
         points.low.push_back(interval.low);
         points.high.push_back(interval.high);
     }
-    ChartPanel panel{.x_label = "impact speed  [m/s]",
-                     .y_label = "share that attaches",
-                     .series = {points},
-                     .moments = {{.at = 0.4, .label = "paper: none below"},
-                                 {.at = 1.0, .label = "best"},
-                                 {.at = 1.2, .label = ""}},
-                     .y_range = Range{0.0, 1.05}};
+    draw::ChartPanel panel{.x_label = "impact speed  [m/s]",
+                           .y_label = "share that attaches",
+                           .series = {points},
+                           .moments = {{.at = 0.4, .label = "paper: none below"},
+                                       {.at = 1.0, .label = "best"},
+                                       {.at = 1.2, .label = ""}},
+                           .y_range = draw::Range{0.0, 1.05}};
     if (key.fit) {
-        ChartSeries curve{.name = "logistic fit"};
+        draw::ChartSeries curve{.name = "logistic fit"};
         const double from = key.groups.front().low, to = key.groups.back().high;
         constexpr int kPoints = 120;
         for (int i = 0; i <= kPoints; ++i) {
@@ -134,11 +137,11 @@ PageFigure trials_figure(const CampaignSummary& summary, const Study& study) {
         "Share of simulated trials that attach, with intervals, over impact speed, and its fit");
 }
 
-PageTable failure_table(const CampaignSummary& summary) {
-    PageTable table{.id = "fig3-failures",
-                    .title = "Why trials failed",
-                    .columns = {"reason", "trials", "share"}};
-    for (const EndingCount& failure : summary.failures) {
+report::PageTable failure_table(const campaign::CampaignSummary& summary) {
+    report::PageTable table{.id = "fig3-failures",
+                            .title = "Why trials failed",
+                            .columns = {"reason", "trials", "share"}};
+    for (const campaign::EndingCount& failure : summary.failures) {
         table.rows.push_back({failure.reason.empty() ? failure.outcome : failure.reason,
                               static_cast<double>(failure.proportion.successes),
                               failure.proportion.probability()});
@@ -148,10 +151,10 @@ PageTable failure_table(const CampaignSummary& summary) {
 
 void study_trials(Study& study) {
     study.say("pendulum trials");
-    const CampaignSummary trials = fly_trials("fig3", study);
-    const CampaignSummary alike = fly_trials("fig3_without_spread", study);
+    const campaign::CampaignSummary trials = fly_trials("fig3", study);
+    const campaign::CampaignSummary alike = fly_trials("fig3_without_spread", study);
     collect(trials, alike, study.evidence);
-    PageSection section{.id = "part-trials"};
+    report::PageSection section{.id = "part-trials"};
     section.blocks.emplace_back(
         "Each trial is a simulated swing: ropes of 5 m, motors off, pump on, a seal threshold and "
         "a "
@@ -173,4 +176,4 @@ StudyPart trials_part() {
              "fig3.failed_for_force_share", "fig3.mixed_speeds_less"}};
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -14,7 +14,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 std::vector<StudyPart> wanted(const std::string& only) {
@@ -42,11 +42,11 @@ void require_ours(const std::filesystem::path& folder) {
     }
 }
 
-std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
+std::set<std::string> figure_ids(const std::vector<report::PageSection>& sections) {
     std::set<std::string> ids;
-    for (const PageSection& section : sections) {
-        for (const PageBlock& block : section.blocks) {
-            if (const auto* figure = std::get_if<PageFigure>(&block)) {
+    for (const report::PageSection& section : sections) {
+        for (const report::PageBlock& block : section.blocks) {
+            if (const auto* figure = std::get_if<report::PageFigure>(&block)) {
                 ids.insert(figure->id);
             }
         }
@@ -55,15 +55,15 @@ std::set<std::string> figure_ids(const std::vector<PageSection>& sections) {
 }
 
 /// All of them; of a part alone those that it has evidence for.
-std::vector<Claim> judged(const std::vector<PaperStatement>& statements, const Study& study,
-                          bool all) {
+std::vector<report::Claim> judged(const std::vector<PaperStatement>& statements, const Study& study,
+                                  bool all) {
     const std::set<std::string> figures = figure_ids(study.sections);
-    std::vector<Claim> claims;
+    std::vector<report::Claim> claims;
     for (const PaperStatement& statement : statements) {
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
-        Claim claim = judge(statement, study.evidence);
+        report::Claim claim = judge(statement, study.evidence);
         if (figures.count(claim.figure) == 0) {
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
             claim.figure.clear();
@@ -77,9 +77,9 @@ std::vector<Claim> judged(const std::vector<PaperStatement>& statements, const S
     return claims;
 }
 
-std::ptrdiff_t with_basis(const std::vector<Claim>& claims, const std::string& basis) {
-    return std::count_if(claims.begin(), claims.end(), [&](const Claim& claim) {
-        return claim.verdict == Verdict::reproduced && claim.basis == basis;
+std::ptrdiff_t with_basis(const std::vector<report::Claim>& claims, const std::string& basis) {
+    return std::count_if(claims.begin(), claims.end(), [&](const report::Claim& claim) {
+        return claim.verdict == report::Verdict::reproduced && claim.basis == basis;
     });
 }
 
@@ -88,8 +88,9 @@ std::vector<std::string> summary_of(const Reproduction& result) {
         fmt::format("**{} of the paper's statements are reproduced, {} differ, {} are not "
                     "modelled.** Each verdict is computed from the simulation: the measured "
                     "value lies within the accepted range or it does not.",
-                    result.count(Verdict::reproduced), result.count(Verdict::differs),
-                    result.count(Verdict::not_modelled)),
+                    result.count(report::Verdict::reproduced),
+                    result.count(report::Verdict::differs),
+                    result.count(report::Verdict::not_modelled)),
         fmt::format("Of those reproduced, {} are numbers of the paper that the simulation was set "
                     "to (as set), {} were recovered by measuring what was set so, {} are made true "
                     "by the method itself, and {} came out (measured).",
@@ -103,10 +104,10 @@ std::vector<std::string> summary_of(const Reproduction& result) {
 
 }  // namespace
 
-std::size_t Reproduction::count(Verdict verdict) const {
+std::size_t Reproduction::count(report::Verdict verdict) const {
     return static_cast<std::size_t>(
         std::count_if(page.claims.begin(), page.claims.end(),
-                      [&](const Claim& claim) { return claim.verdict == verdict; }));
+                      [&](const report::Claim& claim) { return claim.verdict == verdict; }));
 }
 
 std::vector<std::pair<std::string, std::string>> part_titles() {
@@ -118,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> part_titles() {
 }
 
 std::filesystem::path statements_file() {
-    return data_root() / "paper" / "statements.yaml";
+    return scenario::data_root() / "paper" / "statements.yaml";
 }
 
 std::vector<std::string> measured_names() {
@@ -134,7 +135,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
     const std::vector<PaperStatement> statements =
         load_statements(statements_file(), measured_names());
     require_ours(options.folder);
-    const FolderLock lock(options.folder);
+    const campaign::FolderLock lock(options.folder);
     Study study;
     study.stop = watch.stop;
     study.folder = options.folder;
@@ -153,25 +154,27 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
         study.sections.back().title = chosen[i].title;
     }
     Reproduction result;
-    Page& page = result.page;
+    report::Page& page = result.page;
     page.title = "Perching with a suction cup, reproduced";
     page.subtitle =
         "Simulation and Experimental Validation of an Autonomous Perching and Takeoff Method for a "
         "Multirotor UAV on Vertical Surfaces using a Suction Cup: every table, figure and claim";
     page.claims = judged(statements, study, options.only.empty());
     page.summary = summary_of(result);
-    page.sections.push_back(
-        {.id = "claims", .title = "What the paper says, line by line", .blocks = {ClaimTable{}}});
-    for (PageSection& section : study.sections) {
+    page.sections.push_back({.id = "claims",
+                             .title = "What the paper says, line by line",
+                             .blocks = {report::ClaimTable{}}});
+    for (report::PageSection& section : study.sections) {
         page.sections.push_back(std::move(section));
     }
-    page.environment = {{"version", std::string(kVersion)},
-                        {"seed", static_cast<double>(load_scenario("perch_concrete").seed)},
-                        {"mode", std::string(options.quick ? "quick" : "full")},
-                        {"compiler", std::string(__VERSION__)},
-                        {"command", options.command}};
+    page.environment = {
+        {"version", std::string(kVersion)},
+        {"seed", static_cast<double>(scenario::load_scenario("perch_concrete").seed)},
+        {"mode", std::string(options.quick ? "quick" : "full")},
+        {"compiler", std::string(__VERSION__)},
+        {"command", options.command}};
     result.files = write_page(page, options.folder);
     return result;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -10,7 +10,7 @@
 #include "limpet/core/interrupted.hpp"
 #include "limpet/report/page.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
 struct ReproduceOptions {
     std::filesystem::path folder;
@@ -30,9 +30,9 @@ struct ReproduceWatch {
 };
 
 struct Reproduction {
-    Page page;
+    report::Page page;
     std::vector<std::filesystem::path> files;  ///< index.html, results.json
-    [[nodiscard]] std::size_t count(Verdict verdict) const;
+    [[nodiscard]] std::size_t count(report::Verdict verdict) const;
 };
 
 /// Names of the parts that `only` takes, with their titles.
@@ -49,4 +49,4 @@ struct Reproduction {
 /// a missing gnuplot
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch = {});
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/models/links.hpp"
+#include "limpet/models/model_writer.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/plant/engines.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
-#include "limpet/vehicle/links.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 struct Wall {
@@ -26,7 +26,7 @@ constexpr std::array<Wall, 4> kWalls = {{{"porous concrete", "perch_concrete"},
                                          {"metal", "perch_metal"}}};
 
 /// Pitch at which cup and leg tips meet a vertical wall, the lip flat on it.
-double pitch_on_legs_rad(const Airframe& airframe) {
+double pitch_on_legs_rad(const vehicle::Airframe& airframe) {
     // In the vehicle's plane: the tip's surface is `lip` beyond the joint's distance to the wall.
     const double ahead_m = airframe.cup.joint_x_m - airframe.legs.tip_x_m;
     const double below_m = airframe.legs.tip_z_m - airframe.cup.joint_z_m;
@@ -37,17 +37,18 @@ double pitch_on_legs_rad(const Airframe& airframe) {
 
 /// A thrown, tumbling rigid vehicle against gravity and the conservation of spin and energy.
 double free_body_error() {
-    const Airframe airframe = load_scenario("hover", {.overrides = {"vehicle=iris"}}).airframe;
-    Scene scene;
+    const vehicle::Airframe airframe =
+        scenario::load_scenario("hover", {.overrides = {"vehicle=iris"}}).airframe;
+    models::Scene scene;
     scene.wall.present = false;
     scene.ground_z_W_m = 100.0;
-    const std::unique_ptr<Plant> made = kMujocoEngine.make(airframe, scene)->make();
-    Plant& plant = *made;
+    const std::unique_ptr<plant::Plant> made = plant::kMujocoEngine.make(airframe, scene)->make();
+    plant::Plant& plant = *made;
     const Vector3 v0(1.0, -0.5, -2.0), w0(3.0, 2.0, -1.0);
     plant.set_pose(Vector3::Zero(), Quaternion::Identity(), v0, w0);
     const Matrix3 inertia = airframe.inertia_kg_m2.asDiagonal();
     const auto spin = [&] {
-        const Kinematics base = plant.kinematics(Body::base);
+        const Kinematics base = plant.kinematics(plant::Body::base);
         return Vector3(base.q_WF * (inertia * base.w_WF_F_rad_s));
     };
     const Vector3 spin_before = spin();
@@ -55,7 +56,7 @@ double free_body_error() {
     for (int k = 0; k < static_cast<int>(std::lround(kTime_s / kStep_s)); ++k) {
         plant.step({.step_s = kStep_s, .contacts = false});
     }
-    const Kinematics end = plant.kinematics(Body::base);
+    const Kinematics end = plant.kinematics(plant::Body::base);
     const Vector3 fallen =
         v0 * kTime_s + 0.5 * kTime_s * kTime_s * Vector3(0.0, 0.0, kGravity_m_s2);
     const double energy = 0.5 * w0.dot(inertia * w0);
@@ -72,10 +73,10 @@ enum class Direction {
 };
 
 /// Moves a sealed cup until it lets go.
-CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction direction) {
+CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, Direction direction) {
     constexpr double kStep_s = 1e-3, kSpeed_m_s = 2e-3, kTurn_rad_s = 0.02, kLongest_s = 60.0;
-    const CupModel model{.parameters = scenario.cup, .wall = scenario.wall.geometry};
-    CupState state;
+    const suction::CupModel model{.parameters = scenario.cup, .wall = scenario.wall.geometry};
+    suction::CupState state;
     state.status.phase = CupPhase::attached;
     state.touches = 1;
     Kinematics cup{.p_WF_m = model.wall.p_WT_m, .q_WF = Quaternion(model.wall.R_WT)};
@@ -88,8 +89,9 @@ CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction dire
     for (double time_s = 0.0; time_s < kLongest_s; time_s += kStep_s) {
         state.mean_pressure_Pa = pressure_Pa;
         const CupStatus before = state.status;
-        const CupOutput output = step(model, state, scenario.wall.surface, cup,
-                                      {.time_s = time_s, .press_N = 0.0, .pump_on = true}, kStep_s);
+        const suction::CupOutput output =
+            step(model, state, scenario.wall.surface, cup,
+                 {.time_s = time_s, .press_N = 0.0, .pump_on = true}, kStep_s);
         if (output.event && output.event->name == EventName::contact_lost) {
             return before;
         }
@@ -100,7 +102,7 @@ CupStatus last_hold(const Scenario& scenario, double pressure_Pa, Direction dire
     throw InternalError("a cup that nothing breaks off");
 }
 
-BreakOff break_off(const char* surface, const Scenario& scenario, double pressure_Pa) {
+BreakOff break_off(const char* surface, const scenario::Scenario& scenario, double pressure_Pa) {
     BreakOff load{.surface = surface,
                   .pressure_Pa = pressure_Pa,
                   .pull_N = last_hold(scenario, pressure_Pa, Direction::away).pull_N,
@@ -110,13 +112,13 @@ BreakOff break_off(const char* surface, const Scenario& scenario, double pressur
     return load;
 }
 
-double battery_Wh(const Airframe& airframe) {
+double battery_Wh(const vehicle::Airframe& airframe) {
     constexpr double kCell_V = 3.7;  // nominal
     return airframe.battery.cells * airframe.battery.capacity_Ah * kCell_V;
 }
 
 EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
-                    const Airframe& airframe) {
+                    const vehicle::Airframe& airframe) {
     const double power_W = energy_Wh * 3600.0 / time_s;
     EnergyUse use;
     use.what = what;
@@ -128,8 +130,8 @@ EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
 }  // namespace
 
 void measure_vehicle(Evidence& evidence) {
-    const Scenario scenario = load_scenario("perch_concrete");
-    const Airframe& airframe = scenario.airframe;
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
+    const vehicle::Airframe& airframe = scenario.airframe;
     evidence.set("vehicle.mass_kg", airframe.mass_kg);
     evidence.set("vehicle.wheelbase_m", (airframe.rotor_p_B_m[0] - airframe.rotor_p_B_m[1]).norm());
     constexpr double kInch_m = 0.0254;
@@ -139,11 +141,12 @@ void measure_vehicle(Evidence& evidence) {
     evidence.set("vehicle.pump_x_m", airframe.pump_B_m.x());
     evidence.set("vehicle.lidar_rate_Hz", scenario.sensors.lidar_rate_Hz);
     evidence.set("vehicle.lidar_x_m", airframe.lidar_x_m);
-    const std::vector<Link> links = make_links(airframe);
-    evidence.set("vehicle.cup_joint_freedoms",
-                 static_cast<double>(std::count_if(links.begin(), links.end(), [](const Link& l) {
-                     return l.joint && l.joint->kind == Joint::Kind::revolute;
-                 })));
+    const std::vector<models::Link> links = models::make_links(airframe);
+    evidence.set(
+        "vehicle.cup_joint_freedoms",
+        static_cast<double>(std::count_if(links.begin(), links.end(), [](const models::Link& l) {
+            return l.joint && l.joint->kind == models::Joint::Kind::revolute;
+        })));
     evidence.set("vehicle.pitch_on_legs_deg", degrees(pitch_on_legs_rad(airframe)));
     evidence.set("free_body.relative_error", free_body_error());
     evidence.set(
@@ -154,7 +157,7 @@ void measure_vehicle(Evidence& evidence) {
 std::vector<BreakOff> break_off_loads() {
     std::vector<BreakOff> loads;
     for (const Wall& wall : kWalls) {
-        const Scenario scenario = load_scenario(wall.scenario);
+        const scenario::Scenario scenario = scenario::load_scenario(wall.scenario);
         for (const double pressure_Pa :
              {scenario.wall.surface.vacuum_pressure_Pa, scenario.guidance.land_pressure_Pa}) {
             loads.push_back(break_off(wall.surface, scenario, pressure_Pa));
@@ -165,15 +168,16 @@ std::vector<BreakOff> break_off_loads() {
 
 std::vector<EnergyUse> energy_use(Evidence& evidence) {
     std::vector<EnergyUse> uses;
-    const Scenario hover = load_scenario("hover", {.overrides = {"vehicle=perching_uav"}});
-    const FlightResult hovered = fly(build_model(hover));
+    const scenario::Scenario hover =
+        scenario::load_scenario("hover", {.overrides = {"vehicle=perching_uav"}});
+    const simulation::FlightResult hovered = simulation::fly(simulation::build_model(hover));
     uses.push_back(energy_of("hovering", hovered.metrics.energy_flying_Wh,
                              hovered.performance.simulated_s, hover.airframe));
     for (const Wall& wall : kWalls) {
         constexpr double kRest_s = 60.0;
-        const Scenario scenario =
-            load_scenario(wall.scenario, {.overrides = {"mission=perch", "guidance.rest_s=60"}});
-        const FlightResult rested = fly(build_model(scenario));
+        const scenario::Scenario scenario = scenario::load_scenario(
+            wall.scenario, {.overrides = {"mission=perch", "guidance.rest_s=60"}});
+        const simulation::FlightResult rested = simulation::fly(simulation::build_model(scenario));
         uses.push_back(energy_of(std::string("perched on ") + wall.surface,
                                  rested.metrics.energy_perched_Wh, kRest_s, scenario.airframe));
         uses.back().getting_there_Wh = rested.metrics.energy_flying_Wh;
@@ -187,11 +191,12 @@ std::vector<ReleaseTime> release_times(int jobs) {
     for_each_index(2 * kWalls.size(), jobs, [&](std::size_t i) {
         const Wall& wall = kWalls[i / 2];
         const bool valve = i % 2 == 1;
-        const FlightResult result = fly(build_model(load_scenario(
-            wall.scenario,
-            {.overrides = {"guidance.rest_s=1", "guidance.release_limit_s=600",
-                           "guidance.stuck_s=60",
-                           valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0"}})));
+        const simulation::FlightResult result =
+            simulation::fly(simulation::build_model(scenario::load_scenario(
+                wall.scenario,
+                {.overrides = {"guidance.rest_s=1", "guidance.release_limit_s=600",
+                               "guidance.stuck_s=60",
+                               valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0"}})));
         times[i / 2].surface = wall.surface;
         (valve ? times[i / 2].with_valve_s : times[i / 2].without_valve_s) =
             result.metrics.release_s;
@@ -199,4 +204,4 @@ std::vector<ReleaseTime> release_times(int jobs) {
     return times;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -7,7 +7,7 @@
 #include "limpet/paper/evidence.hpp"
 
 /// Small experiments on parts of the simulation, each on the code that flies.
-namespace limpet {
+namespace limpet::paper {
 
 /// What the vehicle's file says, and how bodies move without forces.
 void measure_vehicle(Evidence& evidence);
@@ -45,4 +45,4 @@ struct ReleaseTime {
 /// Whole flights with all the time in the world, on each surface.
 [[nodiscard]] std::vector<ReleaseTime> release_times(int jobs);
 
-}  // namespace limpet
+}  // namespace limpet::paper

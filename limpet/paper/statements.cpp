@@ -8,18 +8,18 @@
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
-const YamlNode& wanted(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
+const scenario::YamlNode& wanted(const scenario::YamlNode& map, std::string_view key) {
+    const scenario::YamlNode* node = map.find(key);
     if (node == nullptr) {
         fail(map, fmt::format("has no {}", key));
     }
     return *node;
 }
 
-double number(const YamlNode& node) {
+double number(const scenario::YamlNode& node) {
     const std::optional<double> value = number_in(node);
     if (!value) {
         fail(node, "must be a number");
@@ -27,47 +27,48 @@ double number(const YamlNode& node) {
     return *value;
 }
 
-Range range(const YamlNode& node) {
-    if (node.kind != YamlNode::Kind::list || node.children.size() != 2) {
+draw::Range range(const scenario::YamlNode& node) {
+    if (node.kind != scenario::YamlNode::Kind::list || node.children.size() != 2) {
         fail(node, "must be a range, as in [0.8, 1.4]");
     }
-    const Range read{number(node.children[0]), number(node.children[1])};
+    const draw::Range read{number(node.children[0]), number(node.children[1])};
     if (!(read.low <= read.high)) {
         fail(node, "must begin with its lower end");
     }
     return read;
 }
 
-Quantity quantity(const YamlNode& node) {
-    if (node.kind == YamlNode::Kind::list) {
+report::Quantity quantity(const scenario::YamlNode& node) {
+    if (node.kind == scenario::YamlNode::Kind::list) {
         return range(node);
     }
     const std::optional<double> value = number_in(node);
-    return value ? Quantity(*value) : Quantity(read_text(node));
+    return value ? report::Quantity(*value) : report::Quantity(read_text(node));
 }
 
-std::string text_or_nothing(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
+std::string text_or_nothing(const scenario::YamlNode& map, std::string_view key) {
+    const scenario::YamlNode* node = map.find(key);
     return node == nullptr ? "" : read_text(*node);
 }
 
 /// @throws InputError when it is none of `names`
-std::string one_of(const YamlNode& node, const std::vector<std::string_view>& names,
+std::string one_of(const scenario::YamlNode& node, const std::vector<std::string_view>& names,
                    std::string_view otherwise) {
     const std::string text = read_text(node);
     if (std::find(names.begin(), names.end(), text) == names.end()) {
-        fail(node, fmt::format("\"{}\" {}{}", shown(text), otherwise, hint(text, names)));
+        fail(node, fmt::format("\"{}\" {}{}", scenario::shown(text), otherwise,
+                               scenario::hint(text, names)));
     }
     return text;
 }
 
 /// The keys that say what bears a statement out, or none of them.
-void read_evidence(const YamlNode& map, const std::vector<std::string_view>& measured,
+void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_view>& measured,
                    PaperStatement& statement) {
-    const YamlNode* evidence = map.find("evidence");
+    const scenario::YamlNode* evidence = map.find("evidence");
     if (evidence == nullptr) {
         for (const char* key : {"unit", "accepted", "at_least", "basis"}) {
-            if (const YamlNode* node = map.find(key)) {
+            if (const scenario::YamlNode* node = map.find(key)) {
                 fail(*node, "stands without evidence");
             }
         }
@@ -77,26 +78,26 @@ void read_evidence(const YamlNode& map, const std::vector<std::string_view>& mea
     statement.evidence = one_of(*evidence, measured, "is measured by no part");
     statement.basis = one_of(wanted(map, "basis"),
                              {"as set", "recovered", "by the method", "measured"}, "is no basis");
-    const YamlNode* least = map.find("at_least");
+    const scenario::YamlNode* least = map.find("at_least");
     if (least != nullptr && map.find("accepted") != nullptr) {
         fail(*least, "stands beside accepted, one of the two");
     }
     statement.accepted = least == nullptr
                              ? range(wanted(map, "accepted"))
-                             : Range{number(*least), std::numeric_limits<double>::infinity()};
+                             : draw::Range{number(*least), std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
 
 std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
                                             const std::vector<std::string>& measured) {
-    const YamlNode root = parse_yaml_file(file);
+    const scenario::YamlNode root = scenario::parse_yaml_file(file);
     const std::vector<std::string_view> names(measured.begin(), measured.end());
     std::vector<PaperStatement> statements;
     if (!is_section(&root)) {
         return statements;
     }
-    for (const YamlNode& map : root.children) {
+    for (const scenario::YamlNode& map : root.children) {
         if (!is_section(&map)) {
             fail(map, "is empty");
         }
@@ -116,4 +117,4 @@ std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
     return statements;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -3,10 +3,10 @@
 
 #include "limpet/core/interrupted.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
-PageFigure Study::figure(const Chart& chart, const std::string& id, const std::string& caption,
-                         const std::string& alt) const {
+report::PageFigure Study::figure(const draw::Chart& chart, const std::string& id,
+                                 const std::string& caption, const std::string& alt) const {
     (void)draw_chart(chart, id, folder / "figures");
     return {.id = id,
             .title = chart.title,
@@ -25,8 +25,8 @@ void Study::say(const std::string& what) const {
     }
 }
 
-PageFigure Study::flight_figure(const std::string& flight, const std::string& picture,
-                                PageFigure page_figure) const {
+report::PageFigure Study::flight_figure(const std::string& flight, const std::string& picture,
+                                        report::PageFigure page_figure) const {
     namespace fs = std::filesystem;
     fs::create_directories(folder / "figures");
     for (const std::string ending : {".png", ".svg"}) {
@@ -49,4 +49,4 @@ const std::vector<StudyPart>& parts() {
     return all;
 }
 
-}  // namespace limpet
+}  // namespace limpet::paper

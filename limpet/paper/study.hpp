@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "limpet/paper/evidence.hpp"
 #include "limpet/draw/chart.hpp"
+#include "limpet/paper/evidence.hpp"
 #include "limpet/report/page.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 
 /// One reproduction as it goes: where it writes, how thorough it is, what it has found so far.
 struct Study {
@@ -23,15 +23,17 @@ struct Study {
     const std::atomic<bool>* stop = nullptr;
 
     Evidence evidence;
-    std::vector<PageSection> sections;
+    std::vector<report::PageSection> sections;
 
     /// Draws a chart into figures/ and gives it back as a figure of the page.
-    [[nodiscard]] PageFigure figure(const Chart& chart, const std::string& id,
-                                    const std::string& caption, const std::string& alt) const;
+    [[nodiscard]] report::PageFigure figure(const draw::Chart& chart, const std::string& id,
+                                            const std::string& caption,
+                                            const std::string& alt) const;
     /// Copies a picture of a flight, FOLDER/flights/FLIGHT/PICTURE.png and .svg if there is one,
     /// into figures/.
-    [[nodiscard]] PageFigure flight_figure(const std::string& flight, const std::string& picture,
-                                           PageFigure figure) const;
+    [[nodiscard]] report::PageFigure flight_figure(const std::string& flight,
+                                                   const std::string& picture,
+                                                   report::PageFigure figure) const;
     /// Tells what comes next; before that it stops where it was asked to.
     /// @throws Interrupted
     void say(const std::string& what) const;
@@ -57,4 +59,4 @@ struct StudyPart {
 /// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();
 
-}  // namespace limpet
+}  // namespace limpet::paper

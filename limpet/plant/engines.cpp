@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace limpet {
+namespace limpet::plant {
 
 std::span<const Engine* const> engines() {
     static constexpr std::array kEngines = {
@@ -12,4 +12,4 @@ std::span<const Engine* const> engines() {
     return kEngines;
 }
 
-}  // namespace limpet
+}  // namespace limpet::plant

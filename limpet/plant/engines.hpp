@@ -5,11 +5,11 @@
 #include <span>
 #include <string_view>
 
+#include "limpet/models/model_writer.hpp"
 #include "limpet/plant/plant.hpp"
 #include "limpet/vehicle/airframe.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 /// What moves the bodies. An engine is a file that defines one of these, and a line in engines.cpp.
 struct Engine {
@@ -17,7 +17,8 @@ struct Engine {
     std::string_view description;
     /// Looks are left out, whatever scene.visuals says.
     /// @throws InputError when the engine cannot take the vehicle
-    std::shared_ptr<const PlantModel> (*make)(const Airframe& airframe, const Scene& scene);
+    std::shared_ptr<const PlantModel> (*make)(const vehicle::Airframe& airframe,
+                                              const models::Scene& scene);
 };
 [[nodiscard]] std::span<const Engine* const> engines();
 
@@ -25,4 +26,4 @@ struct Engine {
 /// when it is to make a plant.
 extern const Engine kMujocoEngine;
 
-}  // namespace limpet
+}  // namespace limpet::plant

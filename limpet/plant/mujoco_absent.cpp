@@ -2,12 +2,12 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/engines.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 const Engine kMujocoEngine = {
     "mujoco", "not built in here",
-    [](const Airframe&, const Scene&) -> std::shared_ptr<const PlantModel> {
+    [](const vehicle::Airframe&, const models::Scene&) -> std::shared_ptr<const PlantModel> {
         throw InputError("simulation.engine: mujoco is not built into this program");
     }};
 
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 namespace {
 
@@ -26,4 +26,4 @@ void guard_mujoco() {
     }();
 }
 
-}  // namespace limpet
+}  // namespace limpet::plant

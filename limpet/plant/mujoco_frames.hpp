@@ -6,7 +6,7 @@
 /// The one place where north-east-down and forward-right-down meet MuJoCo's axes: a world with x
 /// north, y west, z up, and bodies forward-left-up. Both pairs are half a turn about x apart, so
 /// one map serves worlds and bodies, and it is its own inverse.
-namespace limpet::mujoco_frames {
+namespace limpet::plant::mujoco_frames {
 
 /// A vector (position, velocity, force, moment, angular velocity) from either side to the other.
 [[nodiscard]] inline Vector3 turn(const Vector3& v) {
@@ -33,4 +33,4 @@ inline void write_attitude(const Quaternion& q, double out[4]) {
     out[3] = -q.z();
 }
 
-}  // namespace limpet::mujoco_frames
+}  // namespace limpet::plant::mujoco_frames

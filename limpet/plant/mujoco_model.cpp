@@ -10,7 +10,7 @@
 #include "limpet/plant/engines.hpp"
 #include "limpet/plant/mujoco_errors.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 namespace {
 
@@ -79,8 +79,9 @@ MujocoModel::MujocoModel(const std::string& mjcf) {
 
 const Engine kMujocoEngine = {
     "mujoco", "general rigid bodies, joints and contacts, by MuJoCo 2.2",
-    [](const Airframe& airframe, const Scene& scene) -> std::shared_ptr<const PlantModel> {
-        Scene bare = scene;
+    [](const vehicle::Airframe& airframe,
+       const models::Scene& scene) -> std::shared_ptr<const PlantModel> {
+        models::Scene bare = scene;
         bare.visuals = false;
         return std::make_shared<const MujocoModel>(write_mjcf(airframe, bare));
     }};
@@ -91,4 +92,4 @@ void MujocoModel::Delete::operator()(mjModel_* model) const {
     mj_deleteModel(model);
 }
 
-}  // namespace limpet
+}  // namespace limpet::plant

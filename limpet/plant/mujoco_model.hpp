@@ -8,7 +8,7 @@
 
 struct mjModel_;
 
-namespace limpet {
+namespace limpet::plant {
 
 /// A vehicle and its surroundings as MuJoCo compiled them. Immutable: any number of plants in any
 /// number of threads share one.
@@ -53,4 +53,4 @@ private:
     Places places_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::plant

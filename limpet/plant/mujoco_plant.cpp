@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/mujoco_frames.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 namespace {
 
@@ -242,4 +242,4 @@ std::span<const double> MujocoPlant::positions() const {
     return {data_->qpos, static_cast<std::size_t>(options_->nq)};
 }
 
-}  // namespace limpet
+}  // namespace limpet::plant

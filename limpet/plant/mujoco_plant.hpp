@@ -10,7 +10,7 @@
 
 struct mjData_;
 
-namespace limpet {
+namespace limpet::plant {
 
 /// The general plant: MuJoCo 2.2.
 ///
@@ -75,4 +75,4 @@ private:
     Vector3 contact_force_W_N_ = Vector3::Zero();
 };
 
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -9,7 +9,7 @@
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 
 /// The bodies on which wrenches act. A vehicle without a cup has the base alone.
 enum class Body {
@@ -82,4 +82,4 @@ public:
     [[nodiscard]] virtual std::unique_ptr<Plant> make() const = 0;
 };
 
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -12,7 +12,7 @@
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 void append(std::string& out, double value) {
@@ -123,4 +123,4 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
     return files;
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -8,7 +8,7 @@
 
 #include "limpet/record/recording.hpp"
 
-namespace limpet {
+namespace limpet::record {
 
 /// Writes a recording as CSV (RFC 4180, but lines end in "\n"): one file a topic, `/truth/pose` as
 /// truth_pose.csv, with units in the column names, and events.csv with the values of an event as
@@ -23,4 +23,4 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
 /// @return the text as a CSV field: in quotes if it holds a comma, a quote or a line break
 [[nodiscard]] std::string csv_field(std::string_view text);
 
-}  // namespace limpet
+}  // namespace limpet::record

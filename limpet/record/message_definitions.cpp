@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/schema.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 constexpr std::array<MessageDefinition, 21> kDefinitions = {{
@@ -234,4 +234,4 @@ std::string column_schema(std::span<const std::string_view> columns) {
     return text + part_of(kDefinitions.front());
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::record {
 
 /// One ROS 2 interface in the text form of a .msg file.
 struct MessageDefinition {
@@ -27,4 +27,4 @@ struct MessageDefinition {
 /// The same of a message that holds a stamp and a float64 for each column.
 [[nodiscard]] std::string column_schema(std::span<const std::string_view> columns);
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -13,7 +13,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/ros_frames.hpp"
 
-namespace limpet::messages {
+namespace limpet::record::messages {
 namespace {
 
 namespace fastcdr = eprosima::fastcdr;
@@ -293,4 +293,4 @@ Encoded event(Buffer& buffer, std::int64_t time_ns, const Event& event) {
     return writer.done();
 }
 
-}  // namespace limpet::messages
+}  // namespace limpet::record::messages

@@ -15,7 +15,7 @@
 
 /// Our signals as ROS 2 messages in CDR: ROS's own in its frames (ros_frames.hpp), limpet_msgs as
 /// they are. The fields stand in message_definitions.cpp.
-namespace limpet::messages {
+namespace limpet::record::messages {
 
 /// Room for the longest message; a run reuses one, so that encoding allocates nothing.
 struct Buffer {
@@ -64,4 +64,4 @@ struct RangeSensor {
                               std::span<const double> numbers);
 [[nodiscard]] Encoded event(Buffer& buffer, std::int64_t time_ns, const Event& event);
 
-}  // namespace limpet::messages
+}  // namespace limpet::record::messages

@@ -8,7 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/message_definitions.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 /// @throws InternalError for a time before 0: a sample that never came is not recorded
@@ -179,4 +179,4 @@ void Recorder::finish(const std::string& summary_json) {
     writer_.close();
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
-#include "limpet/record/mcap_writer.hpp"
+#include "limpet/mcap/writer.hpp"
 #include "limpet/record/messages.hpp"
 #include "limpet/record/topics.hpp"
 
-namespace limpet {
+namespace limpet::record {
 
 /// A channel of plain numbers, of a sensor that no topic in topics.hpp is for.
 struct ColumnChannel {
@@ -101,4 +101,4 @@ private:
     std::int64_t last_time_ns_ = 0;
 };
 
-}  // namespace limpet
+}  // namespace limpet::record

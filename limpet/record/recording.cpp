@@ -8,10 +8,10 @@
 #include <memory>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/record/mcap_reader.hpp"
+#include "limpet/mcap/reader.hpp"
 #include "limpet/record/topics.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 /// A table and what fills it; without a reader the topic is of a kind that is not read.
@@ -160,4 +160,4 @@ Recording read_recording(const std::filesystem::path& path) {
     return recording;
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

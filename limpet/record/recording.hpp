@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "limpet/record/mcap_format.hpp"
+#include "limpet/mcap/format.hpp"
 #include "limpet/record/table.hpp"
 
-namespace limpet {
+namespace limpet::record {
 
 /// An event as it was recorded; names are texts, so that recordings of other versions can be read.
 struct RecordedEvent {
@@ -52,4 +52,4 @@ struct Recording {
 /// @throws InputError if path is no MCAP file
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -10,7 +10,7 @@
 ///   B, C, S forward-right-down   ->  "base_link" and others, forward-left-up
 ///
 /// Both turns are by 180 deg, so each is its own inverse.
-namespace limpet::ros {
+namespace limpet::record::ros {
 
 /// Half a turn about the diagonal between north and east. Also east-north-up to north-east-down.
 [[nodiscard]] inline Vector3 enu_from_ned(const Vector3& v_W) {
@@ -33,4 +33,4 @@ namespace limpet::ros {
     return q.w() < 0.0 ? Quaternion(-q.w(), -q.x(), -q.y(), -q.z()) : q;
 }
 
-}  // namespace limpet::ros
+}  // namespace limpet::record::ros

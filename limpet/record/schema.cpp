@@ -12,7 +12,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, Primitive>, 15> kPrimitives = {{
@@ -160,4 +160,4 @@ std::vector<MessageType> parse_ros2msg(const std::string& name, const std::strin
     return types;
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limpet {
+namespace limpet::record {
 
 /// The basic types of a .msg file; `byte` and `char` are read as uint8.
 enum class Primitive {
@@ -62,4 +62,4 @@ struct MessageType {
 /// "geometry_msgs/Point" -> "geometry_msgs/msg/Point"; a full name stays
 [[nodiscard]] std::string full_type_name(std::string_view name);
 
-}  // namespace limpet
+}  // namespace limpet::record

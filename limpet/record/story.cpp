@@ -6,7 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 Window clipped(const Window& window, const Window& whole) {
@@ -176,4 +176,4 @@ std::string words(std::string_view name) {
     return text;
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

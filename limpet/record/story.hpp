@@ -10,7 +10,7 @@
 
 /// What happened in a recording, and when: all that figures and films need to know to choose what
 /// they show.
-namespace limpet {
+namespace limpet::record {
 
 /// A stretch of the flight [s].
 struct Window {
@@ -76,4 +76,4 @@ struct Phase {
 /// "landing_started" -> "landing started"
 [[nodiscard]] std::string words(std::string_view name);
 
-}  // namespace limpet
+}  // namespace limpet::record

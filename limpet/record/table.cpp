@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/record/mcap_format.hpp"
+#include "limpet/mcap/format.hpp"
 #include "limpet/record/units.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 constexpr std::size_t kMaxSteps = 10'000;
@@ -220,4 +220,4 @@ void TableReader::drop_last_row() {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

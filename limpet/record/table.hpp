@@ -8,7 +8,7 @@
 
 #include "limpet/record/schema.hpp"
 
-namespace limpet {
+namespace limpet::record {
 
 struct Column {
     std::string name;  ///< "pose.position.x", "rotor_speed_rad_s[0]"
@@ -78,4 +78,4 @@ private:
     std::vector<Step> steps_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::record {
 
 /// What a recording holds: one channel each, in this order.
 enum class Topic : std::size_t {
@@ -64,4 +64,4 @@ inline constexpr std::array<TopicInfo, 19> kTopics = {{
 }
 static_assert(info(Topic::events).name == "/events", "enum and table in the same order");
 
-}  // namespace limpet
+}  // namespace limpet::record

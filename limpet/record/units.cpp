@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 /// Longer suffixes first.
@@ -86,4 +86,4 @@ std::string column_name_with_unit(std::string_view type, std::string_view column
     return std::string(column);
 }
 
-}  // namespace limpet
+}  // namespace limpet::record

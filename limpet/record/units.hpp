@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::record {
 
 /// Name of a column as the house writes it. ROS 2 allows lower-case field names only, so our
 /// messages say `pressure_pa`; the column is `pressure_Pa`. Names of other packages stay as they
@@ -18,4 +18,4 @@ namespace limpet {
 /// Source: REP 103 and the comments of ROS's .msg files.
 [[nodiscard]] std::string column_name_with_unit(std::string_view type, std::string_view column);
 
-}  // namespace limpet
+}  // namespace limpet::record

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 std::string number(double value, bool with_sign) {
@@ -42,10 +42,10 @@ std::string to_text(const Quantity& quantity, bool with_sign) {
     if (const auto* words = std::get_if<std::string>(&quantity)) {
         return *words;
     }
-    if (const auto* range = std::get_if<Range>(&quantity)) {
+    if (const auto* range = std::get_if<draw::Range>(&quantity)) {
         return fmt::format("{} … {}", number(range->low, false), number(range->high, false));
     }
     return number(std::get<double>(quantity), with_sign);
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -7,10 +7,10 @@
 #include "limpet/draw/chart.hpp"
 
 /// What a paper says and what came out here.
-namespace limpet {
+namespace limpet::report {
 
 /// A number, a range of numbers, or words where there is none: "lets go at once".
-using Quantity = std::variant<std::string, double, Range>;
+using Quantity = std::variant<std::string, double, draw::Range>;
 
 enum class Verdict {
     reproduced,
@@ -41,4 +41,4 @@ struct Claim {
 /// @param with_sign  of a number: "+0.03"
 [[nodiscard]] std::string to_text(const Quantity& quantity, bool with_sign = false);
 
-}  // namespace limpet
+}  // namespace limpet::report

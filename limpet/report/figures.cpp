@@ -9,13 +9,14 @@
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/report/panels.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 constexpr double kWidth_px = 1400.0;
 
-std::string subtitle_of(const Summary& summary) {
-    std::string text = "outcome: " + (summary.outcome.empty() ? "unknown" : words(summary.outcome));
+std::string subtitle_of(const record::Summary& summary) {
+    std::string text =
+        "outcome: " + (summary.outcome.empty() ? "unknown" : record::words(summary.outcome));
     if (!summary.reason.empty()) {
         text += fmt::format(" ({})", summary.reason);
     }
@@ -27,12 +28,13 @@ std::string subtitle_of(const Summary& summary) {
 
 }  // namespace
 
-Chart flight_chart(const Recording& recording, const Chapter& chapter) {
-    const Summary facts = summary(recording);
-    Chart chart{.title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
-                                     chapter.title),
-                .subtitle = subtitle_of(facts),
-                .column_px = kWidth_px};
+draw::Chart flight_chart(const record::Recording& recording, const record::Chapter& chapter) {
+    const record::Summary facts = summary(recording);
+    draw::Chart chart{
+        .title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
+                             chapter.title),
+        .subtitle = subtitle_of(facts),
+        .column_px = kWidth_px};
     if (!recording.damage.empty()) {
         // What closes a recording is its summary: where that is, the end is not what is missing.
         chart.warning =
@@ -41,18 +43,19 @@ Chart flight_chart(const Recording& recording, const Chapter& chapter) {
                 : fmt::format("recording cut at t = {:.2f} s", whole_flight(recording).to_s);
     }
     // Events and states stand over the first panel and run through all.
-    for (ChartPanel& panel : panels(recording, chapter.window)) {
+    for (draw::ChartPanel& panel : panels(recording, chapter.window)) {
         const bool first = chart.panels.empty();
-        for (const RecordedEvent& event : recording.events) {
+        for (const record::RecordedEvent& event : recording.events) {
             if (chapter.window.holds(event.time_s)) {
-                const auto name = fmt::format("{}  {:.2f}", words(event.name), event.time_s);
+                const auto name =
+                    fmt::format("{}  {:.2f}", record::words(event.name), event.time_s);
                 panel.moments.push_back({event.time_s, first ? name : ""});
             }
         }
         for (const auto& [state, window] : phases(recording)) {
             if (window.to_s > chapter.window.from_s && window.from_s < chapter.window.to_s) {
                 panel.stretches.push_back(
-                    {{window.from_s, window.to_s}, first ? words(state) : ""});
+                    {{window.from_s, window.to_s}, first ? record::words(state) : ""});
             }
         }
         chart.panels.emplace_back(std::move(panel));
@@ -60,12 +63,12 @@ Chart flight_chart(const Recording& recording, const Chapter& chapter) {
     return chart;
 }
 
-Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
-    const gnuplot::TemporaryFolder work;
+draw::Pictures plot(const record::Recording& recording, const std::filesystem::path& folder) {
+    const draw::gnuplot::TemporaryFolder work;
     std::vector<std::filesystem::path> drawn;
-    for (const Chapter& chapter : chapters(recording)) {
+    for (const record::Chapter& chapter : chapters(recording)) {
         if (chapter.window.span_s() > 0.0) {
-            const Chart chart = flight_chart(recording, chapter);
+            const draw::Chart chart = flight_chart(recording, chapter);
             if (!chart.panels.empty()) {
                 const auto files = draw_chart(chart, chapter.file, work.path() / "drawn").files;
                 drawn.insert(drawn.end(), files.begin(), files.end());
@@ -78,7 +81,7 @@ Pictures plot(const Recording& recording, const std::filesystem::path& folder) {
                                                                 "or distance was recorded"
                                                               : recording.damage));
     }
-    return {publish(drawn, folder), missing_topics(recording)};
+    return {draw::publish(drawn, folder), missing_topics(recording)};
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -6,12 +6,13 @@
 #include "limpet/draw/chart.hpp"
 #include "limpet/record/story.hpp"
 
-namespace limpet {
+namespace limpet::report {
 
 /// A part of a flight against time as in the paper's Figs. 11 to 15: cup pressure, pitch, force
 /// through the slider, thrust, distance to the wall and speed (panels.hpp) over a common time axis,
 /// with the flight's events and the states of guidance.
-[[nodiscard]] Chart flight_chart(const Recording& recording, const Chapter& chapter);
+[[nodiscard]] draw::Chart flight_chart(const record::Recording& recording,
+                                       const record::Chapter& chapter);
 
 /// Draws those charts, PNG and SVG of each: `overview`, and when they happened `perching`,
 /// `take_off`, `failed_attempt` (story.hpp says what each shows). A panel without data is left out.
@@ -20,6 +21,7 @@ namespace limpet {
 /// @return the files, and what could not be shown
 /// @throws InputError for a recording without anything to draw, an unwritable folder, or when
 ///         gnuplot is not installed
-[[nodiscard]] Pictures plot(const Recording& recording, const std::filesystem::path& folder);
+[[nodiscard]] draw::Pictures plot(const record::Recording& recording,
+                                  const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -10,11 +10,11 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/layout.hpp"
-#include "limpet/report/moments.hpp"
 #include "limpet/draw/stage.hpp"
 #include "limpet/record/story.hpp"
+#include "limpet/report/moments.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 constexpr int kFrameWidth_px = 640;
@@ -29,7 +29,7 @@ constexpr double kTowardsWall_rad = radians(11.0);
 constexpr double kDown_rad = radians(-10.0);
 
 /// From behind the vehicle to a little inside the wall, as the paper's pictures.
-View view_of(const Pose& pose, const std::optional<WallFace>& wall) {
+draw::View view_of(const draw::Pose& pose, const std::optional<draw::WallFace>& wall) {
     constexpr double kRear_m = 0.40, kInside_m = 0.10, kLeastWidth_m = 1.12;
     Vector3 ahead = wall ? Vector3(-wall->normal) : Vector3(pose.attitude * Vector3::UnitX());
     ahead.z() = 0.0;
@@ -41,18 +41,19 @@ View view_of(const Pose& pose, const std::optional<WallFace>& wall) {
     const double gap_m = to_wall_m > 0.0 && to_wall_m < kFar_m ? to_wall_m : kNose_m;
     const double rear_m = -kRear_m * std::max(0.55, std::abs(nose.dot(ahead)));
     const double width_m = std::max(gap_m + kInside_m - rear_m, kLeastWidth_m);
-    View view;
+    draw::View view;
     view.target_m = pose.position_m + (gap_m + kInside_m - 0.5 * width_m) * ahead;
     view.target_m.z() += 0.1 * nose.z();
     view.azimuth_rad = std::atan2(ahead.y(), ahead.x()) + radians(90.0) - kTowardsWall_rad;
     view.elevation_rad = kDown_rad;
     const double aspect = static_cast<double>(kFrameWidth_px) / kFrameHeight_px;
-    view.distance_m = 0.5 * width_m / (aspect * std::tan(0.5 * Stage::angle_of_sight_rad())) + 0.25;
+    view.distance_m =
+        0.5 * width_m / (aspect * std::tan(0.5 * draw::Stage::angle_of_sight_rad())) + 0.25;
     return view;
 }
 
 struct Sheet {
-    Canvas page;
+    draw::Canvas page;
     int columns = 1;
 
     explicit Sheet(std::size_t frames) {
@@ -70,7 +71,7 @@ struct Sheet {
     }
 };
 
-void paste(const Image& image, int left_px, int top_px, Image& canvas) {
+void paste(const draw::Image& image, int left_px, int top_px, draw::Image& canvas) {
     const std::size_t bytes = 3u * static_cast<std::size_t>(image.width_px);
     for (int row = 0; row < image.height_px; ++row) {
         const auto from = image.rgb.begin() + static_cast<std::ptrdiff_t>(bytes) * row;
@@ -79,26 +80,26 @@ void paste(const Image& image, int left_px, int top_px, Image& canvas) {
     }
 }
 
-Image blank(const Canvas& page) {
-    Image image{page.width_px, page.height_px, {}};
+draw::Image blank(const draw::Canvas& page) {
+    draw::Image image{page.width_px, page.height_px, {}};
     image.rgb.assign(
         3u * static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px),
         0xFF);
     return image;
 }
 
-std::string label(const Canvas& page, double x_px, double y_px, const std::string& text, int size,
-                  const char* colour, const char* face = "") {
+std::string label(const draw::Canvas& page, double x_px, double y_px, const std::string& text,
+                  int size, const char* colour, const char* face = "") {
     return fmt::format(
         "set label {} at screen {:.5f}, screen {:.5f} left font 'DejaVu Sans{},{}' textcolor rgb "
         "'{}' front\n",
-        gnuplot::literal(text), page.x(x_px), page.y(y_px), face, size, colour);
+        draw::gnuplot::literal(text), page.x(x_px), page.y(y_px), face, size, colour);
 }
 
 /// The photographs go as raw pixels, the letters by gnuplot over them.
-std::string script_of(const Recording& recording, const std::vector<Moment>& moments,
+std::string script_of(const record::Recording& recording, const std::vector<Moment>& moments,
                       const Sheet& sheet, const std::string& title, const std::string& stem) {
-    const Canvas& page = sheet.page;
+    const draw::Canvas& page = sheet.page;
     std::string script = fmt::format(
         "set terminal pngcairo size {0},{1} noenhanced font 'DejaVu Sans,20' background "
         "'#FFFFFF'\nset output '{2}.png'\nset encoding utf8\nunset key\nunset tics\nunset border\n"
@@ -120,13 +121,13 @@ std::string script_of(const Recording& recording, const std::vector<Moment>& mom
     return script;
 }
 
-std::filesystem::path make_film(const Recording& recording, Stage& stage,
+std::filesystem::path make_film(const record::Recording& recording, draw::Stage& stage,
                                 const std::vector<Moment>& moments, const std::string& title,
                                 const std::string& stem, const std::filesystem::path& folder) {
     const Sheet sheet(moments.size());
-    Image canvas = blank(sheet.page);
+    draw::Image canvas = blank(sheet.page);
     for (std::size_t i = 0; i < moments.size(); ++i) {
-        const Pose pose = pose_at(recording, moments[i].time_s);
+        const draw::Pose pose = pose_at(recording, moments[i].time_s);
         paste(stage.photograph(pose, view_of(pose, stage.wall())), sheet.left_px(i),
               sheet.top_px(i), canvas);
     }
@@ -137,19 +138,19 @@ std::filesystem::path make_film(const Recording& recording, Stage& stage,
     if (!pixels) {
         throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
     }
-    gnuplot::run(folder, script_of(recording, moments, sheet, title, stem));
+    draw::gnuplot::run(folder, script_of(recording, moments, sheet, title, stem));
     return folder / (stem + ".png");
 }
 
-std::string title_of(const Recording& recording, const char* what) {
-    const Summary facts = summary(recording);
+std::string title_of(const record::Recording& recording, const char* what) {
+    const record::Summary facts = summary(recording);
     return fmt::format("{}: {}{}{}", facts.scenario.empty() ? "flight" : facts.scenario, what,
                        facts.seed.empty() ? "" : "  ·  seed ", facts.seed);
 }
 
 }  // namespace
 
-Pictures film(const Recording& recording, const std::filesystem::path& folder) {
+draw::Pictures film(const record::Recording& recording, const std::filesystem::path& folder) {
     const mcap::Attachment* model = recording.attachment("model.xml");
     if (model == nullptr) {
         throw InputError(
@@ -158,8 +159,8 @@ Pictures film(const Recording& recording, const std::filesystem::path& folder) {
     if (recording.table("/truth/pose").time_s.empty()) {
         throw InputError(fmt::format("{}: no poses in /truth/pose", recording.path.string()));
     }
-    const gnuplot::TemporaryFolder work;
-    Stage stage(model->text, kFrameWidth_px, kFrameHeight_px);
+    const draw::gnuplot::TemporaryFolder work;
+    draw::Stage stage(model->text, kFrameWidth_px, kFrameHeight_px);
     std::vector<std::filesystem::path> made;
     const auto make = [&](const std::vector<Moment>& moments, const char* what, const char* stem) {
         if (!moments.empty()) {
@@ -172,7 +173,7 @@ Pictures film(const Recording& recording, const std::filesystem::path& folder) {
     if (made.empty()) {
         make(flight_moments(recording), "flight", "flight_film");
     }
-    return {publish(made, folder), {}};
+    return {draw::publish(made, folder), {}};
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

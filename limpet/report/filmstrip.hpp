@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "limpet/record/recording.hpp"
 #include "limpet/draw/pictures.hpp"
+#include "limpet/record/recording.hpp"
 
-namespace limpet {
+namespace limpet::report {
 
 /// Draws the manoeuvre as a row of pictures, as in the paper's Figs. 9 and 10: `perching_film.png`,
 /// and `take_off_film.png` when the vehicle left the wall; a flight without an approach gives
@@ -15,6 +15,7 @@ namespace limpet {
 /// @throws InputError when the recording has no model or no poses, for an unwritable folder, or
 /// when
 ///         gnuplot or OpenGL's software renderer is not installed
-[[nodiscard]] Pictures film(const Recording& recording, const std::filesystem::path& folder);
+[[nodiscard]] draw::Pictures film(const record::Recording& recording,
+                                  const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -11,29 +11,30 @@
 
 #include "limpet/record/story.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 constexpr std::size_t kMost = 8;
 constexpr double kApart_s = 0.04;
 
 /// @return nullopt when there is no such column
-std::optional<double> value_at(const Recording& recording, std::string_view topic,
+std::optional<double> value_at(const record::Recording& recording, std::string_view topic,
                                std::string_view column, double time_s) {
-    const Table* table = find_table(recording, topic);
-    const Column* found = table == nullptr ? nullptr : table->find(column);
+    const record::Table* table = find_table(recording, topic);
+    const record::Column* found = table == nullptr ? nullptr : table->find(column);
     if (found == nullptr) {
         return std::nullopt;
     }
     return found->values[nearest_row(*table, time_s)];
 }
 
-std::optional<double> pitch_at(const Recording& recording, double time_s) {
+std::optional<double> pitch_at(const record::Recording& recording, double time_s) {
     return value_at(recording, "/truth/vehicle", "pitch_rad", time_s);
 }
 
 /// When the pitch has made a share of its way from the one instant to the other.
-double time_of_pitch(const Recording& recording, const Window& window, double share) {
+double time_of_pitch(const record::Recording& recording, const record::Window& window,
+                     double share) {
     const double from = pitch_at(recording, window.from_s).value_or(0.0);
     const double to = pitch_at(recording, window.to_s).value_or(0.0);
     constexpr int kSteps = 400;
@@ -49,7 +50,7 @@ double time_of_pitch(const Recording& recording, const Window& window, double sh
 
 class Story {
 public:
-    explicit Story(const Recording& recording)
+    explicit Story(const record::Recording& recording)
         : recording_(recording), end_s_(whole_flight(recording).to_s) {}
 
     void add(double time_s, std::string name) {
@@ -59,12 +60,13 @@ public:
         }
     }
     /// The first of that name from an instant on, no later than another.
-    const RecordedEvent* add_event(std::string_view name, double after_s, double before_s = 1e300) {
-        const RecordedEvent* event = first_event(recording_, name, after_s);
+    const record::RecordedEvent* add_event(std::string_view name, double after_s,
+                                           double before_s = 1e300) {
+        const record::RecordedEvent* event = first_event(recording_, name, after_s);
         if (event == nullptr || event->time_s > before_s) {
             return nullptr;
         }
-        add(event->time_s, words(name));
+        add(event->time_s, record::words(name));
         return event;
     }
     void add_pitches(double from_s, double to_s, const char* name) {
@@ -89,24 +91,24 @@ public:
     }
 
 private:
-    const Recording& recording_;
+    const record::Recording& recording_;
     double end_s_;
     std::vector<Moment> moments_;
 };
 
 }  // namespace
 
-std::vector<Moment> perching_moments(const Recording& recording) {
-    const RecordedEvent* approach = last_event(recording, "approach_started");
+std::vector<Moment> perching_moments(const record::Recording& recording) {
+    const record::RecordedEvent* approach = last_event(recording, "approach_started");
     if (approach == nullptr) {
         return {};
     }
     Story story(recording);
     const double start_s = approach->time_s;
-    const RecordedEvent* before = last_event(recording, "pre_positioned", start_s);
+    const record::RecordedEvent* before = last_event(recording, "pre_positioned", start_s);
     story.add(before == nullptr ? start_s : before->time_s,
               before == nullptr ? "approach started" : "pre-positioned");
-    const RecordedEvent* impact = story.add_event("impact", start_s);
+    const record::RecordedEvent* impact = story.add_event("impact", start_s);
     if (impact == nullptr) {
         story.add(0.5 * (start_s + whole_flight(recording).to_s), "approach");
         return story.told();
@@ -119,8 +121,9 @@ std::vector<Moment> perching_moments(const Recording& recording) {
         return story.told();
     }
     story.add_event("attached", impact->time_s);
-    const RecordedEvent* landing = first_event(recording, "landing_started", impact->time_s);
-    const RecordedEvent* perched =
+    const record::RecordedEvent* landing =
+        first_event(recording, "landing_started", impact->time_s);
+    const record::RecordedEvent* perched =
         landing == nullptr ? nullptr : story.add_event("perched", landing->time_s);
     if (perched != nullptr) {
         story.add_pitches(landing->time_s, perched->time_s, "landing");
@@ -133,8 +136,8 @@ std::vector<Moment> perching_moments(const Recording& recording) {
     return story.told();
 }
 
-std::vector<Moment> take_off_moments(const Recording& recording) {
-    const RecordedEvent* start = last_event(recording, "motors_on");
+std::vector<Moment> take_off_moments(const record::Recording& recording) {
+    const record::RecordedEvent* start = last_event(recording, "motors_on");
     if (start == nullptr) {
         return {};
     }
@@ -145,39 +148,39 @@ std::vector<Moment> take_off_moments(const Recording& recording) {
         story.add_event("pressure_released", level->time_s);
     }
     story.add_event("aborted", start->time_s);
-    const RecordedEvent* detached = story.add_event("detached", start->time_s);
-    const RecordedEvent* back = story.add_event("backed_off", start->time_s);
+    const record::RecordedEvent* detached = story.add_event("detached", start->time_s);
+    const record::RecordedEvent* back = story.add_event("backed_off", start->time_s);
     if (detached != nullptr && back != nullptr) {
         story.add(0.6 * detached->time_s + 0.4 * back->time_s, "backing off");
     }
     return story.told();
 }
 
-std::vector<Moment> flight_moments(const Recording& recording) {
-    const Window whole = whole_flight(recording);
-    const std::vector<Phase> states = phases(recording);
+std::vector<Moment> flight_moments(const record::Recording& recording) {
+    const record::Window whole = whole_flight(recording);
+    const std::vector<record::Phase> states = phases(recording);
     std::vector<Moment> moments;
     for (std::size_t i = 0; i < kMost; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(kMost - 1);
         const double time_s = whole.from_s + share * whole.span_s();
-        const auto next = std::find_if(states.begin(), states.end(), [time_s](const Phase& phase) {
-            return phase.window.from_s > time_s;
-        });
+        const auto next = std::find_if(
+            states.begin(), states.end(),
+            [time_s](const record::Phase& phase) { return phase.window.from_s > time_s; });
         moments.push_back(
-            {time_s, next == states.begin() ? "flight" : words(std::prev(next)->state)});
+            {time_s, next == states.begin() ? "flight" : record::words(std::prev(next)->state)});
     }
     return moments;
 }
 
-Pose pose_at(const Recording& recording, double time_s) {
-    const Table& table = recording.table("/truth/pose");
+draw::Pose pose_at(const record::Recording& recording, double time_s) {
+    const record::Table& table = recording.table("/truth/pose");
     const std::size_t row = table.time_s.empty() ? 0 : nearest_row(table, time_s);
     const auto value = [&](const char* column) {
         return recording.series("/truth/pose", column).values[row];
     };
     // ROS has east-north-up: a quarter turn about "up" makes it north-west-up.
     const Quaternion quarter(std::sqrt(0.5), 0.0, 0.0, -std::sqrt(0.5));
-    Pose pose;
+    draw::Pose pose;
     pose.position_m = {value("pose.position.y"), -value("pose.position.x"),
                        value("pose.position.z")};
     pose.attitude = quarter * Quaternion(value("pose.orientation.w"), value("pose.orientation.x"),
@@ -193,7 +196,7 @@ Pose pose_at(const Recording& recording, double time_s) {
     return pose;
 }
 
-std::string caption_at(const Recording& recording, double time_s) {
+std::string caption_at(const record::Recording& recording, double time_s) {
     std::string text = fmt::format("{:.2f} s", time_s);
     if (const auto pitch_rad = pitch_at(recording, time_s)) {
         const double tenths = std::round(10.0 * degrees(*pitch_rad));
@@ -206,4 +209,4 @@ std::string caption_at(const Recording& recording, double time_s) {
     return text;
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -12,10 +12,10 @@
 #include "limpet/report/page_check.hpp"
 #include "limpet/report/page_style.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
-using html::escaped;
+using draw::html::escaped;
 
 /// A PNG is a poor copy of an SVG, but a page must load: above this the smaller one is taken.
 constexpr std::size_t kMostSvg_bytes = 800'000;
@@ -53,7 +53,7 @@ bool is_number(const Quantity& quantity) {
 }
 
 std::string with_unit(const Quantity& quantity, const std::string& unit, bool with_sign = false) {
-    std::string text = html::marked_up(to_text(quantity, with_sign));
+    std::string text = draw::html::marked_up(to_text(quantity, with_sign));
     if (is_number(quantity) && !unit.empty()) {
         text += fmt::format(" <span class=\"unit\">{}</span>", escaped(unit));
     }
@@ -93,7 +93,7 @@ private:
         text_ += std::string("<style>") + page_style() + "</style>\n</head>\n<body>\n<main>\n";
         add("<header>\n<h1>{}</h1>\n", escaped(page_.title));
         if (!page_.subtitle.empty()) {
-            add("<p class=\"subtitle\">{}</p>\n", html::marked_up(page_.subtitle));
+            add("<p class=\"subtitle\">{}</p>\n", draw::html::marked_up(page_.subtitle));
         }
         verdicts();
         for (const std::string& paragraph : page_.summary) {
@@ -143,7 +143,9 @@ private:
         text_ += "</section>\n";
     }
 
-    void block(const std::string& paragraph) { add("<p>{}</p>\n", html::marked_up(paragraph)); }
+    void block(const std::string& paragraph) {
+        add("<p>{}</p>\n", draw::html::marked_up(paragraph));
+    }
 
     void block(const PageTable& table) {
         add("<h3 id=\"{}\">{}</h3>\n", table.id, escaped(table.title));
@@ -165,18 +167,18 @@ private:
             for (std::size_t c = 0; c < row.size(); ++c) {
                 const char* element = c == 0 ? "th" : "td";
                 add("<{}{}{}>{}</{}>", element, c == 0 ? " scope=\"row\"" : "", aligned[c],
-                    html::marked_up(to_text(row[c])), element);
+                    draw::html::marked_up(to_text(row[c])), element);
             }
             text_ += "</tr>\n";
         }
         text_ += "</tbody>\n</table>\n</div>\n";
         if (!table.caption.empty()) {
-            add("<p class=\"caption\">{}</p>\n", html::marked_up(table.caption));
+            add("<p class=\"caption\">{}</p>\n", draw::html::marked_up(table.caption));
         }
     }
 
     void block(const PageFigure& figure) {
-        const html::Embedded image = picture(figure);
+        const draw::html::Embedded image = picture(figure);
         const bool tall = 10 * image.height_px > 11 * image.width_px;
         add("<figure id=\"{}\" class=\"{}\">\n<div class=\"frame\"{}>", figure.id,
             figure.wide ? "wide"
@@ -188,21 +190,21 @@ private:
         add("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"></div>\n", image.uri,
             image.width_px, image.height_px, escaped(figure.alt));
         add("<figcaption><strong>{}</strong> {} <span class=\"files\">", escaped(figure.title),
-            html::marked_up(figure.caption));
-        add("<a href=\"{}\">PNG</a>", html::link(figure.png.generic_string()));
+            draw::html::marked_up(figure.caption));
+        add("<a href=\"{}\">PNG</a>", draw::html::link(figure.png.generic_string()));
         if (!figure.svg.empty()) {
-            add(" <a href=\"{}\">SVG</a>", html::link(figure.svg.generic_string()));
+            add(" <a href=\"{}\">SVG</a>", draw::html::link(figure.svg.generic_string()));
         }
         text_ += "</span></figcaption>\n</figure>\n";
     }
 
-    [[nodiscard]] html::Embedded picture(const PageFigure& figure) const {
+    [[nodiscard]] draw::html::Embedded picture(const PageFigure& figure) const {
         std::string bytes = read_bytes(folder_ / (figure.svg.empty() ? figure.png : figure.svg));
         if (!figure.svg.empty() && bytes.size() > kMostSvg_bytes) {
             std::string other = read_bytes(folder_ / figure.png);
             bytes = other.size() < bytes.size() ? std::move(other) : std::move(bytes);
         }
-        return html::embedded(std::move(bytes));
+        return draw::html::embedded(std::move(bytes));
     }
 
     void block(const ClaimTable&) {
@@ -234,9 +236,9 @@ private:
         add("<tr role=\"row\" id=\"{}\">", claim.id);
         cell("id", claim.id, false);
         cell("where", escaped(claim.section), false);
-        add("<th role=\"rowheader\" scope=\"row\">{}", html::marked_up(claim.statement));
+        add("<th role=\"rowheader\" scope=\"row\">{}", draw::html::marked_up(claim.statement));
         if (!claim.note.empty()) {
-            add("<span class=\"note\">{}</span>", html::marked_up(claim.note));
+            add("<span class=\"note\">{}</span>", draw::html::marked_up(claim.note));
         }
         text_ += "</th>";
         cell("paper", with_unit(claim.paper, claim.unit));
@@ -256,7 +258,8 @@ private:
             links += fmt::format("<a href=\"#{}\">figure</a>", claim.figure);
         }
         if (!claim.recording.empty()) {
-            links += fmt::format(" <a href=\"{}\">recording</a>", html::link(claim.recording));
+            links +=
+                fmt::format(" <a href=\"{}\">recording</a>", draw::html::link(claim.recording));
         }
         cell("see", links, false);
         text_ += "</tr>\n";
@@ -266,7 +269,7 @@ private:
         heading("environment", page_.sections.size() + 1, kMadeBy);
         text_ += "<dl>\n";
         for (const auto& [key, value] : page_.environment) {
-            add("<dt>{}</dt><dd>{}</dd>\n", escaped(key), html::marked_up(to_text(value)));
+            add("<dt>{}</dt><dd>{}</dd>\n", escaped(key), draw::html::marked_up(to_text(value)));
         }
         text_ += "</dl>\n</section>\n";
     }
@@ -296,10 +299,10 @@ std::string page_html(const Page& page, const std::filesystem::path& folder) {
 
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder) {
-    const gnuplot::TemporaryFolder work;
+    const draw::gnuplot::TemporaryFolder work;
     write_file(work.path() / "index.html", page_html(page, folder));
     write_file(work.path() / "results.json", results_json(page));
-    return publish({work.path() / "index.html", work.path() / "results.json"}, folder);
+    return draw::publish({work.path() / "index.html", work.path() / "results.json"}, folder);
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "limpet/report/claims.hpp"
 #include "limpet/draw/pictures.hpp"
+#include "limpet/report/claims.hpp"
 
 /// A report as a page that needs nothing but itself, and the same as data. Texts are plain and are
 /// escaped by the page; in paragraphs, captions and notes **bold** and `code` are marked up.
-namespace limpet {
+namespace limpet::report {
 
 struct PageTable {
     std::string id = {};  ///< ids: of letters, digits, '_' and '-'; unique on the page
@@ -72,4 +72,4 @@ struct Page {
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder);
 
-}  // namespace limpet
+}  // namespace limpet::report

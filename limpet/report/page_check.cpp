@@ -9,7 +9,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 void promise(bool holds, const std::string& what) {
@@ -113,4 +113,4 @@ void check(const Page& page) {
     Checker().check(page);
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -3,9 +3,9 @@
 
 #include "limpet/report/page.hpp"
 
-namespace limpet {
+namespace limpet::report {
 
 /// @throws InternalError naming the claim, table or figure that breaks a promise of page.hpp
 void check(const Page& page);
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/report/page_style.hpp"
 
-namespace limpet {
+namespace limpet::report {
 
 const char* page_style() {
     return R"css(
@@ -135,4 +135,4 @@ dt { color: var(--soft); } dd { margin: 0; }
 )css";
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -14,7 +14,7 @@
 #include "limpet/draw/colours.hpp"
 #include "limpet/record/ros_frames.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -35,10 +35,10 @@ struct Pen {
     const char* colour;
     double width;
 };
-constexpr Pen kMeasured = {"measured", colours::kBlue, 1.8};
-constexpr Pen kTrue = {"true", colours::kDarkBlue, 1.6};
-constexpr Pen kEstimated = {"estimated", colours::kPeach, 2.8};
-constexpr Pen kAsked = {"asked", colours::kFaint, 2.6};
+constexpr Pen kMeasured = {"measured", draw::colours::kBlue, 1.8};
+constexpr Pen kTrue = {"true", draw::colours::kDarkBlue, 1.6};
+constexpr Pen kEstimated = {"estimated", draw::colours::kPeach, 2.8};
+constexpr Pen kAsked = {"asked", draw::colours::kFaint, 2.6};
 
 /// Where a curve comes from and what its numbers are multiplied by.
 struct Source {
@@ -56,12 +56,12 @@ constexpr std::array<Source, 8> kSources = {{
     {kForce, kMeasured, "/sensors/force", "wrench.force.x"},
     {kForce, kTrue, "/truth/vehicle", "slider_force_N"},
     {kThrust, kTrue, "/truth/vehicle", "thrust_N"},
-    {kDistance, {"left", colours::kBlue, 1.8}, "/sensors/range_left", "range"},
-    {kDistance, {"right", colours::kOrange, 1.2}, "/sensors/range_right", "range"},
+    {kDistance, {"left", draw::colours::kBlue, 1.8}, "/sensors/range_left", "range"},
+    {kDistance, {"right", draw::colours::kOrange, 1.2}, "/sensors/range_right", "range"},
 }};
 
 /// Empty panels, in the order of the page.
-std::array<ChartPanel, 6> templates() {
+std::array<draw::ChartPanel, 6> templates() {
     return {{
         {.y_label = "cup pressure  [hPa]", .least_span = 100.0},
         {.y_label = "pitch  [deg]", .least_span = 6.0},
@@ -77,7 +77,7 @@ std::array<ChartPanel, 6> templates() {
 /// Columns of a topic, read by row.
 class Columns {
 public:
-    Columns(const Recording& recording, const char* topic, std::vector<const char*> names)
+    Columns(const record::Recording& recording, const char* topic, std::vector<const char*> names)
         : table_(find_table(recording, topic)) {
         for (const char* name : names) {
             columns_.push_back(table_ == nullptr ? nullptr : table_->find(name));
@@ -98,14 +98,15 @@ public:
     }
 
 private:
-    const Table* table_;
-    std::vector<const Column*> columns_;
+    const record::Table* table_;
+    std::vector<const record::Column*> columns_;
 };
 
 /// @param value  of a row
 template <class Value>
-ChartSeries read(const Pen& pen, const Columns& columns, const Window& window, const Value& value) {
-    ChartSeries series{.name = pen.name, .colour = pen.colour, .width = pen.width};
+draw::ChartSeries read(const Pen& pen, const Columns& columns, const record::Window& window,
+                       const Value& value) {
+    draw::ChartSeries series{.name = pen.name, .colour = pen.colour, .width = pen.width};
     for (std::size_t i = 0; i < columns.rows(); ++i) {
         if (window.holds(columns.time_s(i))) {
             const double y = value(i);
@@ -117,13 +118,14 @@ ChartSeries read(const Pen& pen, const Columns& columns, const Window& window, c
 }
 
 /// The autopilot's pitch, out of its attitude.
-ChartSeries estimated_pitch(const Recording& recording, const Window& window) {
+draw::ChartSeries estimated_pitch(const record::Recording& recording,
+                                  const record::Window& window) {
     const Columns q(
         recording, "/estimate/pose",
         {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y", "pose.orientation.z"});
     return read(kEstimated, q, window, [&q](std::size_t i) {
         const Quaternion q_ros(q.at(i, 0), q.at(i, 1), q.at(i, 2), q.at(i, 3));
-        return degrees(euler_from_quaternion(ros::enu_flu_from_ned_frd(q_ros)).pitch_rad);
+        return degrees(euler_from_quaternion(record::ros::enu_flu_from_ned_frd(q_ros)).pitch_rad);
     });
 }
 
@@ -133,8 +135,8 @@ double ahead(double north, double east, double yaw_rad) {
 
 /// What guidance asked for: pitch, distance and speed, each in its own mode of the setpoint; what a
 /// mode does not use was recorded as NaN, and the feed-forward of a position is no speed asked for.
-std::array<std::pair<PanelIndex, ChartSeries>, 3> asked(const Recording& recording,
-                                                        const Window& window) {
+std::array<std::pair<PanelIndex, draw::ChartSeries>, 3> asked(const record::Recording& recording,
+                                                              const record::Window& window) {
     constexpr double kVelocity = 2.0;  // limpet_msgs/msg/Setpoint
     const Columns asked(recording, "/setpoint",
                         {"mode", "pitch_rad", "yaw_rad", "velocity_north_m_s", "velocity_east_m_s",
@@ -143,8 +145,8 @@ std::array<std::pair<PanelIndex, ChartSeries>, 3> asked(const Recording& recordi
     const Columns right(recording, "/sensors/range_right", {"range"});
     const Columns pose(recording, "/estimate/pose", {"pose.position.y", "pose.position.x"});
     const auto series = [&](const auto& value) {
-        ChartSeries found = read(kAsked, asked, window, value);
-        found.mark = ChartSeries::Mark::dashes;
+        draw::ChartSeries found = read(kAsked, asked, window, value);
+        found.mark = draw::ChartSeries::Mark::dashes;
         return found;
     };
     return {{{kPitch, series([&](std::size_t i) { return degrees(asked.at(i, 1)); })},
@@ -162,8 +164,8 @@ std::array<std::pair<PanelIndex, ChartSeries>, 3> asked(const Recording& recordi
 }
 
 /// The pressures at which guidance decided, as the recording tells.
-std::vector<ChartLine> pressure_levels(const Recording& recording) {
-    std::vector<ChartLine> levels;
+std::vector<draw::ChartLine> pressure_levels(const record::Recording& recording) {
+    std::vector<draw::ChartLine> levels;
     const auto limpet = recording.metadata.find("limpet");
     for (const auto& [key, label] :
          {std::pair{"land_pressure_Pa", "P_land"}, std::pair{"detach_pressure_Pa", "detach"}}) {
@@ -176,21 +178,22 @@ std::vector<ChartLine> pressure_levels(const Recording& recording) {
 }
 
 /// What only a vehicle with a cup has.
-bool expected(const Recording& recording, PanelIndex panel) {
+bool expected(const record::Recording& recording, PanelIndex panel) {
     return (panel != kPressure && panel != kForce) ||
            find_table(recording, "/sensors/cup_pressure") != nullptr ||
            find_table(recording, "/sensors/force") != nullptr;
 }
 
-bool has_points(const ChartSeries& series) {
+bool has_points(const draw::ChartSeries& series) {
     return std::any_of(series.y.begin(), series.y.end(), [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace
 
-std::vector<ChartPanel> panels(const Recording& recording, const Window& window) {
-    std::array<ChartPanel, 6> all = templates();
-    const auto add = [&all](PanelIndex panel, ChartSeries series) {
+std::vector<draw::ChartPanel> panels(const record::Recording& recording,
+                                     const record::Window& window) {
+    std::array<draw::ChartPanel, 6> all = templates();
+    const auto add = [&all](PanelIndex panel, draw::ChartSeries series) {
         if (has_points(series)) {
             all[panel].series.push_back(std::move(series));
         }
@@ -211,10 +214,10 @@ std::vector<ChartPanel> panels(const Recording& recording, const Window& window)
     for (auto& [panel, series] : asked(recording, window)) {
         add(panel, series);
     }
-    std::vector<ChartPanel> shown;
-    for (ChartPanel& panel : all) {
+    std::vector<draw::ChartPanel> shown;
+    for (draw::ChartPanel& panel : all) {
         if (!panel.series.empty()) {
-            panel.x_range = Range{window.from_s, window.to_s};
+            panel.x_range = draw::Range{window.from_s, window.to_s};
             panel.height_px = kPanel_px;
             panel.x_numbers = false;
             shown.push_back(std::move(panel));
@@ -227,7 +230,7 @@ std::vector<ChartPanel> panels(const Recording& recording, const Window& window)
     return shown;
 }
 
-std::vector<std::string> missing_topics(const Recording& recording) {
+std::vector<std::string> missing_topics(const record::Recording& recording) {
     std::vector<std::string> missing;
     for (const Source& source : kSources) {
         if (expected(recording, source.panel) && find_table(recording, source.topic) == nullptr) {
@@ -240,4 +243,4 @@ std::vector<std::string> missing_topics(const Recording& recording) {
     return missing;
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

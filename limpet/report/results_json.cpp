@@ -5,13 +5,13 @@
 #include "limpet/report/page.hpp"
 #include "limpet/report/page_check.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 Json json_of(const Quantity& quantity) {
-    if (const auto* range = std::get_if<Range>(&quantity)) {
+    if (const auto* range = std::get_if<draw::Range>(&quantity)) {
         if (std::isfinite(range->low) && std::isfinite(range->high)) {
             return {{"low", range->low}, {"high", range->high}};
         }
@@ -95,4 +95,4 @@ std::string results_json(const Page& page) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace limpet
+}  // namespace limpet::report

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
-#include "limpet/vehicle/cad_model.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +38,8 @@ std::string names_of(const All& all) {
 /// @param all  its links or its joints
 template <class All>
 void read_names(const YamlNode& model, const char* section, const char* kind,
-                const std::vector<NamedPart>& parts, const UrdfRobot& robot, const All& all) {
+                const std::vector<NamedPart>& parts, const models::UrdfRobot& robot,
+                const All& all) {
     const YamlNode* node = model.find(section);
     if (is_section(node)) {
         std::vector<std::string_view> keys;
@@ -62,8 +63,8 @@ void read_names(const YamlNode& model, const char* section, const char* kind,
     }
 }
 
-std::shared_ptr<const CadModel> load_model(const YamlNode& model, const fs::path& folder,
-                                           bool has_cup) {
+std::shared_ptr<const models::CadModel> load_model(const YamlNode& model, const fs::path& folder,
+                                                   bool has_cup) {
     if (!is_section(&model)) {
         fail(model, "is empty, needs urdf");
     }
@@ -76,8 +77,8 @@ std::shared_ptr<const CadModel> load_model(const YamlNode& model, const fs::path
     if (!fs::is_regular_file(file)) {
         fail(*urdf, fmt::format("there is no file {}", shown_path(file)));
     }
-    UrdfRobot robot = read_urdf(shown_path(file));
-    CadNames names;
+    models::UrdfRobot robot = models::read_urdf(shown_path(file));
+    models::CadNames names;
     std::vector<NamedPart> links = {{"base", &names.base}};
     if (has_cup) {
         links.insert(
@@ -94,7 +95,7 @@ std::shared_ptr<const CadModel> load_model(const YamlNode& model, const fs::path
     } else if (model.find("joints") != nullptr) {
         fail(*model.find("joints"), "has_cup is false: no joint is needed");
     }
-    return std::make_shared<const CadModel>(
+    return std::make_shared<const models::CadModel>(
         make_cad_model(robot, fs::absolute(file).lexically_normal().string(), names, has_cup));
 }
 
@@ -107,7 +108,7 @@ struct Following {
     double tolerance;
 };
 
-std::vector<Following> following(const CadModel& cad, Airframe& airframe) {
+std::vector<Following> following(const models::CadModel& cad, vehicle::Airframe& airframe) {
     const auto share = [](double value) { return kSameShare * std::abs(value); };
     std::vector<Following> all = {
         {"", "mass_kg", cad.mass_kg, &airframe.mass_kg, share(cad.mass_kg)}};
@@ -119,7 +120,7 @@ std::vector<Following> following(const CadModel& cad, Airframe& airframe) {
     if (!airframe.has_cup) {
         return all;
     }
-    const BodyInertia cup = cup_with_yoke(cad);
+    const vehicle::BodyInertia cup = cup_with_yoke(cad);
     all.push_back({"slider", "mass_kg", cad.carriage.mass_kg, &airframe.slider.mass_kg,
                    share(cad.carriage.mass_kg)});
     all.push_back({"cup", "mass_kg", cup.mass_kg, &airframe.cup.mass_kg, share(cup.mass_kg)});
@@ -145,9 +146,10 @@ const YamlNode* written(const YamlNode& vehicle, const Following& one) {
 
 }  // namespace
 
-void read_model(const YamlNode& vehicle, const fs::path& folder, Airframe& airframe) {
+void read_model(const YamlNode& vehicle, const fs::path& folder, vehicle::Airframe& airframe) {
     if (const YamlNode* model = vehicle.find("model")) {
         airframe.cad = load_model(*model, folder, airframe.has_cup);
+        airframe.cad_bodies = airframe.cad;
     }
     if (!airframe.cad) {
         return;
@@ -169,4 +171,4 @@ void read_model(const YamlNode& vehicle, const fs::path& folder, Airframe& airfr
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -6,7 +6,7 @@
 #include "limpet/scenario/yaml_tree.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Reads a vehicle's `model`, bodies and looks from a URDF instead of made ones:
 ///
@@ -21,6 +21,7 @@ namespace limpet {
 /// @param vehicle  the whole map; without `model` an airframe that has a model already is checked
 /// @param folder   from which the URDF's path counts
 /// @throws InputError "file:line: key: what", of the YAML file or of the URDF
-void read_model(const YamlNode& vehicle, const std::filesystem::path& folder, Airframe& airframe);
+void read_model(const YamlNode& vehicle, const std::filesystem::path& folder,
+                vehicle::Airframe& airframe);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -8,7 +8,7 @@
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ std::vector<CatalogueEntry> list_vehicles(const fs::path& root) {
 
 std::vector<CatalogueEntry> list_surfaces(const fs::path& root) {
     std::vector<CatalogueEntry> entries;
-    for (const Surface& surface : load_surfaces(root)) {
+    for (const suction::Surface& surface : load_surfaces(root)) {
         entries.push_back({surface.name, surface.description});
     }
     return entries;
@@ -62,8 +62,8 @@ std::vector<Choice> choices_of(std::string_view room) {
         return names;
     };
     std::vector<Choice> choices = {{"wall", "shape", names_of(wall_shapes())},
-                                   {"autopilot", "kind", names_of(autopilots())},
-                                   {"simulation", "engine", names_of(engines())}};
+                                   {"autopilot", "kind", names_of(autopilot::autopilots())},
+                                   {"simulation", "engine", names_of(plant::engines())}};
     std::erase_if(choices,
                   [room](const Choice& choice) { return !room.empty() && choice.section != room; });
     return choices;
@@ -97,4 +97,4 @@ std::vector<ParameterInfo> parameters_of(std::string_view room) {
     return rows;
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

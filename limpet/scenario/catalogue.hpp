@@ -10,7 +10,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// A line of `limpet list`.
 struct CatalogueEntry {
@@ -41,4 +41,4 @@ struct Choice {
 /// @throws InputError naming what there is
 [[nodiscard]] std::vector<ParameterInfo> parameters_of(std::string_view room);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -10,7 +10,7 @@
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// Fails where the key is written, or for the whole file when it is not.
@@ -32,7 +32,7 @@ bool is_whole(double value) {
 }
 
 void check_mission(const Scenario& scenario, const YamlNode& root) {
-    const bool flies = scenario.mount == Mount::free;
+    const bool flies = scenario.mount == vehicle::Mount::free;
     if (flies && scenario.mission == Mission::hover) {
         return;
     }
@@ -117,7 +117,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
                 "detach_pressure_Pa", scenario.guidance.detach_pressure_Pa);
     check_order(root, "sensors", "lidar_range_min_m", scenario.sensors.lidar_range_min_m,
                 "lidar_range_max_m", scenario.sensors.lidar_range_max_m);
-    const WallAirParameters& wall_air = scenario.environment.wall_air;
+    const vehicle::WallAirParameters& wall_air = scenario.environment.wall_air;
     check_order(root, "environment", "recirculation_full_radii", wall_air.recirculation_full_radii,
                 "recirculation_none_radii", wall_air.recirculation_none_radii);
     check_order(root, "autopilot", "MPC_THR_MIN", scenario.autopilot.MPC_THR_MIN, "MPC_THR_HOVER",
@@ -126,4 +126,4 @@ void check(const Scenario& scenario, const YamlNode& root) {
                 scenario.autopilot.MPC_THR_MAX);
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -12,7 +12,7 @@
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ std::string unknown_name(const std::string& wanted, std::string_view kind,
                        names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Folder with scenarios/, vehicles/ and surfaces.yaml: the environment's LIMPET_DATA, else
 /// share/limpet beside the folder of the program, or of the library that it has this from. A build
@@ -32,4 +32,4 @@ namespace limpet {
 [[nodiscard]] std::string unknown_name(const std::string& wanted, std::string_view kind,
                                        const std::vector<std::string>& names);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -8,7 +8,7 @@
 
 #include "limpet/vehicle/rotor.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kDerived = {{
@@ -27,8 +27,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kDerived
     {"guidance", "valve_fitted"},
 }};
 
-void derive_from_vehicle(const Airframe& airframe, Scenario& scenario) {
-    const RotorParameters& rotor = airframe.rotor;
+void derive_from_vehicle(const vehicle::Airframe& airframe, Scenario& scenario) {
+    const vehicle::RotorParameters& rotor = airframe.rotor;
     const double hover_thrust = hover_command(airframe);
     const double hover_speed_rad_s =
         rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_thrust;
@@ -45,7 +45,8 @@ void derive_from_vehicle(const Airframe& airframe, Scenario& scenario) {
 }
 
 /// The world model that PX4 would look the field up in.
-void derive_from_earth(const SensorParameters& sensors, AutopilotParameters& autopilot) {
+void derive_from_earth(const sensors::SensorParameters& sensors,
+                       autopilot::AutopilotParameters& autopilot) {
     const double dip_rad = radians(sensors.mag_inclination_deg);
     const double east_of_x_rad = radians(sensors.mag_declination_deg);
     const double level_gauss = sensors.mag_field_gauss * std::cos(dip_rad);
@@ -70,4 +71,4 @@ bool is_derived(std::string_view section, std::string_view name) {
     return std::find(kDerived.begin(), kDerived.end(), std::pair(section, name)) != kDerived.end();
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

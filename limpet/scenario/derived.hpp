@@ -5,7 +5,7 @@
 
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Sets what other rooms have to know of the vehicle and of the earth's field, so that a scenario
 /// that changes the mass need not work out the hover thrust. The scenario's own keys come later and
@@ -28,4 +28,4 @@ void derive_from_suction(Scenario& scenario);
 /// @param section  "guidance", ...
 [[nodiscard]] bool is_derived(std::string_view section, std::string_view name);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -16,7 +16,7 @@
 #include "limpet/scenario/writer.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,9 +30,9 @@ Mission read_mission(const YamlNode& node) {
     return *mission;
 }
 
-Mount read_mount(const YamlNode& node) {
+vehicle::Mount read_mount(const YamlNode& node) {
     const std::string word = read_text(node);
-    const auto mount = mount_from(word);
+    const auto mount = vehicle::mount_from(word);
     if (!mount) {
         fail(node, fmt::format("\"{}\" is none of free, pendulum, press_rig", shown(word)));
     }
@@ -120,7 +120,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     const YamlNode* simulation = root.find("simulation");
     read_rows(simulation, find_section(sections, "simulation").rows, {"engine"});
     if (const YamlNode* engine = simulation ? simulation->find("engine") : nullptr) {
-        scenario.engine = read_choice(*engine, "engine", engines());
+        scenario.engine = read_choice(*engine, "engine", plant::engines());
     }
     if (simulation == nullptr || simulation->find("touch_step_s") == nullptr) {
         scenario.simulation.touch_step_s =
@@ -133,7 +133,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     const YamlNode* autopilot = root.find("autopilot");
     read_rows(autopilot, find_section(sections, "autopilot").rows, {"kind"});
     if (const YamlNode* kind = autopilot ? autopilot->find("kind") : nullptr) {
-        scenario.autopilot_kind = read_choice(*kind, "autopilot", autopilots());
+        scenario.autopilot_kind = read_choice(*kind, "autopilot", autopilot::autopilots());
     }
     lay_out(scenario);
 }
@@ -171,4 +171,4 @@ Scenario load_scenario_text(const std::string& text, const std::string& name,
     return load(parse_yaml(text, name), std::move(scenario), options);
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -9,7 +9,7 @@
 
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 struct LoadOptions {
     /// "key.path=value", applied in order before anything is checked: guidance.hold_s=0.6,
@@ -30,4 +30,4 @@ struct LoadOptions {
 [[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,
                                           const LoadOptions& options = {});
 
-}  // namespace limpet
+}  // namespace limpet::scenario

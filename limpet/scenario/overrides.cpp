@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// A value's own tree hangs under the key that it is set to and is found under the command line.
@@ -78,4 +78,4 @@ void set_override(YamlNode& root, std::string_view assignment) {
     *node = std::move(value);
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -5,7 +5,7 @@
 
 #include "limpet/scenario/yaml_tree.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Puts one `--set key.path=value` into the tree; value is any YAML. Maps on the way are made as
 /// needed; a scalar on the way becomes the entry `base` of a new map, so that
@@ -13,4 +13,4 @@ namespace limpet {
 /// @throws InputError when it is not written as key=value or leads through a list
 void set_override(YamlNode& root, std::string_view assignment);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -9,7 +9,7 @@
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,7 +46,7 @@ int read_direction(const YamlNode& rotor) {
     return direction == "ccw" ? +1 : -1;
 }
 
-void read_rotors(const YamlNode* node, Airframe& airframe) {
+void read_rotors(const YamlNode* node, vehicle::Airframe& airframe) {
     if (node == nullptr) {
         return;
     }
@@ -65,7 +65,8 @@ void read_rotors(const YamlNode* node, Airframe& airframe) {
 
 /// @param with_base  in a scenario; a vehicle file stands for itself
 /// @param folder     from which relative paths count
-void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder, Airframe& airframe) {
+void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder,
+                  vehicle::Airframe& airframe) {
     if (!is_section(&map)) {
         fail(map, "is empty, must describe a vehicle");
     }
@@ -100,7 +101,7 @@ void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder, A
     }
 }
 
-void validate_at(const YamlNode& node, const Airframe& airframe) {
+void validate_at(const YamlNode& node, const vehicle::Airframe& airframe) {
     try {
         validate(airframe);
     } catch (const InputError& error) {
@@ -108,9 +109,9 @@ void validate_at(const YamlNode& node, const Airframe& airframe) {
     }
 }
 
-Airframe load_vehicle_file(const fs::path& file) {
+vehicle::Airframe load_vehicle_file(const fs::path& file) {
     const YamlNode root = parse_yaml_file(file);
-    Airframe airframe;
+    vehicle::Airframe airframe;
     airframe.name = file.stem().string();
     read_vehicle(root, false, file.parent_path(), airframe);
     validate_at(root, airframe);
@@ -118,17 +119,17 @@ Airframe load_vehicle_file(const fs::path& file) {
 }
 
 void read_surface(const YamlNode& map, const std::vector<std::string_view>& others,
-                  Surface& surface) {
+                  suction::Surface& surface) {
     std::vector<std::string_view> texts = {"description", "source"};
     texts.insert(texts.end(), others.begin(), others.end());
-    read_rows(&map, bind(surface_table(), surface), texts);
+    read_rows(&map, bind(suction::surface_table(), surface), texts);
     read_optional_text(map, "description", surface.description);
     read_optional_text(map, "source", surface.source);
 }
 
 /// @param row  an entry of surfaces.yaml
-Surface surface_of(const YamlNode& row) {
-    Surface surface;
+suction::Surface surface_of(const YamlNode& row) {
+    suction::Surface surface;
     surface.name = row.key;
     read_surface(row, {}, surface);
     return surface;
@@ -153,23 +154,23 @@ std::string base_of(const YamlNode& node) {
 
 }  // namespace
 
-Airframe load_vehicle(const std::string& wanted, const fs::path& root) {
+vehicle::Airframe load_vehicle(const std::string& wanted, const fs::path& root) {
     return load_vehicle_file(find_file(wanted, "vehicle", root / "vehicles"));
 }
 
-std::vector<Surface> load_surfaces(const fs::path& root) {
+std::vector<suction::Surface> load_surfaces(const fs::path& root) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
     if (!is_section(&all)) {
         fail(all, "is empty");
     }
-    std::vector<Surface> surfaces;
+    std::vector<suction::Surface> surfaces;
     for (const YamlNode& row : all.children) {
         surfaces.push_back(surface_of(row));
     }
     return surfaces;
 }
 
-Surface load_surface(const std::string& name, const fs::path& root) {
+suction::Surface load_surface(const std::string& name, const fs::path& root) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
     const YamlNode* row = all.find(name);
     if (row == nullptr) {
@@ -178,8 +179,8 @@ Surface load_surface(const std::string& name, const fs::path& root) {
     return surface_of(*row);
 }
 
-Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder) {
-    Airframe airframe;
+vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder) {
+    vehicle::Airframe airframe;
     if (const std::string base = base_of(node); !base.empty()) {
         fs::path file;
         try {
@@ -196,8 +197,8 @@ Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path
     return airframe;
 }
 
-Surface surface_from(const YamlNode& node, const fs::path& root) {
-    Surface surface;
+suction::Surface surface_from(const YamlNode& node, const fs::path& root) {
+    suction::Surface surface;
     if (const std::string base = base_of(node); !base.empty()) {
         const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
         const YamlNode* row = all.find(base);
@@ -213,4 +214,4 @@ Surface surface_from(const YamlNode& node, const fs::path& root) {
     return surface;
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -9,7 +9,7 @@
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 // A scenario's parts that live in files of their own: vehicles/*.yaml and the rows of
 // surfaces.yaml. In a scenario each is a name, or a section that changes one:
@@ -22,15 +22,19 @@ namespace limpet {
 
 /// @param wanted  name in root/vehicles, or a path
 /// @param root    data_root()
-[[nodiscard]] Airframe load_vehicle(const std::string& wanted, const std::filesystem::path& root);
+[[nodiscard]] vehicle::Airframe load_vehicle(const std::string& wanted,
+                                             const std::filesystem::path& root);
 /// @param name  key of root/surfaces.yaml
-[[nodiscard]] Surface load_surface(const std::string& name, const std::filesystem::path& root);
+[[nodiscard]] suction::Surface load_surface(const std::string& name,
+                                            const std::filesystem::path& root);
 /// @return all of them, in the file's order
-[[nodiscard]] std::vector<Surface> load_surfaces(const std::filesystem::path& root);
+[[nodiscard]] std::vector<suction::Surface> load_surfaces(const std::filesystem::path& root);
 
 /// @param folder  of the scenario, from which a vehicle's relative path counts
-[[nodiscard]] Airframe vehicle_from(const YamlNode& node, const std::filesystem::path& root,
-                                    const std::filesystem::path& folder);
-[[nodiscard]] Surface surface_from(const YamlNode& node, const std::filesystem::path& root);
+[[nodiscard]] vehicle::Airframe vehicle_from(const YamlNode& node,
+                                             const std::filesystem::path& root,
+                                             const std::filesystem::path& folder);
+[[nodiscard]] suction::Surface surface_from(const YamlNode& node,
+                                            const std::filesystem::path& root);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

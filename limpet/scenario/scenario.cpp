@@ -7,7 +7,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/time.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 std::string_view to_string(Mission mission) {
     switch (mission) {
@@ -114,7 +114,7 @@ namespace {
 /// Pulled back on the ropes.
 Vector3 pulled_back_p_WB_m(const Scenario& scenario) {
     const double length_m = scenario.pendulum.rope_length_m;
-    const double angle_rad = swing_angle_rad(scenario.pendulum.impact_speed_m_s, length_m);
+    const double angle_rad = vehicle::swing_angle_rad(scenario.pendulum.impact_speed_m_s, length_m);
     return touching_p_WB_m(scenario) - length_m * (std::sin(angle_rad) * heading_W(scenario.wall) +
                                                    (1.0 - std::cos(angle_rad)) * Vector3::UnitZ());
 }
@@ -140,16 +140,16 @@ void lay_out(Scenario& scenario) {
     Start& start = scenario.start;
     start = {.ground_z_W_m = simulation.start_height_m};
     switch (scenario.mount) {
-        case Mount::free:
+        case vehicle::Mount::free:
             start.yaw_rad = yaw_rad(simulation.start_yaw_deg);
             start.p_WB_m = R_WH.col(1) * simulation.start_offset_m;
             break;
-        case Mount::pendulum:
+        case vehicle::Mount::pendulum:
             start.yaw_rad = yaw_rad(scenario.pendulum.yaw_deg);
             start.pitch_rad = radians(scenario.pendulum.pitch_deg);
             start.p_WB_m = pulled_back_p_WB_m(scenario);
             break;
-        case Mount::press_rig:
+        case vehicle::Mount::press_rig:
             start.yaw_rad = yaw_rad(0.0);
             start.p_WB_m = touching_p_WB_m(scenario) -
                            scenario.press_rig.start_gap_m * heading_W(scenario.wall);
@@ -157,11 +157,11 @@ void lay_out(Scenario& scenario) {
     }
 }
 
-Scene scene_of(const Scenario& scenario) {
-    Scene scene;
+models::Scene scene_of(const Scenario& scenario) {
+    models::Scene scene;
     scene.wall = {{scenario.wall.geometry}, scenario.wall.present, scenario.wall.surface.name};
     scene.ground_z_W_m = scenario.start.ground_z_W_m;
     return scene;
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -13,17 +13,17 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/wall.hpp"
 #include "limpet/guidance/parameters.hpp"
+#include "limpet/models/model_writer.hpp"
 #include "limpet/plant/engines.hpp"
 #include "limpet/sensors/registry.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 #include "limpet/vehicle/mount.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 enum class Mission {
     hover,               ///< stay where it starts
@@ -61,17 +61,17 @@ struct WallSetup {
     double height_m = 4.0;
     double radius_m = 5.0;  ///< of a shape that bends
     WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
-    Surface surface;
+    suction::Surface surface;
     /// Surface met by the first, second, ... touch; `surface` after those.
-    std::vector<Surface> first_touches;
+    std::vector<suction::Surface> first_touches;
 };
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();
 
 /// The air around the vehicle; still and without a wall's effect by default.
 struct Environment {
-    WindParameters wind;
-    WallAirParameters wall_air;
+    vehicle::WindParameters wind;
+    vehicle::WallAirParameters wall_air;
 };
 
 /// Where the vehicle is when the flight begins.
@@ -90,20 +90,21 @@ struct Scenario {
     std::string yaml;  ///< the text with every override applied: flies the same again
     std::uint64_t seed = 1;
     Mission mission = Mission::perch_and_take_off;
-    Airframe airframe;
+    vehicle::Airframe airframe;
     WallSetup wall;
     Start start;
-    Mount mount = Mount::free;  ///< on another one the mission does not matter
-    PendulumParameters pendulum;
-    PressRigParameters press_rig;
+    vehicle::Mount mount = vehicle::Mount::free;  ///< on another one the mission does not matter
+    vehicle::PendulumParameters pendulum;
+    vehicle::PressRigParameters press_rig;
     Environment environment;
-    CupParameters cup;
-    SensorParameters sensors;
-    AutopilotParameters autopilot;
-    const AutopilotKind* autopilot_kind = &kCascade;  ///< that flies with them
-    PerchingParameters guidance;
+    suction::CupParameters cup;
+    sensors::SensorParameters sensors;
+    autopilot::AutopilotParameters autopilot;
+    const autopilot::AutopilotKind* autopilot_kind =
+        &autopilot::kCascade;  ///< that flies with them
+    guidance::PerchingParameters guidance;
     SimulationParameters simulation;
-    const Engine* engine = &kMujocoEngine;  ///< that moves the bodies
+    const plant::Engine* engine = &plant::kMujocoEngine;  ///< that moves the bodies
 };
 
 /// @return unit vector of travel into the wall, level
@@ -120,6 +121,6 @@ struct Scenario {
 void lay_out(Scenario& scenario);
 
 /// Wall and ground as the writers of models take them.
-[[nodiscard]] Scene scene_of(const Scenario& scenario);
+[[nodiscard]] models::Scene scene_of(const Scenario& scenario);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -8,7 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/suggestion.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// Takes the rows whose names begin with `prefix` out of `rows` and drops it from their names:
@@ -38,8 +38,8 @@ std::vector<BoundParameter> joined(std::vector<BoundParameter> first,
 
 }  // namespace
 
-std::vector<Section> vehicle_sections(Airframe& airframe) {
-    std::vector<BoundParameter> top = bind(airframe_table(), airframe);
+std::vector<Section> vehicle_sections(vehicle::Airframe& airframe) {
+    std::vector<BoundParameter> top = bind(vehicle::airframe_table(), airframe);
     std::vector<BoundParameter> inertia = take_group(top, "inertia_", "_kg_m2");
     std::vector<BoundParameter> lidar = take_group(top, "lidar_");
     std::vector<BoundParameter> pump = take_group(top, "pump_");
@@ -47,11 +47,11 @@ std::vector<Section> vehicle_sections(Airframe& airframe) {
             {"inertia_kg_m2", std::move(inertia)},
             {"lidar", std::move(lidar)},
             {"pump", std::move(pump)},
-            {"rotor", bind(rotor_table(), airframe.rotor)},
-            {"slider", bind(slider_table(), airframe.slider)},
-            {"cup", bind(cup_mount_table(), airframe.cup)},
-            {"legs", bind(leg_table(), airframe.legs)},
-            {"battery", bind(battery_table(), airframe.battery)}};
+            {"rotor", bind(vehicle::rotor_table(), airframe.rotor)},
+            {"slider", bind(vehicle::slider_table(), airframe.slider)},
+            {"cup", bind(vehicle::cup_mount_table(), airframe.cup)},
+            {"legs", bind(vehicle::leg_table(), airframe.legs)},
+            {"battery", bind(vehicle::battery_table(), airframe.battery)}};
 }
 
 std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
@@ -59,15 +59,15 @@ std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
             {"y_m", "m", -5.0, 5.0, &p_B_m.y(), "hub right of it", "vehicle file"}};
 }
 
-std::vector<BoundParameter> suction_rows(CupParameters& cup) {
-    std::vector<BoundParameter> rows = bind(cup_table(), cup);
-    for_each_table(PressureModels{}, cup.pressure, [&](const auto& table, auto& numbers) {
+std::vector<BoundParameter> suction_rows(suction::CupParameters& cup) {
+    std::vector<BoundParameter> rows = bind(suction::cup_table(), cup);
+    for_each_table(suction::PressureModels{}, cup.pressure, [&](const auto& table, auto& numbers) {
         rows = joined(std::move(rows), bind(table, numbers));
     });
-    return joined(std::move(rows), bind(lip_table(), cup.lip));
+    return joined(std::move(rows), bind(suction::lip_table(), cup.lip));
 }
 
-void read_suction(const YamlNode* section, CupParameters& cup) {
+void read_suction(const YamlNode* section, suction::CupParameters& cup) {
     const YamlNode* old = section == nullptr ? nullptr : section->find("pneumatic");
     if (old != nullptr) {
         fail(*old, "is no key any more, say pressure_model: pneumatic");
@@ -79,7 +79,7 @@ void read_suction(const YamlNode* section, CupParameters& cup) {
     }
     const std::string word = read_text(*named);
     std::vector<std::string_view> names;
-    for (const PressureModel& model : pressure_models()) {
+    for (const suction::PressureModel& model : suction::pressure_models()) {
         if (model.name == word) {
             cup.pressure_model = static_cast<int>(names.size());
             return;
@@ -96,15 +96,15 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
         sections.push_back(std::move(section));
     }
     sections.push_back({"wall", bind(wall_table(), scenario.wall)});
-    sections.push_back({"wall.surface", bind(surface_table(), scenario.wall.surface)});
-    sections.push_back({"pendulum", bind(pendulum_table(), scenario.pendulum)});
-    sections.push_back({"press_rig", bind(press_rig_table(), scenario.press_rig)});
+    sections.push_back({"wall.surface", bind(suction::surface_table(), scenario.wall.surface)});
+    sections.push_back({"pendulum", bind(vehicle::pendulum_table(), scenario.pendulum)});
+    sections.push_back({"press_rig", bind(vehicle::press_rig_table(), scenario.press_rig)});
     sections.push_back(
-        {"environment", joined(bind(wind_table(), scenario.environment.wind),
-                               bind(wall_air_table(), scenario.environment.wall_air))});
+        {"environment", joined(bind(vehicle::wind_table(), scenario.environment.wind),
+                               bind(vehicle::wall_air_table(), scenario.environment.wall_air))});
     sections.push_back({"suction", suction_rows(scenario.cup)});
-    sections.push_back({"guidance", bind(perching_table(), scenario.guidance)});
-    sections.push_back({"autopilot", bind(autopilot_table(), scenario.autopilot)});
+    sections.push_back({"guidance", bind(guidance::perching_table(), scenario.guidance)});
+    sections.push_back({"autopilot", bind(autopilot::autopilot_table(), scenario.autopilot)});
     sections.push_back({"sensors", sensor_rows(scenario.sensors)});
     sections.push_back({"simulation", bind(simulation_table(), scenario.simulation)});
     return sections;
@@ -117,4 +117,4 @@ const Section& find_section(const std::vector<Section>& sections, std::string_vi
     return *found;
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -8,7 +8,7 @@
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Rows that stand together in a YAML text. The one place that says which table is read where:
 /// loader, writer, `limpet params` and the tests go through it.
@@ -18,16 +18,17 @@ struct Section {
 };
 
 /// Sections of a vehicle file; "" is its top. Positions of the rotors are a list, not a section.
-[[nodiscard]] std::vector<Section> vehicle_sections(Airframe& airframe);
+[[nodiscard]] std::vector<Section> vehicle_sections(vehicle::Airframe& airframe);
 
 /// Place and direction of one rotor: an item of a vehicle's list `rotors`.
 [[nodiscard]] std::vector<BoundParameter> rotor_rows(Vector3& p_B_m);
 
-/// Section `suction`: the cup, every pressure model, the lip. The model's name is a text beside them.
-[[nodiscard]] std::vector<BoundParameter> suction_rows(CupParameters& cup);
+/// Section `suction`: the cup, every pressure model, the lip. The model's name is a text beside
+/// them.
+[[nodiscard]] std::vector<BoundParameter> suction_rows(suction::CupParameters& cup);
 /// @param section  null or empty: nothing is set
 /// @throws InputError in a line, also for a pressure model that is none
-void read_suction(const YamlNode* section, CupParameters& cup);
+void read_suction(const YamlNode* section, suction::CupParameters& cup);
 
 /// Sections of a scenario, each bound to its values in `scenario`.
 [[nodiscard]] std::vector<Section> scenario_sections(Scenario& scenario);
@@ -36,4 +37,4 @@ void read_suction(const YamlNode* section, CupParameters& cup);
 [[nodiscard]] const Section& find_section(const std::vector<Section>& sections,
                                           std::string_view name);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

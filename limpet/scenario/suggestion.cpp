@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 constexpr std::size_t kHandful = 16;
@@ -71,4 +71,4 @@ std::string hint(std::string_view wrong, const std::vector<std::string_view>& na
                          : fmt::format("; there are {}", fmt::join(names, ", "));
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// Smallest number of letters to insert, delete or replace (Levenshtein).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
@@ -22,4 +22,4 @@ namespace limpet {
 [[nodiscard]] std::string hint(std::string_view wrong, const std::vector<std::string_view>& names,
                                std::string_view ask = {});
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/worlds.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
-GazeboWorld world_of(const Scenario& scenario, const std::string& wanted,
-                     const std::vector<std::string>& sets) {
-    const Scene scene = scene_of(scenario);
-    GazeboWorld world;
+models::GazeboWorld world_of(const Scenario& scenario, const std::string& wanted,
+                             const std::vector<std::string>& sets) {
+    const models::Scene scene = scene_of(scenario);
+    models::GazeboWorld world;
     world.name = scenario.name;
     world.step_s = scenario.simulation.step_s;
     world.ground_z_W_m = scene.ground_z_W_m;
@@ -17,12 +17,12 @@ GazeboWorld world_of(const Scenario& scenario, const std::string& wanted,
                               .p_WB_m = scenario.start.p_WB_m,
                               .q_WB = attitude(scenario.start),
                               .is_static = false,
-                              .plugin = WorldFlight{.scenario = wanted, .sets = sets}});
+                              .plugin = models::WorldFlight{.scenario = wanted, .sets = sets}});
     world.user_view = overview(scene.wall);
     return world;
 }
 
-GazeboSensors gazebo_sensors(const SensorParameters& sensors) {
+models::GazeboSensors gazebo_sensors(const sensors::SensorParameters& sensors) {
     return {.imu_rate_Hz = sensors.imu_rate_Hz,
             .lidar_rate_Hz = sensors.lidar_rate_Hz,
             .lidar_range_min_m = sensors.lidar_range_min_m,
@@ -30,14 +30,15 @@ GazeboSensors gazebo_sensors(const SensorParameters& sensors) {
             .force_rate_Hz = sensors.force_rate_Hz};
 }
 
-GazeboWorld showroom(const Airframe& airframe, const std::vector<Surface>& surfaces) {
+models::GazeboWorld showroom(const vehicle::Airframe& airframe,
+                             const std::vector<suction::Surface>& surfaces) {
     constexpr double kPitch_m = 1.3;  // from wall to wall
     constexpr double kWidth_m = 1.2;
     constexpr double kHeight_m = 1.6;
     constexpr double kGround_m = 0.9;  // below the vehicles
     const double gap_m = airframe.has_cup ? lip_p_B_m(airframe).x() : 0.6;
     const double first_m = -0.5 * kPitch_m * static_cast<double>(surfaces.size() - 1);
-    GazeboWorld world;
+    models::GazeboWorld world;
     world.name = "showroom";
     world.ground_z_W_m = kGround_m;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -62,4 +63,4 @@ GazeboWorld showroom(const Airframe& airframe, const std::vector<Surface>& surfa
     return world;
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

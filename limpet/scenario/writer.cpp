@@ -6,11 +6,11 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
-#include "limpet/vehicle/cad_model.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// Double-quoted scalar, all in one line.
@@ -45,7 +45,7 @@ private:
     std::string text_;
 };
 
-void write_model(Writer& writer, const CadModel& cad, bool has_cup) {
+void write_model(Writer& writer, const models::CadModel& cad, bool has_cup) {
     const auto names = [&](const char* key, std::initializer_list<std::string_view> parts) {
         writer.line(2, fmt::format("{}:", key));
         for (const std::string_view part : parts) {
@@ -62,7 +62,7 @@ void write_model(Writer& writer, const CadModel& cad, bool has_cup) {
     names("joints", {"slider", "cup_pitch", "cup_yaw"});
 }
 
-void write_vehicle(Writer& writer, Airframe& airframe) {
+void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
     writer.line(0, "vehicle:");
     writer.value(1, "name", in_quotes(airframe.name));
     writer.value(1, "description", in_quotes(airframe.description));
@@ -88,12 +88,12 @@ void write_vehicle(Writer& writer, Airframe& airframe) {
 }
 
 /// @param first  of the lines: "surface:" or the dash of a list's item
-void write_surface(Writer& writer, int indent, std::string_view first, Surface surface) {
+void write_surface(Writer& writer, int indent, std::string_view first, suction::Surface surface) {
     writer.line(indent, first);
     writer.value(indent + 1, "name", in_quotes(surface.name));
     writer.value(indent + 1, "description", in_quotes(surface.description));
     writer.value(indent + 1, "source", in_quotes(surface.source));
-    writer.rows(indent + 1, bind(surface_table(), surface));
+    writer.rows(indent + 1, bind(suction::surface_table(), surface));
 }
 
 void write_wall(Writer& writer, WallSetup& wall) {
@@ -107,7 +107,7 @@ void write_wall(Writer& writer, WallSetup& wall) {
     write_surface(writer, 1, "surface:", wall.surface);
     if (!wall.first_touches.empty()) {
         writer.line(1, "first_touches:");
-        for (const Surface& surface : wall.first_touches) {
+        for (const suction::Surface& surface : wall.first_touches) {
             write_surface(writer, 2, "-", surface);
         }
     }
@@ -143,8 +143,9 @@ std::string to_yaml(const Scenario& scenario) {
                                         "guidance", "autopilot", "sensors", "simulation"}) {
         write_section(writer, find_section(sections, name), find_section(derived, name));
         if (name == "suction") {
-            writer.value(1, "pressure_model", pressure_models()[copy.cup.pressure_model].name);
-        } else if (name == "autopilot" && copy.autopilot_kind != autopilots().front()) {
+            writer.value(1, "pressure_model",
+                         suction::pressure_models()[copy.cup.pressure_model].name);
+        } else if (name == "autopilot" && copy.autopilot_kind != autopilot::autopilots().front()) {
             writer.value(1, "kind", copy.autopilot_kind->name);
         }
     }
@@ -152,4 +153,4 @@ std::string to_yaml(const Scenario& scenario) {
     return writer.take();
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -5,7 +5,7 @@
 
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// A scenario as YAML that stands for itself: vehicle and surfaces are spelled out, so that it
 /// flies the same when their files have changed. Loading it gives the same numbers, bit by bit.
@@ -13,4 +13,4 @@ namespace limpet {
 /// thrust.
 [[nodiscard]] std::string to_yaml(const Scenario& scenario);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

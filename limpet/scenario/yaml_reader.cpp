@@ -13,7 +13,7 @@
 
 #include "limpet/scenario/suggestion.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// What a node is, for "must be a number, is ...".
@@ -179,4 +179,4 @@ std::string allowed_text(const BoundParameter& row) {
                        bare ? "" : " ", bare ? "" : row.unit);
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -10,7 +10,7 @@
 #include "limpet/core/parameters.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 // All of these throw InputError, one line that names place, key, value and what is allowed.
 
@@ -45,4 +45,4 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
 [[nodiscard]] std::string value_text(const ParameterValue& value);
 [[nodiscard]] std::string allowed_text(const BoundParameter& row);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -13,7 +13,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 constexpr std::size_t kLargestFile_B = 1'000'000;
@@ -234,4 +234,4 @@ void fail(const YamlNode& node, std::string_view what) {
                           : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// One node of a YAML text that knows where it was written and how it is called, so that whoever
 /// reads it can say `scenarios/x.yaml:12: guidance.dock_speed_m_s: ...`.
@@ -57,4 +57,4 @@ inline constexpr std::string_view kSet = "--set ";
 /// @throws InputError "place: path: what"
 [[noreturn]] void fail(const YamlNode& node, std::string_view what);
 
-}  // namespace limpet
+}  // namespace limpet::scenario

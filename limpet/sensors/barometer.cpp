@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 constexpr double kSeaLevelTemperature_K = 288.15;
@@ -44,4 +44,4 @@ std::optional<BarometerReading> BarometerSensor::measure(const Parameters& p, St
     return Reading{.pressure_Pa = pressure_Pa, .altitude_m = standard_altitude_m(pressure_Pa)};
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

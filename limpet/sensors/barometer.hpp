@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Standard atmosphere, troposphere; altitude 0 is the origin of W at kAtmosphere_Pa.
 /// @param altitude_m  below 44 km, the model's top
@@ -31,4 +31,4 @@ struct BarometerSensor {
                                                         const SensorView& view);
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// The power module. Its own error is far below what anybody decides on: none is added.
 struct BatterySensor {
@@ -35,4 +35,4 @@ struct BatterySensor {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

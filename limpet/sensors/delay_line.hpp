@@ -9,7 +9,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/time.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Samples that can be under way at once; the parameter table's limits stay below it.
 inline constexpr std::size_t kDelayLineCapacity = 64;
@@ -55,4 +55,4 @@ private:
     return tick + std::llround(latency_s / kTick_s);
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -5,7 +5,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Load cell between slider and cup: tension positive, saturates at its range.
 struct ForceSensor {
@@ -48,4 +48,4 @@ struct ForceSensor {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 /// Independent normals, north and east with one deviation and down with another.
@@ -55,4 +55,4 @@ std::optional<GpsReading> GpsSensor::measure(const Parameters& p, State& state,
     return reading;
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

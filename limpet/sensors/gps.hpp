@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Position and velocity of B's origin in W, late by the receiver's latency. The position's error
 /// is white noise on a slow wander that is already in full swing when the flight starts.
@@ -36,4 +36,4 @@ struct GpsSensor {
                                                         const SensorView& view);
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

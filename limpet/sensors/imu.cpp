@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 const Vector3 kGravity_W_m_s2 = {0.0, 0.0, kGravity_m_s2};
@@ -93,4 +93,4 @@ std::optional<ImuReading> ImuSensor::measure(const Parameters& p, State& state,
     return reading;
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

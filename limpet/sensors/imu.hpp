@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Gyroscope and accelerometer at B's origin, axes of B.
 ///
@@ -48,4 +48,4 @@ struct ImuSensor {
                                                         const SensorView& view);
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

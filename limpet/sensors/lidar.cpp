@@ -3,7 +3,7 @@
 
 #include "limpet/plant/plant.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 // clang-format off
 const ParameterTable<LidarSensor::Parameters>& LidarSensor::table() {
@@ -42,4 +42,4 @@ std::optional<RangeReading> LidarSensor::measure(const Parameters& p, State& sta
                    .valid = valid};
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Two TFmini Plus on the front arms, left and right, looking along x of B. A beam is one ray: the
 /// field of view of 3.6 deg (a spot of 94 mm at 1.5 m) is left out, as a plane wall within some
@@ -37,4 +37,4 @@ struct LidarSensor {
                                                         const SensorView& view);
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

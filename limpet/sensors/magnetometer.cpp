@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::sensors {
 
 Vector3 earth_field_W_gauss(const MagnetometerSensor::Parameters& parameters) {
     const double dip_rad = radians(parameters.mag_inclination_deg);
@@ -41,4 +41,4 @@ std::optional<MagnetometerReading> MagnetometerSensor::measure(const Parameters&
                    p.mag_noise_gauss * state.random.normal3()};
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Three axes of B in a uniform field. Currents and steel nearby are left out.
 struct MagnetometerSensor {
@@ -34,4 +34,4 @@ struct MagnetometerSensor {
 /// Earth's field in W, from strength, inclination and declination [gauss].
 [[nodiscard]] Vector3 earth_field_W_gauss(const MagnetometerSensor::Parameters& parameters);
 
-}  // namespace limpet
+}  // namespace limpet::sensors

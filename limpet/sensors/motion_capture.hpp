@@ -3,7 +3,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Pose of B from cameras in the room, stamped at the exposure and late by the network. A sample
 /// that drops out, or any after the fault, never arrives; those under way still do.
@@ -52,4 +52,4 @@ struct MotionCaptureSensor {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -5,7 +5,7 @@
 
 #include "limpet/core/time.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// One step of a bias that wanders and forgets: b <- keep b + kick n, n standard normal.
 struct GaussMarkov {
@@ -31,4 +31,4 @@ struct GaussMarkov {
     return rate_Hz >= 1 && due(tick, rate_Hz);
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

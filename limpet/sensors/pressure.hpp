@@ -5,7 +5,7 @@
 
 #include "limpet/sensors/sensor.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Absolute pressure inside the cup. A stuck sensor repeats its last value with new time stamps:
 /// the fault that time stamps alone cannot tell.
@@ -59,4 +59,4 @@ struct PressureSensor {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::sensors

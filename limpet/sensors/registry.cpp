@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/sensors/registry.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 template <class... All>
@@ -29,4 +29,4 @@ std::vector<BoundParameter> sensor_rows(SensorParameters& sensors) {
     return rows;
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

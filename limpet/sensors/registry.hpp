@@ -14,7 +14,7 @@
 #include "limpet/sensors/motion_capture.hpp"
 #include "limpet/sensors/pressure.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// Every sensor; what one has to say stands in sensor.hpp.
 using Sensors = TypeList<ImuSensor,            //
@@ -36,4 +36,4 @@ struct SensorParameters : ParametersOf<Sensors> {};
 /// @param sensors  must outlive what is returned
 [[nodiscard]] std::vector<BoundParameter> sensor_rows(SensorParameters& sensors);
 
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -15,9 +15,11 @@
 #include "limpet/sensors/delay_line.hpp"
 #include "limpet/sensors/noise.hpp"
 
-namespace limpet {
-
+namespace limpet::plant {
 class Plant;
+}
+
+namespace limpet::sensors {
 
 // A sensor is a file with a struct and its place in registry.hpp. The struct says
 //
@@ -60,8 +62,8 @@ struct SensorMounts {
 struct SensorView {
     const Truth& truth;
     const SensorMounts& mounts;
-    const Plant* plant = nullptr;  ///< for rays
-    std::size_t unit = 0;          ///< which one looks
+    const plant::Plant* plant = nullptr;  ///< for rays
+    std::size_t unit = 0;                 ///< which one looks
 };
 
 /// What a unit of most sensors remembers.
@@ -128,4 +130,4 @@ void sense(const typename Sensor::Parameters& parameters, SensorUnit<Sensor>& un
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

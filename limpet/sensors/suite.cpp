@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/sensors/suite.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 /// Calls `visit(Type<Sensor>{}, unit, k)` for every sensor's k-th unit.
@@ -28,8 +28,8 @@ SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t 
     return state;
 }
 
-void sense(const SensorsModel& model, SensorsState& state, const Truth& truth, const Plant& plant,
-           Tick tick) {
+void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
+           const plant::Plant& plant, Tick tick) {
     for_each_unit(state.sensors, [&](auto type, auto& unit, std::size_t k) {
         using Sensor = typename decltype(type)::type;
         if (Sensor::kOnCup && !model.has_cup) {
@@ -44,4 +44,4 @@ void sense(const SensorsModel& model, SensorsState& state, const Truth& truth, c
     });
 }
 
-}  // namespace limpet
+}  // namespace limpet::sensors

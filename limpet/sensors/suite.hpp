@@ -7,7 +7,7 @@
 
 #include "limpet/sensors/registry.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 
 /// The vehicle's sensors: what they are and where they sit.
 struct SensorsModel {
@@ -51,7 +51,7 @@ struct SensorsState {
 /// Takes the samples that are due and hands out those that arrive. Once every base tick, in order.
 /// @param truth  of this tick
 /// @param plant  for the LiDARs' rays, at the same instant as `truth`
-void sense(const SensorsModel& model, SensorsState& state, const Truth& truth, const Plant& plant,
-           Tick tick);
+void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
+           const plant::Plant& plant, Tick tick);
 
-}  // namespace limpet
+}  // namespace limpet::sensors

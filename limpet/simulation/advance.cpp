@@ -7,7 +7,7 @@
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/rig.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// Around a touch the plant sub-steps: impact forces converge below 0.25 ms (reference:
@@ -20,9 +20,9 @@ bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
 }
 
 /// Forces inside the slider: the plant integrates spring and damper itself, the stops are ours.
-SliderStatus apply_slider_stops(const FlightModel& model, Plant& plant) {
-    const SliderMotion motion = plant.slider();
-    const SliderForce force =
+SliderStatus apply_slider_stops(const FlightModel& model, plant::Plant& plant) {
+    const plant::SliderMotion motion = plant.slider();
+    const vehicle::SliderForce force =
         slider_force(model.airframe.slider, motion.position_m, motion.velocity_m_s);
     plant.apply_slider(force.stop_N);
     return {.position_m = motion.position_m,
@@ -38,7 +38,7 @@ void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatu
     const auto raise = [](double& peak, double value) { peak = std::fmax(peak, value); };
     raise(peaks.slider_press_N, -slider.force_N);
     raise(peaks.lip_press_N, -cup.pull_N);
-    if (!is_sealed(cup.phase)) {
+    if (!suction::is_sealed(cup.phase)) {
         return;
     }
     raise(peaks.pull_N, cup.pull_N);
@@ -51,27 +51,27 @@ void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatu
 }
 
 /// The cup between wall and mechanism: its wrench goes to the plant, its events to the report.
-void apply_cup(const FlightModel& model, FlightState& state, Plant& plant, double time_s,
+void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant, double time_s,
                double dt_s, TickReport& report, ExternalCup* external) {
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
-    const Surface& surface = surface_under_cup(model, state.cup);
-    const CupInput input{
+    const suction::Surface& surface = surface_under_cup(model, state.cup);
+    const suction::CupInput input{
         .time_s = time_s,
         .press_N = -state.truth.slider.force_N,
         .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
         .valve_open = state.guidance.setpoint.valve_open};
-    const CupOutput output = external != nullptr
-                                 ? external->step(model.cup, state.cup, surface, cup, input, dt_s)
-                                 : step(model.cup, state.cup, surface, cup, input, dt_s);
+    const suction::CupOutput output =
+        external != nullptr ? external->step(model.cup, state.cup, surface, cup, input, dt_s)
+                            : step(model.cup, state.cup, surface, cup, input, dt_s);
     if (state.cup.status.phase != CupPhase::free) {
-        plant.apply(Body::cup, output.wrench_W, cup.p_WF_m);
+        plant.apply(plant::Body::cup, output.wrench_W, cup.p_WF_m);
     }
     ContactPeaks& peaks = report.contact;
     if (before == CupPhase::free && state.cup.status.phase != CupPhase::free &&
         std::isnan(peaks.touch_s)) {
         peaks.touch_s = time_s;
-        peaks.touch_speed_m_s = 
+        peaks.touch_speed_m_s =
             tangent_frame(model.cup.wall, cup.p_WF_m).into_W().dot(cup.v_WF_W_m_s);
     }
     if (output.event) {
@@ -91,7 +91,7 @@ struct AirLoad {
 };
 
 AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
-    const Airframe& airframe = model.airframe;
+    const vehicle::Airframe& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const Wrench rotors_B =
@@ -111,29 +111,29 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
 
 }  // namespace
 
-void see_motion(const FlightModel& model, Truth& truth, const Plant& plant) {
-    truth.base = plant.kinematics(Body::base);
+void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plant) {
+    truth.base = plant.kinematics(plant::Body::base);
     if (model.airframe.has_cup) {
-        truth.cup = plant.kinematics(Body::cup);
+        truth.cup = plant.kinematics(plant::Body::cup);
     }
 }
 
-void advance(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
+void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
              ExternalCup* external_cup) {
     const bool has_cup = model.airframe.has_cup;
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
-    const StepMode mode{.step_s = kTick_s / steps,
-                        .contacts = legs_near_wall(model, state.truth.base)};
+    const plant::StepMode mode{.step_s = kTick_s / steps,
+                               .contacts = legs_near_wall(model, state.truth.base)};
     const AirLoad air = load_of_air(model, state);
     for (int k = 0; k < steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {
             see_motion(model, state.truth, plant);
         }
-        plant.apply(Body::base, air.wrench_W, state.truth.base.p_WF_m);
-        if (model.mount != Mount::free) {
-            plant.apply(Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
+        plant.apply(plant::Body::base, air.wrench_W, state.truth.base.p_WF_m);
+        if (model.mount != vehicle::Mount::free) {
+            plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
         }
         if (has_cup) {
             state.truth.slider = apply_slider_stops(model, plant);
@@ -145,4 +145,4 @@ void advance(const FlightModel& model, FlightState& state, Plant& plant, TickRep
     state.truth.thrust_N = air.thrust_N;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

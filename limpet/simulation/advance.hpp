@@ -5,16 +5,16 @@
 #include "limpet/simulation/outside.hpp"
 #include "limpet/simulation/tick_report.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// One base tick of rigid-body truth, in one step of the plant or, around a touch, in several:
 /// rotors, slider stops and cup push, the plant moves.
 /// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
-void advance(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
+void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
              ExternalCup* external_cup = nullptr);
 
 /// Where base and cup are now.
-void see_motion(const FlightModel& model, Truth& truth, const Plant& plant);
+void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plant);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -10,7 +10,7 @@
 #include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/step.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// Close enough to the start, and slow enough, to begin.
@@ -25,21 +25,22 @@ FlightModel hovering(const FlightModel& model) {
     return waiting;
 }
 
-void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, Plant& plant, Truth& truth) {
+void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, plant::Plant& plant,
+                   Truth& truth) {
     plant.set_pose(stand_W_m, attitude(model.start));
-    truth.base = plant.kinematics(Body::base);
+    truth.base = plant.kinematics(plant::Body::base);
     if (model.airframe.has_cup) {
-        truth.cup = plant.kinematics(Body::cup);
+        truth.cup = plant.kinematics(plant::Body::cup);
     }
 }
 
-bool stands_still(const Start& start, const Truth& truth) {
+bool stands_still(const scenario::Start& start, const Truth& truth) {
     return (truth.base.p_WF_m - start.p_WB_m).norm() < kNear_m &&
            truth.base.v_WF_W_m_s.norm() < kSlow_m_s;
 }
 
 /// A flight's first state with the vehicle, rotors and autopilot as they are.
-Snapshot first_state(const FlightModel& model, const FlightState& now, const Plant& plant,
+Snapshot first_state(const FlightModel& model, const FlightState& now, const plant::Plant& plant,
                      std::uint32_t run) {
     FlightState state = start(model, now.truth.base, now.truth.cup, run);
     state.truth.rotor_speed_rad_s = now.truth.rotor_speed_rad_s;
@@ -52,8 +53,8 @@ Snapshot first_state(const FlightModel& model, const FlightState& now, const Pla
     return {.state = state, .plant = plant.save(), .seen = {}};
 }
 
-std::string obstacle_of(const ExternalAutopilot& autopilot, const ExternalGuidance* guidance,
-                        bool on_stand) {
+std::string obstacle_of(const autopilot::ExternalAutopilot& autopilot,
+                        const ExternalGuidance* guidance, bool on_stand) {
     std::string obstacle = autopilot.obstacle();
     if (obstacle.empty() && guidance != nullptr) {
         obstacle = guidance->obstacle();
@@ -71,13 +72,13 @@ std::string obstacle_of(const ExternalAutopilot& autopilot, const ExternalGuidan
 }  // namespace
 
 Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringUp& options) {
-    ExternalAutopilot& autopilot = *outside.autopilot;
+    autopilot::ExternalAutopilot& autopilot = *outside.autopilot;
     const FlightModel waiting = hovering(model);
     const Vector3 stand_W_m = model.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
     const double weight_N = model.airframe.mass_kg * kGravity_m_s2;
 
-    const std::unique_ptr<Plant> made = model.plant->make();
-    Plant& plant = *made;
+    const std::unique_ptr<plant::Plant> made = model.plant->make();
+    plant::Plant& plant = *made;
     FlightState state = start(waiting, plant, options.run);
     state.rotors = {};
     state.command = {};
@@ -128,4 +129,4 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
             obstacle);
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -11,7 +11,7 @@
 #include "limpet/simulation/outside.hpp"
 #include "limpet/simulation/snapshot.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 struct BringUp {
     std::uint32_t run = 0;
@@ -36,4 +36,4 @@ struct BringUp {
 [[nodiscard]] Snapshot bring_up(const FlightModel& model, const Outside& outside,
                                 const BringUp& options);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

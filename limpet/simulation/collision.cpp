@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-namespace limpet {
+namespace limpet::simulation {
 
 bool legs_near_wall(const FlightModel& model, const Kinematics& base) {
-    const Airframe& airframe = model.airframe;
+    const vehicle::Airframe& airframe = model.airframe;
     if (!airframe.has_cup || !model.has_wall) {
         return false;
     }
@@ -28,11 +28,11 @@ double closest_hub_m(const FlightModel& model, const Kinematics& base) {
     return closest_m;
 }
 
-std::optional<Ending> collision(const FlightModel& model, const Truth& truth) {
-    const Airframe& airframe = model.airframe;
+std::optional<guidance::Ending> collision(const FlightModel& model, const Truth& truth) {
+    const vehicle::Airframe& airframe = model.airframe;
     const Vector3& p_WB_m = truth.base.p_WF_m;
     if (p_WB_m.z() > model.simulation.start_height_m) {
-        return Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
+        return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
     if (!model.has_wall || std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
                                airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
@@ -47,17 +47,18 @@ std::optional<Ending> collision(const FlightModel& model, const Truth& truth) {
         const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * p_BR_m;
         if (before_wall_m(model.cup.wall, p_WR_m) < reach_m &&
             tangent_frame(model.cup.wall, p_WR_m).on_wall) {
-            return Ending{.outcome = Outcome::crashed, .reason = "a propeller hit the wall"};
+            return guidance::Ending{.outcome = Outcome::crashed,
+                                    .reason = "a propeller hit the wall"};
         }
     }
     return std::nullopt;
 }
 
-const Surface& surface_under_cup(const FlightModel& model, const CupState& cup) {
+const suction::Surface& surface_under_cup(const FlightModel& model, const suction::CupState& cup) {
     // The touch that is going on has been counted; a free cup looks at the spot that comes next.
     const int touch = cup.touches - (cup.status.phase == CupPhase::free ? 0 : 1);
     const auto last = static_cast<int>(model.surfaces.size()) - 1;
     return model.surfaces[static_cast<std::size_t>(std::min(touch, last))];
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -5,7 +5,7 @@
 
 #include "limpet/simulation/model.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Whether a leg is so near the wall that the engine must look for contacts.
 [[nodiscard]] bool legs_near_wall(const FlightModel& model, const Kinematics& base);
@@ -14,9 +14,11 @@ namespace limpet {
 [[nodiscard]] double closest_hub_m(const FlightModel& model, const Kinematics& base);
 
 /// What ends a flight: a propeller in the wall, the vehicle on the ground.
-[[nodiscard]] std::optional<Ending> collision(const FlightModel& model, const Truth& truth);
+[[nodiscard]] std::optional<guidance::Ending> collision(const FlightModel& model,
+                                                        const Truth& truth);
 
 /// The surface that the current or the next touch meets.
-[[nodiscard]] const Surface& surface_under_cup(const FlightModel& model, const CupState& cup);
+[[nodiscard]] const suction::Surface& surface_under_cup(const FlightModel& model,
+                                                        const suction::CupState& cup);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -13,7 +13,7 @@
 #include "limpet/simulation/result_json.hpp"
 #include "limpet/simulation/step.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 FlightResult result_of(const Flight& flight, double wall_s) {
     const FlightState& state = flight.state();
@@ -47,7 +47,7 @@ Flight::Flight(std::shared_ptr<const FlightModel> model, const Snapshot& airborn
     plant_->restore(airborne.plant);
 }
 
-const EventList& Flight::tick() {
+const guidance::EventList& Flight::tick() {
     if (ended()) {
         report_.restart();
         return report_.events;
@@ -67,20 +67,20 @@ const EventList& Flight::tick() {
 
 void Flight::stop(Outcome outcome, std::string_view reason) {
     if (!ended()) {
-        state_.ending = Ending{.outcome = outcome, .reason = reason};
+        state_.ending = guidance::Ending{.outcome = outcome, .reason = reason};
     }
 }
 
-void Flight::set_autopilot(const AutopilotParameters& parameters) {
+void Flight::set_autopilot(const autopilot::AutopilotParameters& parameters) {
     require(outside_.autopilot == nullptr, "an autopilot behind a wire has its own parameters");
-    for (const auto& row : autopilot_table()) {
+    for (const auto& row : autopilot::autopilot_table()) {
         const double value = row.get(parameters);
         if (!(value >= row.minimum && value <= row.maximum)) {
             throw InputError(fmt::format("autopilot.{} = {:g} is out of range, allowed {:g}..{:g}",
                                          row.name, value, row.minimum, row.maximum));
         }
     }
-    for (const auto& row : autopilot_table()) {
+    for (const auto& row : autopilot::autopilot_table()) {
         if (row.get(parameters) != row.get(model_->autopilot.parameters)) {
             parameters_set_.push_back({row.name, row.get(parameters)});
         }
@@ -94,7 +94,7 @@ void Flight::set_autopilot(const AutopilotParameters& parameters) {
 }
 
 void Flight::report_parameters() {
-    EventList& events = report_.events;
+    guidance::EventList& events = report_.events;
     std::size_t reported = 0;
     while (reported < parameters_set_.size() && events.count < events.events.size()) {
         events.add(make_event(seconds(state_.tick), "autopilot", EventName::parameter_set, {},
@@ -112,7 +112,7 @@ void Flight::restore(const Snapshot& snapshot) {
 
 FlightResult fly(std::shared_ptr<const FlightModel> model, const std::filesystem::path& recording,
                  const FlightWatch& watch, std::uint32_t run, const FlightConduct& conduct) {
-    const ExternalAutopilot* autopilot = conduct.outside.autopilot;
+    const autopilot::ExternalAutopilot* autopilot = conduct.outside.autopilot;
     Flight flight = autopilot == nullptr ? Flight(model, run, conduct.outside)
                                          : Flight(model,
                                                   bring_up(*model, conduct.outside,
@@ -132,7 +132,7 @@ FlightResult fly(std::shared_ptr<const FlightModel> model, const std::filesystem
     const double waited_s = autopilot != nullptr ? autopilot->waited_s() : 0.0;
     Pace pace(conduct.speed);
     while (!flight.ended()) {
-        const EventList& happened = flight.tick();
+        const guidance::EventList& happened = flight.tick();
         for (std::size_t k = 0; k < happened.count; ++k) {
             events.push_back(happened.events[k]);
             if (watch.on_event) {
@@ -167,4 +167,4 @@ FlightResult fly(std::shared_ptr<const FlightModel> model, const std::filesystem
     return result;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

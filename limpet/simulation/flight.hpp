@@ -13,7 +13,7 @@
 #include "limpet/simulation/snapshot.hpp"
 #include "limpet/simulation/tick_report.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// One run: a shared model, its own plant and state. Fly it to its end with fly(), or tick by tick.
 class Flight {
@@ -28,19 +28,19 @@ public:
 
     /// One base tick. Does nothing once the flight has ended.
     /// @return what happened in it, valid until the next tick
-    const EventList& tick();
+    const guidance::EventList& tick();
     /// Ends it from outside, with a reason. Nothing when it has ended already.
     void stop(Outcome outcome, std::string_view reason);
     /// From the next tick on the built-in autopilot flies with these; the model becomes a copy of
     /// this flight's own. Each one that changes is an event of the next ticks, so that the
     /// recording tells.
     /// @throws InputError naming the first that is out of its range; then nothing has changed
-    void set_autopilot(const AutopilotParameters& parameters);
+    void set_autopilot(const autopilot::AutopilotParameters& parameters);
     [[nodiscard]] bool ended() const { return state_.ending.has_value(); }
 
     [[nodiscard]] const FlightModel& model() const { return *model_; }
     [[nodiscard]] const FlightState& state() const { return state_; }
-    [[nodiscard]] const Plant& plant() const { return *plant_; }
+    [[nodiscard]] const plant::Plant& plant() const { return *plant_; }
     [[nodiscard]] const Observations& seen() const { return seen_; }
 
     /// The whole run as it is now; a flight on the same model goes on from it bit-exactly.
@@ -53,7 +53,7 @@ private:
     void report_parameters();
 
     std::shared_ptr<const FlightModel> model_;
-    std::unique_ptr<Plant> plant_;
+    std::unique_ptr<plant::Plant> plant_;
     FlightState state_;
     TickReport report_;
     Observations seen_;
@@ -65,10 +65,10 @@ private:
 struct FlightWatch {
     std::function<void(const Event&)> on_event;
     /// Every `progress_every_s` of simulated time.
-    std::function<void(double time_s, PerchingState state)> on_progress;
+    std::function<void(double time_s, guidance::PerchingState state)> on_progress;
     double progress_every_s = 0.5;
     /// After every tick, with its events.
-    std::function<void(Flight& flight, const EventList& events)> on_tick = {};
+    std::function<void(Flight& flight, const guidance::EventList& events)> on_tick = {};
 };
 
 /// How a flight is flown where the defaults do not do.
@@ -116,4 +116,4 @@ struct FlightResult {
                                const FlightWatch& watch = {}, std::uint32_t run = 0,
                                const FlightConduct& conduct = {});
 
-}  // namespace limpet
+}  // namespace limpet::simulation

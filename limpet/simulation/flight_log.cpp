@@ -4,14 +4,14 @@
 #include <fmt/core.h>
 
 #include "limpet/core/version.hpp"
-#include "limpet/vehicle/model_writer.hpp"
+#include "limpet/models/model_writer.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
-RecordingInfo describe(const FlightModel& model) {
-    const Scenario& scenario = *model.scenario;
-    RecordingInfo info;
+record::RecordingInfo describe(const FlightModel& model) {
+    const scenario::Scenario& scenario = *model.scenario;
+    record::RecordingInfo info;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;
@@ -22,9 +22,9 @@ RecordingInfo describe(const FlightModel& model) {
     }
     info.attachments.push_back(
         {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
-    for_each_type(Sensors{}, [&](auto type) {
+    for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
-        if constexpr (!kIsRead<Sensor>) {
+        if constexpr (!sensors::kIsRead<Sensor>) {
             info.columns.push_back(
                 {.topic = Sensor::kTopic, .type = Sensor::kMessage, .columns = Sensor::kColumns});
         }
@@ -42,15 +42,16 @@ RecordingInfo describe(const FlightModel& model) {
 FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model)
     : recorder_(path, describe(model)) {}
 
-void FlightLog::tick(const FlightModel& model, const FlightState& state, const EventList& events) {
+void FlightLog::tick(const FlightModel& model, const FlightState& state,
+                     const guidance::EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
     recorder_.new_readings(state.sensors.readings, last_);
     std::size_t channel = 0;
-    for_each_type(Sensors{}, [&](auto type) {
+    for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
-        if constexpr (!kIsRead<Sensor>) {
+        if constexpr (!sensors::kIsRead<Sensor>) {
             const auto& heard = state.sensors.template units<Sensor>()[0].heard;
             recorder_.columns(channel++, heard, Sensor::numbers(heard.value));
         }
@@ -65,4 +66,4 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state, const E
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

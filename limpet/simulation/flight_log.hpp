@@ -6,7 +6,7 @@
 #include "limpet/record/recorder.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Writes a flight's signals as they come: sensors with each new sample, the rest at the scenario's
 /// recording rate.
@@ -16,12 +16,13 @@ public:
     FlightLog(const std::filesystem::path& path, const FlightModel& model);
 
     /// After every tick, with its events.
-    void tick(const FlightModel& model, const FlightState& state, const EventList& events);
+    void tick(const FlightModel& model, const FlightState& state,
+              const guidance::EventList& events);
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:
-    Recorder recorder_;
+    record::Recorder recorder_;
     Readings last_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 std::optional<double> value_of(const Event& event, std::string_view name) {
@@ -140,4 +140,4 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
     return lines;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

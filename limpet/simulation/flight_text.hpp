@@ -7,7 +7,7 @@
 
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Makes a word stand out, where the reader's terminal can.
 using Emphasis = std::function<std::string(const std::string&)>;
@@ -20,4 +20,4 @@ using Emphasis = std::function<std::string(const std::string&)>;
 [[nodiscard]] std::vector<std::string> flight_summary(const FlightResult& result,
                                                       const Emphasis& bold);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -3,7 +3,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 std::string_view to_string(LoadPhase phase) {
     switch (phase) {
@@ -39,4 +39,4 @@ std::span<const MetricInfo> metric_table() {
     return kTable;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Parts of the manoeuvre in which the cup bears load.
 enum class LoadPhase {
@@ -76,4 +76,4 @@ struct MetricInfo {
 };
 [[nodiscard]] std::span<const MetricInfo> metric_table();
 
-}  // namespace limpet
+}  // namespace limpet::simulation

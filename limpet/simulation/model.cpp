@@ -6,11 +6,11 @@
 
 #include "limpet/simulation/advance.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
-SensorsModel sensors_of(const Scenario& scenario) {
-    const Airframe& airframe = scenario.airframe;
+sensors::SensorsModel sensors_of(const scenario::Scenario& scenario) {
+    const vehicle::Airframe& airframe = scenario.airframe;
     const double half_m = 0.5 * airframe.lidar_separation_m;
     return {.parameters = scenario.sensors,
             .has_cup = airframe.has_cup,
@@ -24,14 +24,14 @@ int whole(double value) {
 
 }  // namespace
 
-AutopilotModel autopilot_model(const Scenario& scenario) {
-    std::array<RotorGeometry, kRotors> rotors;
+autopilot::AutopilotModel autopilot_model(const scenario::Scenario& scenario) {
+    std::array<autopilot::RotorGeometry, kRotors> rotors;
     for (std::size_t i = 0; i < rotors.size(); ++i) {
         rotors[i] = {.p_B_m = scenario.airframe.rotor_p_B_m[i],
                      .direction = static_cast<double>(scenario.airframe.rotor_direction[i]),
                      .moment_constant_m = scenario.airframe.rotor.moment_constant_m};
     }
-    AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
+    autopilot::AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
     model.vehicle = {.mass_kg = scenario.airframe.mass_kg,
                      .inertia_kg_m2 = scenario.airframe.inertia_kg_m2,
                      .hover_thrust = hover_command(scenario.airframe),
@@ -40,20 +40,20 @@ AutopilotModel autopilot_model(const Scenario& scenario) {
     return model;
 }
 
-std::shared_ptr<const FlightModel> build_model(const Scenario& scenario) {
+std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenario) {
     return build_model(scenario, scenario.engine->make(scenario.airframe, scene_of(scenario)));
 }
 
-std::shared_ptr<const FlightModel> build_model(const Scenario& scenario,
-                                                   std::shared_ptr<const PlantModel> plant) {
+std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenario,
+                                               std::shared_ptr<const plant::PlantModel> plant) {
     auto model = std::make_shared<FlightModel>();
-    model->scenario = std::make_shared<const Scenario>(scenario);
+    model->scenario = std::make_shared<const scenario::Scenario>(scenario);
     model->plant = std::move(plant);
     model->airframe = scenario.airframe;
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_model(scenario);
-    model->task = {.perch = scenario.mission != Mission::hover,
-                   .take_off = scenario.mission == Mission::perch_and_take_off,
+    model->task = {.perch = scenario.mission != scenario::Mission::hover,
+                   .take_off = scenario.mission == scenario::Mission::perch_and_take_off,
                    .hover_s = scenario.simulation.hover_s};
     model->guidance = scenario.guidance;
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
@@ -80,7 +80,7 @@ std::shared_ptr<const FlightModel> build_model(const Scenario& scenario,
     return model;
 }
 
-FlightState start(const FlightModel& model, Plant& plant, std::uint32_t run) {
+FlightState start(const FlightModel& model, plant::Plant& plant, std::uint32_t run) {
     plant.set_pose(model.start.p_WB_m, attitude(model.start));
     Truth truth;
     see_motion(model, truth, plant);
@@ -89,11 +89,11 @@ FlightState start(const FlightModel& model, Plant& plant, std::uint32_t run) {
 
 FlightState start(const FlightModel& model, const Kinematics& base, const Kinematics& cup,
                   std::uint32_t run) {
-    const Airframe& airframe = model.airframe;
+    const vehicle::Airframe& airframe = model.airframe;
     FlightState state;
     state.truth.base = base;
     state.truth.cup = cup;
-    if (model.mount == Mount::free) {
+    if (model.mount == vehicle::Mount::free) {
         const double hover = hover_command(airframe);
         state.rotors = spinning(airframe.rotor, hover);
         state.command = {.command = {hover, hover, hover, hover}, .armed = true};
@@ -108,9 +108,9 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     estimate.valid = true;
     state.autopilot = start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);
-    if (model.mount != Mount::free) {
-        state.guidance.state = PerchingState::approaching;
-        state.guidance.setpoint = {.pump_on = model.mount == Mount::pendulum};
+    if (model.mount != vehicle::Mount::free) {
+        state.guidance.state = guidance::PerchingState::approaching;
+        state.guidance.setpoint = {.pump_on = model.mount == vehicle::Mount::pendulum};
     }
     state.sensors = start(model.sensors, state.truth, model.seed, run);
     state.wind = start(model.wind, RandomStream(model.seed, run, Stream::wind));
@@ -119,4 +119,4 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     return state;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

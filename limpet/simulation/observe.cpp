@@ -7,33 +7,33 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/visit.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 constexpr double kSteady_s = 5.0;  ///< over which the perched pitch must stay
 constexpr double kWh_J = 3600.0;
 
-std::optional<LoadPhase> load_phase(PerchingState state) {
+std::optional<LoadPhase> load_phase(guidance::PerchingState state) {
     switch (state) {
-        case PerchingState::approaching:
-        case PerchingState::holding:
-        case PerchingState::deciding: return LoadPhase::hold;
-        case PerchingState::pitching_up:
-        case PerchingState::unloading:
-        case PerchingState::standing: return LoadPhase::land;
-        case PerchingState::resting: return LoadPhase::rest;
-        case PerchingState::spinning_up:
-        case PerchingState::pitching_down: return LoadPhase::take_off;
-        case PerchingState::levelled:
-        case PerchingState::releasing:
-        case PerchingState::resealing: return LoadPhase::level;
+        case guidance::PerchingState::approaching:
+        case guidance::PerchingState::holding:
+        case guidance::PerchingState::deciding: return LoadPhase::hold;
+        case guidance::PerchingState::pitching_up:
+        case guidance::PerchingState::unloading:
+        case guidance::PerchingState::standing: return LoadPhase::land;
+        case guidance::PerchingState::resting: return LoadPhase::rest;
+        case guidance::PerchingState::spinning_up:
+        case guidance::PerchingState::pitching_down: return LoadPhase::take_off;
+        case guidance::PerchingState::levelled:
+        case guidance::PerchingState::releasing:
+        case guidance::PerchingState::resealing: return LoadPhase::level;
         // Leaving: the cup is torn off on purpose, its margin is meant to end at zero.
-        case PerchingState::backing_off:
-        case PerchingState::retreating:
-        case PerchingState::hovering:
-        case PerchingState::pre_positioning:
-        case PerchingState::aligning:
-        case PerchingState::finished: return std::nullopt;
+        case guidance::PerchingState::backing_off:
+        case guidance::PerchingState::retreating:
+        case guidance::PerchingState::hovering:
+        case guidance::PerchingState::pre_positioning:
+        case guidance::PerchingState::aligning:
+        case guidance::PerchingState::finished: return std::nullopt;
     }
     throw InternalError("perching state out of range");
 }
@@ -50,7 +50,7 @@ void lower(double& value, double candidate) {
     value = std::fmin(value, candidate);
 }
 
-void observe_contact(Metrics& metrics, PerchingState state, const ContactPeaks& peaks) {
+void observe_contact(Metrics& metrics, guidance::PerchingState state, const ContactPeaks& peaks) {
     if (metrics.memory.awaits_touch && !std::isnan(peaks.touch_s)) {
         metrics.memory.awaits_touch = false;
         metrics.impact_speed_m_s = peaks.touch_speed_m_s;
@@ -73,8 +73,9 @@ void observe_contact(Metrics& metrics, PerchingState state, const ContactPeaks& 
     lower(metrics.cup_margin_min_N, peaks.margin_N);
 }
 
-void observe_tick(Metrics& metrics, const PerchingParameters& guidance, const FlightState& flight) {
-    const PerchingState state = flight.guidance.state;
+void observe_tick(Metrics& metrics, const guidance::PerchingParameters& guidance,
+                  const FlightState& flight) {
+    const guidance::PerchingState state = flight.guidance.state;
     const Truth& truth = flight.truth;
     const CupStatus& cup = truth.cup_status;
     lower(metrics.pressure_min_Pa, cup.pressure_Pa);
@@ -82,7 +83,7 @@ void observe_tick(Metrics& metrics, const PerchingParameters& guidance, const Fl
         cup.pressure_Pa < guidance.land_pressure_Pa) {
         metrics.time_to_land_pressure_s = truth.time_s - metrics.memory.touch_s;
     }
-    if (state == PerchingState::releasing) {
+    if (state == guidance::PerchingState::releasing) {
         raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg(truth)));
         lower(metrics.memory.waiting_pitch_min_deg, pitch_deg(truth));
         raise(metrics.memory.waiting_pitch_max_deg, pitch_deg(truth));
@@ -90,7 +91,7 @@ void observe_tick(Metrics& metrics, const PerchingParameters& guidance, const Fl
             0.5 * (metrics.memory.waiting_pitch_max_deg - metrics.memory.waiting_pitch_min_deg);
         metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
     }
-    if (state == PerchingState::resting) {
+    if (state == guidance::PerchingState::resting) {
         metrics.perched_pitch_deg = pitch_deg(truth);
         if (seconds(flight.tick) - flight.guidance.since_s >= guidance.rest_s - kSteady_s) {
             lower(metrics.memory.rest_pitch_min_deg, metrics.perched_pitch_deg);
@@ -162,4 +163,4 @@ void observe(Observations& seen, const FlightModel& model, const FlightState& st
     seen.physics_steps += report.physics_steps;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

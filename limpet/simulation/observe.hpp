@@ -7,7 +7,7 @@
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/tick_report.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// What a flight has looked like from outside so far. No station reads it.
 struct Observations {
@@ -20,4 +20,4 @@ struct Observations {
 void observe(Observations& seen, const FlightModel& model, const FlightState& state,
              const TickReport& report);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -10,7 +10,7 @@
 #include "limpet/guidance/perching.hpp"
 #include "limpet/suction/cup.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Events that guidance elsewhere tells in one tick at most; the cup may have some of its own.
 inline constexpr std::size_t kMostEvents = 4;
@@ -26,7 +26,7 @@ public:
     ///                  only pump and valve of the set-point, for it flies that itself
     /// @param events    what has happened is added; reasons live as long as this
     virtual void exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                          PerchingMemory& guidance, EventList& events) = 0;
+                          guidance::PerchingMemory& guidance, guidance::EventList& events) = 0;
     /// What keeps it from flying, for people; empty when nothing does.
     [[nodiscard]] virtual std::string obstacle() const = 0;
 };
@@ -38,15 +38,16 @@ public:
 
     /// As suction's step(): load at this state, then pressure over `dt_s`; once a step of the
     /// plant.
-    virtual CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
-                           const Kinematics& cup, const CupInput& input, double dt_s) = 0;
+    virtual suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
+                                    const suction::Surface& surface, const Kinematics& cup,
+                                    const suction::CupInput& input, double dt_s) = 0;
 };
 
 /// Stations that are not ours in this flight; null: ours. All outlive it.
 struct Outside {
-    ExternalAutopilot* autopilot = nullptr;
+    autopilot::ExternalAutopilot* autopilot = nullptr;
     ExternalGuidance* guidance = nullptr;
     ExternalCup* cup = nullptr;
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -3,7 +3,7 @@
 
 #include <thread>
 
-namespace limpet {
+namespace limpet::simulation {
 
 double Pace::elapsed_s() const {
     return std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -23,4 +23,4 @@ void Pace::wait_until(double simulated_s) {
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

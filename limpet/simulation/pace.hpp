@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// Simulated time held back to wall time; the one clock of the simulation room.
 class Pace {
@@ -25,4 +25,4 @@ private:
     double lost_s_ = 0.0;  ///< of wall time, never to be caught up
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -11,7 +11,7 @@
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using mavlink::Frame;
@@ -20,7 +20,7 @@ constexpr std::chrono::nanoseconds kNoWait{0};
 constexpr double kPascal_hPa = 100.0;
 constexpr int kMostFrames = 256;  ///< heard in one tick: a flood must not stop the simulation
 
-void send_bytes(Transport& wire, std::span<const std::byte> bytes) {
+void send_bytes(wire::Transport& wire, std::span<const std::byte> bytes) {
     (void)wire.send(bytes, kNoWait);  // nobody reads: lost, as on a real cable
 }
 
@@ -59,7 +59,7 @@ void RemoteGuidance::send_pose(const Sample<PoseReading>& pose, double age_s) {
 }
 
 void RemoteGuidance::send_range(const Sample<RangeReading>& range, std::uint8_t id,
-                                Transport* wire) {
+                                wire::Transport* wire) {
     ++count_.ranges;
     if (wire != nullptr) {
         send_bytes(*wire, devices::encode(devices::tfmini_frame(range.value)));
@@ -137,11 +137,12 @@ std::string_view RemoteGuidance::keep(std::string_view text) {
 
 void RemoteGuidance::end(Outcome outcome, std::string_view reason) {
     if (!ending_) {
-        ending_ = Ending{.outcome = outcome, .reason = reason};
+        ending_ = guidance::Ending{.outcome = outcome, .reason = reason};
     }
 }
 
-void RemoteGuidance::hear_command(const Frame& frame, const mavlink::CommandLong& command) {
+void RemoteGuidance::hear_command(const mavlink::Frame& frame,
+                                  const mavlink::CommandLong& command) {
     constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
     constexpr std::uint8_t kUnsupported = 3;
     const auto wanted = mavlink::mechanism_command(command, mechanism_);
@@ -161,7 +162,7 @@ void RemoteGuidance::hear_command(const Frame& frame, const mavlink::CommandLong
 }
 
 void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
-                               PerchingMemory& guidance, EventList& events) {
+                               guidance::PerchingMemory& guidance, guidance::EventList& events) {
     if (const auto told = mavlink::told_outcome(text)) {
         end(told->outcome, told->reason);
     } else if (const auto name = mavlink::event_name(text)) {
@@ -176,8 +177,8 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
     }
 }
 
-void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& guidance,
-                          EventList& events) {
+void RemoteGuidance::hear(const mavlink::Frame& frame, double time_s,
+                          guidance::PerchingMemory& guidance, guidance::EventList& events) {
     companion_heard_ = true;
     if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
         hear_command(frame, *command);
@@ -185,9 +186,9 @@ void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& gui
         hear_text(*text, time_s, guidance, events);
     } else if (const auto value = mavlink::decode<mavlink::NamedValueFloat>(frame)) {
         const auto state = mavlink::guidance_state(*value);
-        const bool known = state && *state <= static_cast<int>(PerchingState::finished);
-        if (known && state_ != static_cast<PerchingState>(*state)) {
-            state_ = static_cast<PerchingState>(*state);
+        const bool known = state && *state <= static_cast<int>(guidance::PerchingState::finished);
+        if (known && state_ != static_cast<guidance::PerchingState>(*state)) {
+            state_ = static_cast<guidance::PerchingState>(*state);
             state_since_s_ = time_s;
         }
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
@@ -197,7 +198,8 @@ void RemoteGuidance::hear(const Frame& frame, double time_s, PerchingMemory& gui
     }
 }
 
-void RemoteGuidance::hear_sensors(double time_s, PerchingMemory& guidance, EventList& events) {
+void RemoteGuidance::hear_sensors(double time_s, guidance::PerchingMemory& guidance,
+                                  guidance::EventList& events) {
     for (int i = 0; i < kMostFrames && events.count < kMostEvents; ++i) {
         const auto frame = wires_.sensors->receive();
         if (!frame) {
@@ -212,7 +214,7 @@ void RemoteGuidance::hear_mechanism() {
         return;
     }
     std::array<std::byte, 512> in;
-    const Transfer transfer = wires_.mechanism->receive(in, kNoWait);
+    const wire::Transfer transfer = wires_.mechanism->receive(in, kNoWait);
     for (std::size_t i = 0; i < transfer.bytes; ++i) {
         if (const auto line = lines_.parse(in[i])) {
             ++count_.commands;
@@ -223,7 +225,7 @@ void RemoteGuidance::hear_mechanism() {
 }
 
 void RemoteGuidance::exchange(const Readings& readings, const Estimate& /*estimate*/, double time_s,
-                              PerchingMemory& guidance, EventList& events) {
+                              guidance::PerchingMemory& guidance, guidance::EventList& events) {
     ++clock_;
     if (wires_.motion_capture != nullptr) {
         wires_.motion_capture->answer();
@@ -248,4 +250,4 @@ std::string RemoteGuidance::obstacle() const {
     return {};
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

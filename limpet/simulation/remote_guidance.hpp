@@ -15,16 +15,16 @@
 #include "limpet/sensors/registry.hpp"
 #include "limpet/simulation/outside.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// The wires of a companion computer, held from outside. What is null goes over
 /// `sensors`; force and pressure go there always, over the mechanism's line too.
 struct OutsideWires {
     std::unique_ptr<mavlink::Link> sensors;  ///< MAVLink, speaks to the companion
     std::unique_ptr<devices::NatNetSource> motion_capture = {};  ///< null: ODOMETRY
-    std::unique_ptr<Transport> lidar_left = {};  ///< TFmini Plus; null: DISTANCE_SENSOR
-    std::unique_ptr<Transport> lidar_right = {};
-    std::unique_ptr<Transport> mechanism = {};  ///< lines; null: DO_SET_ACTUATOR
+    std::unique_ptr<wire::Transport> lidar_left = {};  ///< TFmini Plus; null: DISTANCE_SENSOR
+    std::unique_ptr<wire::Transport> lidar_right = {};
+    std::unique_ptr<wire::Transport> mechanism = {};  ///< lines; null: DO_SET_ACTUATOR
 };
 
 struct OutsideOptions {
@@ -52,7 +52,7 @@ public:
     RemoteGuidance(OutsideWires wires, const OutsideOptions& options);
 
     void exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                  PerchingMemory& guidance, EventList& events) override;
+                  guidance::PerchingMemory& guidance, guidance::EventList& events) override;
     [[nodiscard]] std::string obstacle() const override;
     [[nodiscard]] const OutsideCount& count() const { return count_; }
     [[nodiscard]] const OutsideWires& wires() const { return wires_; }
@@ -60,16 +60,17 @@ public:
 private:
     void send(const Readings& readings, double time_s);
     void send_pose(const Sample<PoseReading>& pose, double age_s);
-    void send_range(const Sample<RangeReading>& range, std::uint8_t id, Transport* wire);
+    void send_range(const Sample<RangeReading>& range, std::uint8_t id, wire::Transport* wire);
     void send_loads(const Readings& readings);
     void send_heartbeat();
-    void hear_sensors(double time_s, PerchingMemory& guidance, EventList& events);
+    void hear_sensors(double time_s, guidance::PerchingMemory& guidance,
+                      guidance::EventList& events);
     void hear_mechanism();
-    void hear(const mavlink::Frame& frame, double time_s, PerchingMemory& guidance,
-              EventList& events);
+    void hear(const mavlink::Frame& frame, double time_s, guidance::PerchingMemory& guidance,
+              guidance::EventList& events);
     void hear_command(const mavlink::Frame& frame, const mavlink::CommandLong& command);
-    void hear_text(const mavlink::StatusText& text, double time_s, PerchingMemory& guidance,
-                   EventList& events);
+    void hear_text(const mavlink::StatusText& text, double time_s,
+                   guidance::PerchingMemory& guidance, guidance::EventList& events);
     void end(Outcome outcome, std::string_view reason);
     [[nodiscard]] std::string_view keep(std::string_view text);
     [[nodiscard]] std::uint64_t clock_us() const;
@@ -83,14 +84,14 @@ private:
     mavlink::MechanismCommand mechanism_;
     devices::MechanismParser lines_;
     bool companion_heard_ = false;
-    std::optional<PerchingState> state_;
+    std::optional<guidance::PerchingState> state_;
     double state_since_s_ = 0.0;
     int approaches_ = 0;
-    std::optional<Ending> ending_;
+    std::optional<guidance::Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
     /// Of a companion that ends without an outcome: "handed back: reason".
     std::string_view last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -85,4 +85,4 @@ std::string summary_json(const FlightResult& result) {
     return json.dump(2);
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -5,7 +5,7 @@
 
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// The object that `limpet fly --json` prints; figures that did not come to pass are null.
 [[nodiscard]] std::string result_json(const FlightResult& result);
@@ -14,4 +14,4 @@ namespace limpet {
 /// real-time factor, path), so that the same flight gives the same bytes.
 [[nodiscard]] std::string summary_json(const FlightResult& result);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

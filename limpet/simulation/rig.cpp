@@ -5,20 +5,20 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 double pitch_deg(const Truth& truth) {
     return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
 }
 
-void enter(FlightState& state, PerchingState next, double time_s) {
+void enter(FlightState& state, guidance::PerchingState next, double time_s) {
     state.guidance.state = next;
     state.guidance.since_s = time_s;
 }
 
 void report(const FlightState& state, EventName name, std::string_view reason, double time_s,
-            EventList& events) {
+            guidance::EventList& events) {
     events.add(make_event(time_s, "rig", name, reason,
                           {{"pitch_deg", pitch_deg(state.truth)},
                            {"force_N", state.truth.slider.force_N},
@@ -26,8 +26,8 @@ void report(const FlightState& state, EventName name, std::string_view reason, d
 }
 
 void end(FlightState& state, Outcome outcome, std::string_view reason, double time_s) {
-    enter(state, PerchingState::finished, time_s);
-    state.guidance.ending = Ending{.outcome = outcome, .reason = reason};
+    enter(state, guidance::PerchingState::finished, time_s);
+    state.guidance.ending = guidance::Ending{.outcome = outcome, .reason = reason};
 }
 
 /// What a failed seal failed at, asked once the press has come and gone.
@@ -45,8 +45,9 @@ void watch_touch(const FlightModel& model, FlightState& state) {
     }
     if (-state.truth.slider.force_N > state.cup.demand.threshold_N) {
         rig.pressed = true;
-        rig.straight = rig.straight || lip_motion(model.cup.wall, state.truth.cup).tilt_rad() <
-                                           state.cup.demand.tilt_limit_rad;
+        rig.straight =
+            rig.straight || suction::lip_motion(model.cup.wall, state.truth.cup).tilt_rad() <
+                                state.cup.demand.tilt_limit_rad;
     }
     rig.sealed = rig.sealed || phase == CupPhase::sealing || phase == CupPhase::attached;
 }
@@ -65,7 +66,7 @@ std::string_view why_not(const RigState& rig) {
                         : "tilted too far while it was pressed";
 }
 
-void report_first_touch(FlightState& state, double time_s, EventList& events) {
+void report_first_touch(FlightState& state, double time_s, guidance::EventList& events) {
     if (!state.rig.touched && state.cup.status.phase != CupPhase::free) {
         state.rig.touched = true;
         report(state, EventName::impact, "the lip meets the wall", time_s, events);
@@ -73,11 +74,11 @@ void report_first_touch(FlightState& state, double time_s, EventList& events) {
 }
 
 void operate_pendulum(const FlightModel& model, FlightState& state, double time_s,
-                      EventList& events) {
+                      guidance::EventList& events) {
     RigState& rig = state.rig;
     const CupPhase phase = state.cup.status.phase;
-    if (state.guidance.state == PerchingState::approaching && rig.touched) {
-        enter(state, PerchingState::holding, time_s);
+    if (state.guidance.state == guidance::PerchingState::approaching && rig.touched) {
+        enter(state, guidance::PerchingState::holding, time_s);
     }
     if (phase != CupPhase::free) {
         rig.off_since_s = -1.0;
@@ -94,17 +95,17 @@ void operate_pendulum(const FlightModel& model, FlightState& state, double time_
 }
 
 void operate_press_rig(const FlightModel& model, FlightState& state, double time_s,
-                       EventList& events) {
-    const PressRigParameters& press = model.press_rig;
+                       guidance::EventList& events) {
+    const vehicle::PressRigParameters& press = model.press_rig;
     const CupStatus& cup = state.cup.status;
     const double age_s = time_s - state.guidance.since_s;
-    if (state.guidance.state == PerchingState::approaching) {
+    if (state.guidance.state == guidance::PerchingState::approaching) {
         state.rig.advance_m += press.approach_speed_m_s * kTick_s;
         if (-state.truth.slider.force_N >= press.press_N && cup.phase != CupPhase::free) {
-            enter(state, PerchingState::holding, time_s);
+            enter(state, guidance::PerchingState::holding, time_s);
             state.guidance.setpoint.pump_on = true;
         }
-    } else if (state.guidance.state == PerchingState::holding && age_s >= press.seal_s) {
+    } else if (state.guidance.state == guidance::PerchingState::holding && age_s >= press.seal_s) {
         report(state, EventName::hold_over, "sealed for long enough", time_s, events);
         if (cup.phase != CupPhase::attached) {
             end(state, Outcome::failed_to_seal, why_not(state.rig), time_s);
@@ -112,10 +113,10 @@ void operate_press_rig(const FlightModel& model, FlightState& state, double time
             end(state, Outcome::perched, "the cup attached, no leak was asked for", time_s);
         } else {
             report(state, EventName::pump_off, "leaks from here", time_s, events);
-            enter(state, PerchingState::releasing, time_s);
+            enter(state, guidance::PerchingState::releasing, time_s);
             state.guidance.setpoint.pump_on = false;
         }
-    } else if (state.guidance.state == PerchingState::releasing) {
+    } else if (state.guidance.state == guidance::PerchingState::releasing) {
         if (!state.rig.released && cup.pressure_Pa > model.guidance.detach_pressure_Pa) {
             state.rig.released = true;
             report(state, EventName::pressure_released, "pressure above detachment", time_s,
@@ -134,10 +135,10 @@ void operate_press_rig(const FlightModel& model, FlightState& state, double time
 
 Wrench mount_wrench_W(const FlightModel& model, const FlightState& state) {
     switch (model.mount) {
-        case Mount::free: return {};
-        case Mount::pendulum: return rope_wrench_W(model.pendulum, state.truth.base);
-        case Mount::press_rig: {
-            const bool moves = state.guidance.state == PerchingState::approaching;
+        case vehicle::Mount::free: return {};
+        case vehicle::Mount::pendulum: return rope_wrench_W(model.pendulum, state.truth.base);
+        case vehicle::Mount::press_rig: {
+            const bool moves = state.guidance.state == guidance::PerchingState::approaching;
             Kinematics held;
             held.p_WF_m = model.start.p_WB_m + state.rig.advance_m * model.ahead_W;
             held.q_WF = attitude(model.start);
@@ -150,19 +151,20 @@ Wrench mount_wrench_W(const FlightModel& model, const FlightState& state) {
     throw InternalError("mount out of range");
 }
 
-void operate(const FlightModel& model, FlightState& state, EventList& events) {
+void operate(const FlightModel& model, FlightState& state, guidance::EventList& events) {
     const double time_s = seconds(state.tick);
     if (state.tick == 0) {
         report(state, EventName::approach_started,
-               model.mount == Mount::pendulum ? "let go" : "the clamp moves", time_s, events);
+               model.mount == vehicle::Mount::pendulum ? "let go" : "the clamp moves", time_s,
+               events);
     }
     report_first_touch(state, time_s, events);
     watch_touch(model, state);
-    if (model.mount == Mount::pendulum) {
+    if (model.mount == vehicle::Mount::pendulum) {
         operate_pendulum(model, state, time_s, events);
     } else {
         operate_press_rig(model, state, time_s, events);
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

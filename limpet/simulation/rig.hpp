@@ -3,7 +3,7 @@
 
 #include "limpet/simulation/model.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 // Trials on a mount: motors off, and the bench stands in for guidance. It works the pump, sees the
 // truth (it has instruments of its own) and says how the trial ended. It borrows guidance's states,
@@ -21,6 +21,6 @@ namespace limpet {
 [[nodiscard]] Wrench mount_wrench_W(const FlightModel& model, const FlightState& state);
 
 /// Once a tick, in guidance's place.
-void operate(const FlightModel& model, FlightState& state, EventList& events);
+void operate(const FlightModel& model, FlightState& state, guidance::EventList& events);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -6,7 +6,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/visit.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// Before the numbers: which walk they are of, and their digest.
@@ -77,4 +77,4 @@ std::vector<double*> numbers_of(FlightState& state) {
     return numbers;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

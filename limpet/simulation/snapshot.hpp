@@ -9,12 +9,12 @@
 #include "limpet/simulation/observe.hpp"
 #include "limpet/simulation/state.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// A run cut at a tick boundary: state, plant, and what has been seen of it.
 struct Snapshot {
     FlightState state;
-    PlantState plant;
+    plant::PlantState plant;
     Observations seen;
 };
 
@@ -28,4 +28,4 @@ struct Snapshot {
 /// assigned to, and a step may exchange what a ring's places mean (RotorsState).
 [[nodiscard]] std::vector<double*> numbers_of(FlightState& state);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -15,7 +15,7 @@
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// What a trial on a mount has come to, see rig.hpp.
 struct RigState {
@@ -36,18 +36,18 @@ struct RigState {
 struct FlightState {
     Tick tick = 0;
     Truth truth;
-    SensorsState sensors;
-    AutopilotState autopilot;
-    PerchingMemory guidance;
+    sensors::SensorsState sensors;
+    autopilot::AutopilotState autopilot;
+    guidance::PerchingMemory guidance;
     RotorCommand command;
-    RotorsState rotors;
-    BatteryState battery;
-    WindState wind;
-    WallAirState wall_air;
-    CupState cup;
+    vehicle::RotorsState rotors;
+    vehicle::BatteryState battery;
+    vehicle::WindState wind;
+    vehicle::WallAirState wall_air;
+    suction::CupState cup;
     RigState rig;
     Tick fine_until = 0;  ///< sub-steps go on until then
-    std::optional<Ending> ending;
+    std::optional<guidance::Ending> ending;
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

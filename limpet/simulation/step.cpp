@@ -10,10 +10,10 @@
 //   plant -> sensors -> autopilot.estimate -> guidance -> autopilot.control -> rotors -> plant
 //                                                   └---> pump, valve -> cup ----------> plant
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
-void see_truth(const FlightModel& model, FlightState& state, const Plant& plant) {
+void see_truth(const FlightModel& model, FlightState& state, const plant::Plant& plant) {
     Truth& truth = state.truth;
     truth.time_s = seconds(state.tick);
     see_motion(model, truth, plant);
@@ -24,7 +24,8 @@ void see_truth(const FlightModel& model, FlightState& state, const Plant& plant)
 }
 
 /// The built-in autopilot lives in the state; one behind a wire only leaves its estimate there.
-void estimate(const FlightModel& model, FlightState& state, ExternalAutopilot* external) {
+void estimate(const FlightModel& model, FlightState& state,
+              autopilot::ExternalAutopilot* external) {
     if (external != nullptr) {
         state.autopilot.estimate = external->estimate(seconds(state.tick));
     } else {
@@ -32,7 +33,8 @@ void estimate(const FlightModel& model, FlightState& state, ExternalAutopilot* e
     }
 }
 
-RotorCommand control(const FlightModel& model, FlightState& state, ExternalAutopilot* external) {
+RotorCommand control(const FlightModel& model, FlightState& state,
+                     autopilot::ExternalAutopilot* external) {
     const double time_s = seconds(state.tick);
     return external != nullptr
                ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
@@ -41,20 +43,20 @@ RotorCommand control(const FlightModel& model, FlightState& state, ExternalAutop
 
 }  // namespace
 
-void step(const FlightModel& model, FlightState& state, Plant& plant, TickReport& report,
+void step(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
           const Outside& outside) {
-    const Airframe& airframe = model.airframe;
+    const vehicle::Airframe& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
     report.restart();
-    EventList& events = report.events;
+    guidance::EventList& events = report.events;
 
-    sense(model.sensors, state.sensors, state.truth, plant, state.tick);
+    sensors::sense(model.sensors, state.sensors, state.truth, plant, state.tick);
     const Readings& readings = state.sensors.readings;
     if (controls) {
         estimate(model, state, outside.autopilot);
     }
-    if (model.mount != Mount::free) {
+    if (model.mount != vehicle::Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
     } else if (outside.guidance != nullptr) {
         outside.guidance->exchange(readings, state.autopilot.estimate, time_s, state.guidance,
@@ -85,4 +87,4 @@ void step(const FlightModel& model, FlightState& state, Plant& plant, TickReport
     }
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -5,7 +5,7 @@
 
 #include "limpet/guidance/perching.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// The most that the cup bore in a tick, over all steps of the plant; NaN: it was not so.
 struct ContactPeaks {
@@ -23,7 +23,7 @@ struct ContactPeaks {
 
 /// What happened on the way from one tick to the next, for whoever watches the loop.
 struct TickReport {
-    EventList events;
+    guidance::EventList events;
     ContactPeaks contact;
     int physics_steps = 0;
 
@@ -35,4 +35,4 @@ struct TickReport {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -3,26 +3,27 @@
 
 #include <utility>
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 constexpr std::uint16_t kNoSchema = 0;
 
-class TappedTransport final : public Transport {
+class TappedTransport final : public wire::Transport {
 public:
-    TappedTransport(std::unique_ptr<Transport> wire, WireLog& log)
+    TappedTransport(std::unique_ptr<wire::Transport> wire, WireLog& log)
         : wire_(std::move(wire)), log_(log) {}
 
-    Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds timeout) override {
-        const Transfer transfer = wire_->send(bytes, timeout);
+    wire::Transfer send(std::span<const std::byte> bytes,
+                        std::chrono::nanoseconds timeout) override {
+        const wire::Transfer transfer = wire_->send(bytes, timeout);
         if (transfer.bytes > 0) {
             log_.sent(bytes.first(transfer.bytes));
         }
         return transfer;
     }
 
-    Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds timeout) override {
-        const Transfer transfer = wire_->receive(into, timeout);
+    wire::Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds timeout) override {
+        const wire::Transfer transfer = wire_->receive(into, timeout);
         if (transfer.bytes > 0) {
             log_.received(into.first(transfer.bytes));
         }
@@ -33,12 +34,12 @@ public:
         return wire_->wait_for_peer(timeout);
     }
     void close() override { wire_->close(); }
-    TransportAddress address() const override { return wire_->address(); }
+    wire::TransportAddress address() const override { return wire_->address(); }
     std::string describe() const override { return wire_->describe(); }
-    const TransportStatistics& statistics() const override { return wire_->statistics(); }
+    const wire::TransportStatistics& statistics() const override { return wire_->statistics(); }
 
 private:
-    std::unique_ptr<Transport> wire_;
+    std::unique_ptr<wire::Transport> wire_;
     WireLog& log_;
 };
 
@@ -58,8 +59,8 @@ void WireLog::write(std::uint16_t channel, std::span<const std::byte> bytes) {
                   {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
-std::unique_ptr<Transport> tapped(std::unique_ptr<Transport> wire, WireLog& log) {
+std::unique_ptr<wire::Transport> tapped(std::unique_ptr<wire::Transport> wire, WireLog& log) {
     return std::make_unique<TappedTransport>(std::move(wire), log);
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -7,10 +7,10 @@
 #include <memory>
 #include <span>
 
-#include "limpet/mavlink/transport.hpp"
-#include "limpet/record/mcap_writer.hpp"
+#include "limpet/mcap/writer.hpp"
+#include "limpet/wire/transport.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 /// What went over a wire, byte by byte, as MCAP: topics /wire/sent and /wire/received, a message
 /// for each piece as it was sent or came, in their order. Its times are wall time since it began.
@@ -36,6 +36,7 @@ private:
 
 /// The same wire, listened to.
 /// @param log  outlives the wire
-[[nodiscard]] std::unique_ptr<Transport> tapped(std::unique_ptr<Transport> wire, WireLog& log);
+[[nodiscard]] std::unique_ptr<wire::Transport> tapped(std::unique_ptr<wire::Transport> wire,
+                                                      WireLog& log);
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -5,7 +5,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 /// The lip's load in the phase it is in now.
@@ -211,4 +211,4 @@ CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
     return output;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

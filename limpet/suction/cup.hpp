@@ -10,7 +10,7 @@
 #include "limpet/suction/pressure_model.hpp"
 #include "limpet/suction/seal.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 // Fig. 6 of the paper as a state machine. The joint of its plugin is `attached`; the threshold and
 // the dwell are those of its section III.B. Every row is checked in each step, top first.
@@ -133,4 +133,4 @@ void begin_touch(CupState& state);
                                         const Surface& surface, const LipContact& contact,
                                         const CupInput& input, double dt_s);
 
-}  // namespace limpet
+}  // namespace limpet::suction

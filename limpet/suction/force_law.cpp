@@ -6,7 +6,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 /// Lip in compression: soft, then hard where it bottoms out [N].
@@ -186,4 +186,4 @@ LipLoad held_load(const LipParameters& lip, const Wrench& wrench_T, double frict
     return load;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -10,7 +10,7 @@
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/core/wall.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 // The cup as a compliant 6-DoF force law (docs/decisions/0003): a bushing between lip and wall
 // whose forces have physical limits. Engine contact will not do: hard contacts make the impact grow
@@ -100,4 +100,4 @@ struct LipLoad {
 /// Force with which vacuum holds a cup of this radius: (P_atm - P) pi R^2 [N].
 [[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m);
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,7 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 constexpr double kGasConstantTimesTemperature_m2_s2 = 287.05 * 293.15;  ///< dry air, 20 deg C
@@ -296,4 +296,4 @@ double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, do
     return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,7 +8,7 @@
 #include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 // The air of one or more cups on one pump, beside the exponential of pressure.hpp
 // (docs/decisions/0008). Isothermal, so that mass is counted as throughput Q = p dV/dt [Pa m^3/s]:
@@ -111,4 +111,4 @@ struct Pneumatic {
                                         double dt_s);
 };
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -7,7 +7,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 /// Every airflow is dP/dt = (target - P) / tau.
@@ -82,4 +82,4 @@ double FirstOrder::next_Pa(const Parameters& parameters, const SealedAir& air, d
     return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s);
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

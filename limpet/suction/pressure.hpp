@@ -7,7 +7,7 @@
 #include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 /// Where the air goes.
 enum class Airflow {
@@ -51,4 +51,4 @@ struct FirstOrder {
                                         double dt_s);
 };
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 template <class... Models>
@@ -23,4 +23,4 @@ std::span<const PressureModel> pressure_models() {
     return kModels;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,7 +8,7 @@
 #include "limpet/suction/pneumatics.hpp"
 #include "limpet/suction/pressure.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 // How the pressure in a sealed cup goes on is a model's; when it is sealed is cup.hpp's, and off
 // the wall every cup fills by FirstOrder's open_time_constant_s. A model is a file with a struct:
@@ -35,4 +35,4 @@ struct PressureModel {
 /// All, in the registry's order.
 [[nodiscard]] std::span<const PressureModel> pressure_models();
 
-}  // namespace limpet
+}  // namespace limpet::suction

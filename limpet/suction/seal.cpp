@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 double normal_cdf(double z) {
@@ -45,4 +45,4 @@ double seal_probability(const Surface& surface, double press_N, double tilt_rad)
     return force * tilt;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

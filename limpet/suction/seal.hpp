@@ -4,7 +4,7 @@
 #include "limpet/core/random.hpp"
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 /// What this touch needs in order to seal: drawn when the lip meets the wall, because roughness and
 /// the spot that is hit differ from touch to touch (paper, section II.D).
@@ -23,4 +23,4 @@ struct SealDemand {
 /// the dwell that Fig. 6 also asks for is not in it.
 [[nodiscard]] double seal_probability(const Surface& surface, double press_N, double tilt_rad);
 
-}  // namespace limpet
+}  // namespace limpet::suction

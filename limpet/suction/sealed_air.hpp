@@ -3,7 +3,7 @@
 
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 /// What a pressure model (pressure_model.hpp) is told of a sealed cup, each step.
 struct SealedAir {
@@ -16,4 +16,4 @@ struct SealedAir {
     bool valve_open = false;
 };
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 const ParameterTable<Surface>& surface_table() {
     using S = Surface;
@@ -44,4 +44,4 @@ const ParameterTable<Surface>& surface_table() {
     return table;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -5,7 +5,7 @@
 
 #include "limpet/core/parameters.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 /// What a cup meets: one row of surfaces.yaml. Defaults: porous concrete.
 /// Pressures and time constants are Table II of the paper; the rest is assumed, see surfaces.yaml.
@@ -33,4 +33,4 @@ struct Surface {
 
 [[nodiscard]] const ParameterTable<Surface>& surface_table();
 
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,9 +8,8 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/vehicle/cad_model.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 
 namespace {
 
@@ -65,8 +64,8 @@ void validate(const Airframe& airframe) {
 }
 
 BodyInertia carriage_inertia(const Airframe& airframe) {
-    if (airframe.cad) {
-        return airframe.cad->carriage;
+    if (airframe.cad_bodies) {
+        return airframe.cad_bodies->carriage;
     }
     const double mass_kg = airframe.slider.mass_kg;
     const double length_m = 2.0 * airframe.slider.travel_m;
@@ -79,8 +78,8 @@ BodyInertia carriage_inertia(const Airframe& airframe) {
 }
 
 BodyInertia cup_inertia(const Airframe& airframe) {
-    if (airframe.cad) {
-        return cup_with_yoke(*airframe.cad);
+    if (airframe.cad_bodies) {
+        return cup_with_yoke(*airframe.cad_bodies);
     }
     const CupMountParameters& cup = airframe.cup;
     const double along = 0.5 * cup.mass_kg * cup.radius_m * cup.radius_m;
@@ -91,8 +90,8 @@ BodyInertia cup_inertia(const Airframe& airframe) {
 }
 
 BodyInertia base_inertia(const Airframe& airframe) {
-    if (airframe.cad) {
-        return airframe.cad->base;
+    if (airframe.cad_bodies) {
+        return airframe.cad_bodies->base;
     }
     BodyInertia base{.mass_kg = airframe.mass_kg,
                      .centre_B_m = Vector3::Zero(),
@@ -128,4 +127,17 @@ SliderForce slider_force(const SliderParameters& slider, double position_m, doub
     return force;
 }
 
-}  // namespace limpet
+BodyInertia cup_with_yoke(const CadBodies& cad) {
+    BodyInertia both;
+    both.mass_kg = cad.cup_yoke.mass_kg + cad.cup.mass_kg;
+    both.centre_B_m =
+        (cad.cup_yoke.mass_kg * cad.cup_yoke.centre_B_m + cad.cup.mass_kg * cad.cup.centre_B_m) /
+        both.mass_kg;
+    for (const BodyInertia& part : {cad.cup_yoke, cad.cup}) {
+        const Matrix3 arm = skew(part.centre_B_m - both.centre_B_m);
+        both.inertia_kg_m2 += part.inertia_kg_m2 - part.mass_kg * arm * arm;
+    }
+    return both;
+}
+
+}  // namespace limpet::vehicle

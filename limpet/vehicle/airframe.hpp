@@ -10,7 +10,15 @@
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
 
-namespace limpet {
+namespace limpet::models {
+struct CadModel;
+}
+
+namespace limpet::models {
+struct CadModel;
+}
+
+namespace limpet::vehicle {
 
 /// Propeller and motor, the Gazebo motor model's parameters. Source: facts.md section 1, Table I.
 struct RotorParameters {
@@ -82,7 +90,22 @@ struct BatteryParameters {
     friend bool operator==(const BatteryParameters&, const BatteryParameters&) = default;
 };
 
-struct CadModel;
+/// Mass of one body, with the slider at its outer stop and the joint centred.
+struct BodyInertia {
+    double mass_kg = 0.0;
+    Vector3 centre_B_m = Vector3::Zero();
+    Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the body's own centre, axes of B
+};
+
+/// The bodies of a vehicle as a CAD program gives them (limpet/models/cad_model.hpp).
+struct CadBodies {
+    BodyInertia base;
+    BodyInertia carriage;
+    BodyInertia cup_yoke;
+    BodyInertia cup;
+};
+/// Yoke and cup as one body.
+[[nodiscard]] BodyInertia cup_with_yoke(const CadBodies& bodies);
 
 /// ONE description of a vehicle, from which MJCF, SDF and URDF are made. Positions are in B: origin
 /// at the centre of mass of the whole vehicle with the slider at its outer stop,
@@ -110,7 +133,8 @@ struct Airframe {
     double lidar_z_m = 0.0;
     /// Bodies and looks as a CAD program gives them, else null: then they are made of the above.
     /// Masses, inertias and the cup's joint above are the same as its.
-    std::shared_ptr<const CadModel> cad{};
+    std::shared_ptr<const models::CadModel> cad{};
+    std::shared_ptr<const CadBodies> cad_bodies{};  ///< those of `cad`
 
     friend bool operator==(const Airframe&, const Airframe&) = default;
 };
@@ -132,12 +156,6 @@ void validate(const Airframe& airframe);
 /// @throws InputError unless some real body has this mass and inertia
 void require_physical(const std::string& what, double mass_kg, const Matrix3& inertia_kg_m2);
 
-/// Mass of one body, with the slider at its outer stop and the joint centred.
-struct BodyInertia {
-    double mass_kg = 0.0;
-    Vector3 centre_B_m = Vector3::Zero();
-    Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the body's own centre, axes of B
-};
 /// What is left for the base when slider and cup are taken out of the whole. Diagonal when the
 /// joint is level with the centre of mass.
 [[nodiscard]] BodyInertia base_inertia(const Airframe& airframe);
@@ -158,4 +176,4 @@ struct SliderForce {
 [[nodiscard]] SliderForce slider_force(const SliderParameters& slider, double position_m,
                                        double velocity_m_s);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

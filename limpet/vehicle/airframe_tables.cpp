@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/vehicle/airframe.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 
 const ParameterTable<RotorParameters>& rotor_table() {
     using P = RotorParameters;
@@ -145,4 +145,4 @@ const ParameterTable<Airframe>& airframe_table() {
     return table;
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

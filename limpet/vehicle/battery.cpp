@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 constexpr double kCoulombsPerAh = 3600.0;
@@ -70,4 +70,4 @@ double voltage_share(const BatteryParameters& battery, double voltage_V) {
     return std::min(1.0, voltage_V / (battery.cells * kRatedCellVoltage_V));
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -9,7 +9,7 @@
 ///
 /// An empty pack delivers nothing: 0 V, 0 A, and stays so. A demand beyond the most that the pack
 /// can give, U^2 / 4R, gets just that, at half the resting voltage.
-namespace limpet {
+namespace limpet::vehicle {
 
 /// Motors reach their rated speed down to this voltage of a cell [V].
 inline constexpr double kRatedCellVoltage_V = 3.7;
@@ -46,4 +46,4 @@ void step(const BatteryParameters& battery, BatteryState& state, double shaft_po
 /// Source: assumed; facts.md section 1 gives 768-830 rad/s at 22.2 V.
 [[nodiscard]] double voltage_share(const BatteryParameters& battery, double voltage_V);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -6,7 +6,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 
 std::string_view to_string(Mount mount) {
     switch (mount) {
@@ -142,4 +142,4 @@ Wrench clamp_wrench_W(const Clamp& clamp, const Kinematics& held, const Kinemati
             .moment_N_m = base.q_WF * moment_B_N_m};
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

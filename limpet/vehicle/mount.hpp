@@ -16,7 +16,7 @@
 ///   pendulum   four parallel ropes of one length, level with the centre of mass: the vehicle
 ///              swings like a point mass and keeps its attitude (paper III.B: a 5 m pendulum)
 ///   press_rig  a clamp that holds the base by springs in all six directions and can be moved
-namespace limpet {
+namespace limpet::vehicle {
 
 enum class Mount {
     free,       ///< it flies
@@ -90,4 +90,4 @@ struct Clamp {
 [[nodiscard]] Wrench clamp_wrench_W(const Clamp& clamp, const Kinematics& held,
                                     const Kinematics& base);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

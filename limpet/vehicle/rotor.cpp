@@ -6,7 +6,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 double steady_speed_rad_s(const RotorParameters& rotor, double command) {
@@ -100,4 +100,4 @@ double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state
     return rotor.moment_constant_m * rotor.motor_constant_kg_m * cubes;
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -21,7 +21,7 @@
 /// for a rotor that turns counter-clockwise seen from above. The spin of motor and propeller has no
 /// inertia here: its reaction on yaw is left out.
 /// Source: PX4-SITL_gazebo-classic, gazebo_motor_model.cpp; facts.md section 1.
-namespace limpet {
+namespace limpet::vehicle {
 
 /// Eq. (3): thrust per squared speed.
 /// @param thrust_coefficient  C_T0 of T = C_T0 rho n^2 D^4, n in revolutions per second
@@ -83,4 +83,4 @@ void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& 
 /// @return power of the four shafts, torque times speed [W]
 [[nodiscard]] double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 struct Point {
@@ -137,4 +137,4 @@ Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
     return wrench;
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

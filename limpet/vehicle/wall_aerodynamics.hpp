@@ -20,7 +20,7 @@
 /// At this vehicle's d/R it is below 1 % of the thrust either way.
 /// Source: "Ground, Ceiling and Wall Effect Evaluation of Small Quadcopters" (JINT 110, 2024), by
 /// facts.md section 5.
-namespace limpet {
+namespace limpet::vehicle {
 
 /// Rows of `environment:` about the wall. All off by default.
 struct WallAirParameters {
@@ -75,4 +75,4 @@ void step(const WallAirModel& model, WallAirState& state);
                                        double thrust_N, const Quaternion& q_WB, double distance_m,
                                        const Vector3& x_T_W);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

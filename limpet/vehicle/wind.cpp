@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 constexpr double kFoot_m = 0.3048;
@@ -151,4 +151,4 @@ Vector3 wind_W_m_s(const WindModel& model, const WindState& state) {
     return model.mean_W_m_s + model.R_WG * gust_G_m_s;
 }
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -14,7 +14,7 @@
 /// Each is a linear filter of white noise, stepped by its exact solution and begun in its
 /// stationary distribution: variance and spectrum do not depend on the step.
 /// Source: MIL-F-8785C, 3.7.2 (spectra) and 3.7.3 (low altitude).
-namespace limpet {
+namespace limpet::vehicle {
 
 /// Rows of `environment:` about the wind. All off by default: still air.
 struct WindParameters {
@@ -83,4 +83,4 @@ void step(const WindModel& model, WindState& state);
 /// @return velocity of the air, in W; zero in still air
 [[nodiscard]] Vector3 wind_W_m_s(const WindModel& model, const WindState& state);
 
-}  // namespace limpet
+}  // namespace limpet::vehicle

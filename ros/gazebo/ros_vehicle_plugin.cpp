@@ -10,7 +10,7 @@
 #include "ros/src/node_parameters.hpp"
 #include "ros/src/ros_vehicle.hpp"
 
-namespace limpet {
+namespace limpet::ros {
 
 /// LimpetRosVehiclePlugin: LimpetVehiclePlugin (its elements are those of this one too) with ROS at
 /// its boundary. It publishes /clock, LiDARs, force, battery and the built-in autopilot's estimate,
@@ -24,7 +24,7 @@ namespace limpet {
 ///   time_limit_s       of the flight [s]                                         the scenario's
 ///
 /// What it flies it tells the nodes by the parameter /limpet/flight.
-class RosVehiclePlugin final : public VehiclePlugin {
+class RosVehiclePlugin final : public gazebo11::VehiclePlugin {
 public:
     ~RosVehiclePlugin() override { end_flight(); }
 
@@ -34,51 +34,52 @@ protected:
                 "time_limit_s"};
     }
 
-    void prepare(gazebo::physics::ModelPtr model, const YamlNode& parameters,
-                 HostedFlight& flight) override {
+    void prepare(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters,
+                 gazebo11::HostedFlight& flight) override {
         (void)model;
         ros::RosVehicleOptions options;
         const auto flag = [&parameters](const char* key, bool& value) {
-            if (const YamlNode* node = parameters.find(key)) {
+            if (const scenario::YamlNode* node = parameters.find(key)) {
                 value = read_flag(*node);
             }
         };
         flag("cup_by_node", options.cup_by_node);
         flag("ends_with_mission", options.ends_with_mission);
         for (const BoundParameter& row : bind(ros::offboard_manners_table(), options.manners)) {
-            if (const YamlNode* node = parameters.find(row.name)) {
+            if (const scenario::YamlNode* node = parameters.find(row.name)) {
                 row.value.set(read_number(*node, row));
             }
         }
         auto limits = bind(simulation_table(), flight.scenario.simulation);
         for (const BoundParameter& row : limits) {
-            const YamlNode* node = row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;
+            const scenario::YamlNode* node =
+                row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;
             if (node != nullptr) {
                 row.value.set(read_number(*node, row));
             }
         }
-        if (const YamlNode* node = parameters.find("autopilot");
+        if (const scenario::YamlNode* node = parameters.find("autopilot");
             node != nullptr && read_text(*node) != "builtin") {
             fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
         }
         join_ros();
         ros::tell_flight(told(parameters));
         vehicle_ = std::make_unique<ros::RosVehicle>(flight.scenario, options);
-        const Outside outside = vehicle_->outside();
+        const simulation::Outside outside = vehicle_->outside();
         flight.conduct.outside.guidance = outside.guidance;
         flight.conduct.outside.cup = outside.cup;
     }
 
 private:
-    [[nodiscard]] static ros::SetupArguments told(const YamlNode& parameters) {
+    [[nodiscard]] static ros::SetupArguments told(const scenario::YamlNode& parameters) {
         ros::SetupArguments flight;
         flight.scenario = read_text(*parameters.find("scenario"));
-        if (const YamlNode* set = parameters.find("set")) {
-            for (const YamlNode& item : set->children) {
+        if (const scenario::YamlNode* set = parameters.find("set")) {
+            for (const scenario::YamlNode& item : set->children) {
                 flight.set.push_back(read_text(item));
             }
         }
-        if (const YamlNode* seed = parameters.find("seed")) {
+        if (const scenario::YamlNode* seed = parameters.find("seed")) {
             flight.seed = read_count(*seed);
         }
         return flight;
@@ -101,4 +102,4 @@ private:
 
 GZ_REGISTER_MODEL_PLUGIN(RosVehiclePlugin)
 
-}  // namespace limpet
+}  // namespace limpet::ros

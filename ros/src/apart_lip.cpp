@@ -18,11 +18,11 @@ Tick tick_of(double time_s) {
 
 /// The instant of a tick that may seal: pressed hardest while the lip lies still. One that lets go
 /// counts above all.
-bool tells_more(const LipContact& contact, double press_N, const LipReport& than) {
-    if (than.contact.let_go != LetGo::no) {
+bool tells_more(const suction::LipContact& contact, double press_N, const LipReport& than) {
+    if (than.contact.let_go != suction::LetGo::no) {
         return false;
     }
-    if (contact.let_go != LetGo::no) {
+    if (contact.let_go != suction::LetGo::no) {
         return true;
     }
     if (contact.touches != than.contact.touches) {
@@ -48,10 +48,12 @@ std::optional<LipReport> ApartLip::take_report() {
     return report;
 }
 
-void ApartLip::collect(const LipContact& contact, double press_N, CupPhase phase, double time_s) {
+void ApartLip::collect(const suction::LipContact& contact, double press_N, CupPhase phase,
+                       double time_s) {
     const Tick tick = tick_of(time_s);
     if (anything_ && tick != tick_) {
-        const bool quiet = phase == CupPhase::attached && gathered_.contact.let_go == LetGo::no;
+        const bool quiet =
+            phase == CupPhase::attached && gathered_.contact.let_go == suction::LetGo::no;
         const bool due_now =
             near_ ? !quiet || due(tick_, kAttached_Hz) : due(tick_, kFar_Hz) || contact.touches;
         if (due_now || tick < tick_) {
@@ -71,7 +73,7 @@ void ApartLip::collect(const LipContact& contact, double press_N, CupPhase phase
 }
 
 /// What was told, where it knows of all that happened here. Lifting off and touching are seen here.
-std::optional<Event> ApartLip::obey(CupState& state, double time_s) {
+std::optional<Event> ApartLip::obey(suction::CupState& state, double time_s) {
     state.mean_pressure_Pa = answer_.mean_pressure_Pa;
     state.status.pressure_Pa = answer_.pressure_Pa;
     state.status.pump_running = answer_.pump_running;
@@ -81,7 +83,7 @@ std::optional<Event> ApartLip::obey(CupState& state, double time_s) {
     }
     const CupPhase before = state.status.phase;
     state.status.seal_threshold_N = answer_.seal_threshold_N;
-    state.status.phase = is_sealed(answer_.phase) ? answer_.phase : CupPhase::touching;
+    state.status.phase = suction::is_sealed(answer_.phase) ? answer_.phase : CupPhase::touching;
     if (is_sealed(state.status.phase) && !is_sealed(before)) {
         state.let_go_said = false;
     }
@@ -94,13 +96,14 @@ std::optional<Event> ApartLip::obey(CupState& state, double time_s) {
     return std::nullopt;
 }
 
-CupOutput ApartLip::step(const CupModel& model, CupState& state, const Surface& surface,
-                         const Kinematics& cup, const CupInput& input) {
-    CupOutput output;
+suction::CupOutput ApartLip::step(const suction::CupModel& model, suction::CupState& state,
+                                  const suction::Surface& surface, const Kinematics& cup,
+                                  const suction::CupInput& input) {
+    suction::CupOutput output;
     output.event = obey(state, input.time_s);
-    const LipNow lip = feel_lip(model, state, surface, cup, input);
-    const LipContact& contact = lip.contact;
-    const bool lets_go = contact.let_go != LetGo::no;
+    const suction::LipNow lip = feel_lip(model, state, surface, cup, input);
+    const suction::LipContact& contact = lip.contact;
+    const bool lets_go = contact.let_go != suction::LetGo::no;
     if (state.status.phase == CupPhase::free && contact.touches) {
         begin_touch(state);
         barrier_ = next_;

@@ -15,7 +15,7 @@ struct LipReport {
     std::uint32_t touch = 0;
     double time_s = 0.0;
     double press_N = 0.0;  ///< the largest since the last report, of those while the lip lies still
-    LipContact contact;    ///< of that instant
+    suction::LipContact contact;  ///< of that instant
 };
 
 /// What it is told of seal and pressure.
@@ -35,16 +35,17 @@ struct LipAnswer {
 class ApartLip {
 public:
     /// In place of suction's step(). Status and pressure in `state` are as told.
-    [[nodiscard]] CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
-                                 const Kinematics& cup, const CupInput& input);
+    [[nodiscard]] suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
+                                          const suction::Surface& surface, const Kinematics& cup,
+                                          const suction::CupInput& input);
     /// @return the report of the ticks that are over, when one is due
     [[nodiscard]] std::optional<LipReport> take_report();
     /// An answer to a report that was never made is none.
     void hear(const LipAnswer& answer);
 
 private:
-    void collect(const LipContact& contact, double press_N, CupPhase phase, double time_s);
-    [[nodiscard]] std::optional<Event> obey(CupState& state, double time_s);
+    void collect(const suction::LipContact& contact, double press_N, CupPhase phase, double time_s);
+    [[nodiscard]] std::optional<Event> obey(suction::CupState& state, double time_s);
 
     LipAnswer answer_;
     std::uint32_t next_ = 1;     ///< number of the next report

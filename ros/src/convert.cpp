@@ -266,7 +266,7 @@ std::optional<Motion> motion_from(const geometry_msgs::PoseStamped& message) {
                             .yaw_rad = euler_from_quaternion(pose->q_WB).yaw_rad};
 }
 
-limpet_ros::CupContact contact_message(const LipContact& contact) {
+limpet_ros::CupContact contact_message(const suction::LipContact& contact) {
     limpet_ros::CupContact message;
     message.header.frame_id = "cup";
     message.touches = contact.touches ? 1 : 0;
@@ -281,7 +281,7 @@ limpet_ros::CupContact contact_message(const LipContact& contact) {
     return message;
 }
 
-std::optional<LipContact> lip_contact(const limpet_ros::CupContact& message) {
+std::optional<suction::LipContact> lip_contact(const limpet_ros::CupContact& message) {
     for (const double number :
          {message.gap_m, message.tilt_rad, message.press_N, message.pull_N, message.pull_margin_N,
           message.shear_margin_N, message.peel_margin_N}) {
@@ -292,18 +292,18 @@ std::optional<LipContact> lip_contact(const limpet_ros::CupContact& message) {
     if (message.let_go > limpet_ros::CupContact::PEELED) {
         return std::nullopt;
     }
-    return LipContact{.touches = message.touches != 0,
-                      .gap_m = message.gap_m,
-                      .tilt_rad = message.tilt_rad,
-                      .lies_still = message.lies_still != 0,
-                      .let_go = static_cast<LetGo>(message.let_go),
-                      .pull_N = message.pull_N,
-                      .pull_margin_N = message.pull_margin_N,
-                      .shear_margin_N = message.shear_margin_N,
-                      .peel_margin_N = message.peel_margin_N};
+    return suction::LipContact{.touches = message.touches != 0,
+                               .gap_m = message.gap_m,
+                               .tilt_rad = message.tilt_rad,
+                               .lies_still = message.lies_still != 0,
+                               .let_go = static_cast<suction::LetGo>(message.let_go),
+                               .pull_N = message.pull_N,
+                               .pull_margin_N = message.pull_margin_N,
+                               .shear_margin_N = message.shear_margin_N,
+                               .peel_margin_N = message.peel_margin_N};
 }
 
-limpet_ros::CupState cup_message(const CupState& state) {
+limpet_ros::CupState cup_message(const suction::CupState& state) {
     limpet_ros::CupState message;
     message.header.frame_id = "cup";
     message.touches = static_cast<std::uint32_t>(state.touches);

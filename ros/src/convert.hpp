@@ -85,11 +85,11 @@ using Motion = decltype(Setpoint::motion);
 // --- the cup ------------------------------------------------------------------------------------
 
 /// Number, touch and press force are the caller's.
-[[nodiscard]] limpet_ros::CupContact contact_message(const LipContact& contact);
+[[nodiscard]] limpet_ros::CupContact contact_message(const suction::LipContact& contact);
 /// @return nullopt when a number in it is none, or let_go out of range
-[[nodiscard]] std::optional<LipContact> lip_contact(const limpet_ros::CupContact& message);
+[[nodiscard]] std::optional<suction::LipContact> lip_contact(const limpet_ros::CupContact& message);
 /// Number of the contact is the caller's.
-[[nodiscard]] limpet_ros::CupState cup_message(const CupState& state);
+[[nodiscard]] limpet_ros::CupState cup_message(const suction::CupState& state);
 /// @return nullopt for a phase that is none
 [[nodiscard]] std::optional<CupPhase> phase_from(const limpet_ros::CupState& message);
 

@@ -74,13 +74,13 @@ std::string_view Heard::keep(std::string_view text) {
     return texts_.emplace_back(text);
 }
 
-void Heard::take_status(PerchingMemory& guidance) {
+void Heard::take_status(guidance::PerchingMemory& guidance) {
     if (!status_) {
-        guidance.state = PerchingState::hovering;
+        guidance.state = guidance::PerchingState::hovering;
         return;
     }
-    if (status_->state <= static_cast<int>(PerchingState::finished)) {
-        guidance.state = static_cast<PerchingState>(status_->state);
+    if (status_->state <= static_cast<int>(guidance::PerchingState::finished)) {
+        guidance.state = static_cast<guidance::PerchingState>(status_->state);
     }
     if (guidance.state != shown_) {
         shown_ = guidance.state;
@@ -90,13 +90,14 @@ void Heard::take_status(PerchingMemory& guidance) {
     guidance.attempt = std::max<int>(1, status_->attempt);
     const auto outcome = outcome_from(status_->outcome);
     if (ends_with_mission_ && outcome && !guidance.ending) {
-        guidance.ending = Ending{.outcome = *outcome, .reason = std::string_view(status_->reason)};
+        guidance.ending =
+            guidance::Ending{.outcome = *outcome, .reason = std::string_view(status_->reason)};
     }
 }
 
-void Heard::take_events(EventList& events) {
+void Heard::take_events(guidance::EventList& events) {
     std::size_t taken = 0;
-    for (; taken < std::min(events_.size(), kMostEvents); ++taken) {
+    for (; taken < std::min(events_.size(), simulation::kMostEvents); ++taken) {
         const limpet_ros::PerchingEvent& heard = events_[taken];
         const auto name = event_name(heard.name);
         if (!name) {
@@ -113,7 +114,8 @@ void Heard::take_events(EventList& events) {
     events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(taken));
 }
 
-bool Heard::take(const Estimate& estimate, PerchingMemory& guidance, EventList& events) {
+bool Heard::take(const Estimate& estimate, guidance::PerchingMemory& guidance,
+                 guidance::EventList& events) {
     const bool lost = mode_.update(estimate, clock_s(), guidance.setpoint);
     if (lost) {
         events.add(make_event(flight_s_, "autopilot", EventName::aborted,

@@ -48,15 +48,16 @@ public:
 
     /// Set-point, state and ending of a guidance elsewhere, as heard; events are added.
     /// @return whether the mode has just fallen back to holding
-    bool take(const Estimate& estimate, PerchingMemory& guidance, EventList& events);
+    bool take(const Estimate& estimate, guidance::PerchingMemory& guidance,
+              guidance::EventList& events);
     [[nodiscard]] const std::optional<LipAnswer>& answer() const { return answer_; }
     [[nodiscard]] const VehicleMode& mode() const { return mode_; }
     [[nodiscard]] bool guidance_heard() const { return status_.has_value(); }
 
 private:
     [[nodiscard]] bool of_this_flight(double stamp_s) const;
-    void take_status(PerchingMemory& guidance);
-    void take_events(EventList& events);
+    void take_status(guidance::PerchingMemory& guidance);
+    void take_events(guidance::EventList& events);
     [[nodiscard]] std::string_view keep(std::string_view text);
 
     static constexpr double kClockStart_s = 1.0;  // ROS takes a time of zero for none
@@ -74,7 +75,7 @@ private:
     std::vector<limpet_ros::PerchingEvent> events_;
     std::optional<LipAnswer> answer_;
     double state_since_s_ = 0.0;
-    PerchingState shown_ = PerchingState::hovering;
+    guidance::PerchingState shown_ = guidance::PerchingState::hovering;
 };
 
 }  // namespace limpet::ros

@@ -30,18 +30,18 @@ double time_of(const std_msgs::Header& header) {
     return header.stamp.isZero() ? now_s : std::min(header.stamp.toSec(), now_s);
 }
 
-SessionSetup read_setup() {
+companion::SessionSetup read_setup() {
     NodeParameters parameters;
     const NodeSetup setup = load_setup(parameters.setup());
-    const SessionSetup session{
-        .task = {.take_off = setup.scenario.mission == Mission::perch_and_take_off},
+    const companion::SessionSetup session{
+        .task = {.take_off = setup.scenario.mission == scenario::Mission::perch_and_take_off},
         .guidance = setup.scenario.guidance,
         .limits = setup.limits,
         .by_request = true,
         .asks_for_mode = parameters.flag("asks_for_mode", false),
         .watches_motion_capture = false};
     parameters.refuse_others();
-    if (setup.scenario.mission == Mission::hover || !setup.scenario.airframe.has_cup) {
+    if (setup.scenario.mission == scenario::Mission::hover || !setup.scenario.airframe.has_cup) {
         throw InputError(
             "perching_node: needs a vehicle with a cup and mission perch or "
             "perch_and_take_off");
@@ -51,7 +51,7 @@ SessionSetup read_setup() {
 
 class PerchingNode {
 public:
-    explicit PerchingNode(const SessionSetup& setup)
+    explicit PerchingNode(const companion::SessionSetup& setup)
         : session_(
               setup,
               {.on_event = [this](const Event& event) { tell(event); },
@@ -93,7 +93,7 @@ private:
         });
     }
     void subscribe() {
-        SessionInputs& in = session_.inputs();
+        companion::SessionInputs& in = session_.inputs();
         Readings& readings = in.readings;
         hear<limpet_ros::State>("mavros/state", [&in](const limpet_ros::State& m, double time_s) {
             in.autopilot = {time_s,
@@ -123,7 +123,7 @@ private:
                 name, boost::function<bool(std_srvs::TriggerRequest&, std_srvs::TriggerResponse&)>(
                           [name, service](std_srvs::TriggerRequest&,
                                           std_srvs::TriggerResponse& response) {
-                              const Answer answer = service(::ros::Time::now().toSec());
+                              const companion::Answer answer = service(::ros::Time::now().toSec());
                               response.success = answer.done ? 1 : 0;
                               response.message = answer.message;
                               ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
@@ -183,13 +183,14 @@ private:
         event_.publish(message);
     }
     void tell(const ::ros::Time& now) {
-        const PerchingMemory& memory = session_.memory();
+        const guidance::PerchingMemory& memory = session_.memory();
         limpet_ros::PerchingStatus status;
         status.header.stamp = now;
         status.phase = std::string(to_string(session_.phase()));
         status.obstacle = session_.obstacle();
-        const bool flies = session_.phase() == SessionPhase::flying;
-        const PerchingState state = flies ? memory.state : PerchingState::hovering;
+        const bool flies = session_.phase() == companion::SessionPhase::flying;
+        const guidance::PerchingState state =
+            flies ? memory.state : guidance::PerchingState::hovering;
         status.state = static_cast<std::uint8_t>(state);
         status.state_name = std::string(limpet::to_string(state));
         status.state_s = flies ? now.toSec() - memory.since_s : 0.0;
@@ -204,7 +205,7 @@ private:
         status_.publish(status);
     }
 
-    PerchingSession session_;
+    companion::PerchingSession session_;
     ::ros::NodeHandle node_;
     ::ros::NodeHandle own_;
     AutopilotCalls calls_;
@@ -212,11 +213,11 @@ private:
     std::vector<::ros::Subscriber> subscribers_;
     std::vector<::ros::ServiceServer> services_;
     ::ros::Timer timer_;
-    MechanismPace pace_;
+    companion::MechanismPace pace_;
 };
 
 void perching_node() {
-    const SessionSetup setup = read_setup();
+    const companion::SessionSetup setup = read_setup();
     PerchingNode node(setup);
     ::ros::spin();
 }

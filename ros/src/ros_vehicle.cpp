@@ -19,7 +19,7 @@ constexpr std::uint32_t kQueue = 1000;  ///< nothing is to be lost on one machin
 
 }  // namespace
 
-RosVehicle::RosVehicle(const Scenario& scenario, const RosVehicleOptions& options)
+RosVehicle::RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options)
     : options_(options),
       sensors_(scenario.sensors),
       heard_(options.manners, options.ends_with_mission) {
@@ -34,7 +34,7 @@ RosVehicle::~RosVehicle() {
     spinner_->stop();
 }
 
-Outside RosVehicle::outside() {
+simulation::Outside RosVehicle::outside() {
     return {.guidance = this, .cup = options_.cup_by_node ? this : nullptr};
 }
 
@@ -180,7 +180,7 @@ void RosVehicle::send_estimate(const Estimate& estimate) {
 // --- the simulation's calls ---------------------------------------------------------------------
 
 void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                          PerchingMemory& guidance, EventList& events) {
+                          guidance::PerchingMemory& guidance, guidance::EventList& events) {
     limpet_ros::State state;
     bool shows_state = false;
     {
@@ -222,9 +222,10 @@ std::string RosVehicle::obstacle() const {
     return heard_.guidance_heard() ? "" : "no perching_node is heard";
 }
 
-CupOutput RosVehicle::step(const CupModel& model, CupState& state, const Surface& surface,
-                           const Kinematics& cup, const CupInput& input, double /*dt_s*/) {
-    const CupOutput output = lip_.step(model, state, surface, cup, input);
+suction::CupOutput RosVehicle::step(const suction::CupModel& model, suction::CupState& state,
+                                    const suction::Surface& surface, const Kinematics& cup,
+                                    const suction::CupInput& input, double /*dt_s*/) {
+    const suction::CupOutput output = lip_.step(model, state, surface, cup, input);
     if (const auto report = lip_.take_report()) {
         limpet_ros::CupContact message = contact_message(report->contact);
         message.number = report->number;

@@ -38,20 +38,21 @@ struct RosVehicleOptions {
 /// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
 /// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
 /// of its own and never waited for.
-class RosVehicle final : public ExternalGuidance, public ExternalCup {
+class RosVehicle final : public simulation::ExternalGuidance, public simulation::ExternalCup {
 public:
     /// ros::init() has been called.
-    RosVehicle(const Scenario& scenario, const RosVehicleOptions& options);
+    RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options);
     ~RosVehicle() override;
 
     /// Guidance, and the cup if it is kept by the node; `this` outlives the flight.
-    [[nodiscard]] Outside outside();
+    [[nodiscard]] simulation::Outside outside();
 
     void exchange(const Readings& readings, const Estimate& estimate, double time_s,
-                  PerchingMemory& guidance, EventList& events) override;
+                  guidance::PerchingMemory& guidance, guidance::EventList& events) override;
     [[nodiscard]] std::string obstacle() const override;
-    CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
-                   const Kinematics& cup, const CupInput& input, double dt_s) override;
+    suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
+                            const suction::Surface& surface, const Kinematics& cup,
+                            const suction::CupInput& input, double dt_s) override;
 
 private:
     void advertise();
@@ -69,7 +70,7 @@ private:
     bool set_mode(limpet_ros::SetMode::Request& request, limpet_ros::SetMode::Response& response);
 
     RosVehicleOptions options_;
-    SensorParameters sensors_;
+    sensors::SensorParameters sensors_;
     ::ros::NodeHandle node_;
     ::ros::CallbackQueue queue_;
     std::vector<::ros::Subscriber> subscribers_;

@@ -15,13 +15,13 @@ constexpr std::string_view kLimits = "limits.";
 constexpr const char* kBare =
     "mission: perch\nvehicle: perching_uav\nwall: {surface: porous_concrete}\n";
 
-CompanionLimits limits_of(const std::vector<std::string>& settings) {
-    CompanionLimits limits;
-    YamlNode root = parse_yaml("limits: {}\n", "limits");
+companion::CompanionLimits limits_of(const std::vector<std::string>& settings) {
+    companion::CompanionLimits limits;
+    scenario::YamlNode root = scenario::parse_yaml("limits: {}\n", "limits");
     for (const std::string& setting : settings) {
         set_override(root, setting);
     }
-    read_rows(root.find("limits"), bind(companion_limits_table(), limits));
+    read_rows(root.find("limits"), bind(companion::companion_limits_table(), limits));
     return limits;
 }
 
@@ -43,7 +43,7 @@ std::vector<std::string> split_settings(const std::string& text) {
 }
 
 NodeSetup load_setup(const SetupArguments& arguments) {
-    LoadOptions options;
+    scenario::LoadOptions options;
     options.seed = arguments.seed;
     const auto say = [&options](const char* key, const std::string& value) {
         if (!value.empty()) {

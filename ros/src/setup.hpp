@@ -22,8 +22,8 @@ struct SetupArguments {
 };
 
 struct NodeSetup {
-    Scenario scenario;
-    CompanionLimits limits;  ///< set by "limits.KEY=VALUE"
+    scenario::Scenario scenario;
+    companion::CompanionLimits limits;  ///< set by "limits.KEY=VALUE"
 };
 
 /// What the nodes know of vehicle, guidance, cup and surface: derived and checked as for a flight.

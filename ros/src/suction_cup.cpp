@@ -15,15 +15,15 @@ constexpr double kLongestGap_s = seconds(kLongestGap);
 
 }  // namespace
 
-SuctionCup::SuctionCup(const Scenario& scenario) : scenario_(scenario) {
+SuctionCup::SuctionCup(const scenario::Scenario& scenario) : scenario_(scenario) {
     start();
 }
 
 void SuctionCup::start() {
     state_ = {};
     state_.random = RandomStream(scenario_.seed, 0, Stream::seal);
-    sensor_ = start_unit<PressureSensor>(scenario_.sensors,
-                                         RandomStream(scenario_.seed, 0, Stream::pressure), {});
+    sensor_ = start_unit<sensors::PressureSensor>(
+        scenario_.sensors, RandomStream(scenario_.seed, 0, Stream::pressure), {});
     reading_ = {};
     pump_on_ = valve_open_ = false;
     last_s_ = -1.0;
@@ -36,20 +36,21 @@ void SuctionCup::command(bool pump_on, bool valve_open) {
 }
 
 /// Of the spot that is under the cup; a touch that has not come yet meets the next one.
-const Surface& SuctionCup::surface() const {
-    const std::vector<Surface>& first = scenario_.wall.first_touches;
+const suction::Surface& SuctionCup::surface() const {
+    const std::vector<suction::Surface>& first = scenario_.wall.first_touches;
     const bool between = state_.status.phase == CupPhase::free;
     const auto spot = static_cast<std::size_t>(std::max(state_.touches - (between ? 0 : 1), 0));
     return spot < first.size() ? first[spot] : scenario_.wall.surface;
 }
 
-std::optional<Event> SuctionCup::feel(const LipContact& contact, double press_N, double time_s) {
+std::optional<Event> SuctionCup::feel(const suction::LipContact& contact, double press_N,
+                                      double time_s) {
     if (time_s < last_s_) {
         start();
     }
     const double dt_s = last_s_ < 0.0 ? 0.0 : std::min(time_s - last_s_, kLongestGap_s);
     last_s_ = time_s;
-    const CupInput input{
+    const suction::CupInput input{
         .time_s = time_s, .press_N = press_N, .pump_on = pump_on_, .valve_open = valve_open_};
     auto event = step(scenario_.cup, state_, surface(), contact, input, dt_s);
     Truth truth;

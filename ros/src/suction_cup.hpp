@@ -15,15 +15,15 @@ namespace limpet::ros {
 /// seed give the same states; the seal's demands are those of the embedded flight of that seed.
 class SuctionCup {
 public:
-    explicit SuctionCup(const Scenario& scenario);
+    explicit SuctionCup(const scenario::Scenario& scenario);
 
     void command(bool pump_on, bool valve_open);
     /// The lip at a time; one earlier than the last begins anew.
     /// @param press_N  through the mechanism, > 0 presses
     /// @return attached, contact_lost, detached
-    std::optional<Event> feel(const LipContact& contact, double press_N, double time_s);
+    std::optional<Event> feel(const suction::LipContact& contact, double press_N, double time_s);
 
-    [[nodiscard]] const CupState& state() const { return state_; }
+    [[nodiscard]] const suction::CupState& state() const { return state_; }
     /// Of the sensor, at its rate; a new sample has a new time.
     [[nodiscard]] const Sample<PressureReading>& pressure() const { return reading_; }
     [[nodiscard]] bool pump_on() const { return pump_on_; }
@@ -31,11 +31,11 @@ public:
 
 private:
     void start();
-    [[nodiscard]] const Surface& surface() const;
+    [[nodiscard]] const suction::Surface& surface() const;
 
-    Scenario scenario_;
-    CupState state_;
-    SensorUnit<PressureSensor> sensor_;
+    scenario::Scenario scenario_;
+    suction::CupState state_;
+    sensors::SensorUnit<sensors::PressureSensor> sensor_;
     Sample<PressureReading> reading_;
     bool pump_on_ = false;
     bool valve_open_ = false;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t kQueue = 1000;
 
-Scenario read_scenario() {
+scenario::Scenario read_scenario() {
     NodeParameters parameters;
     const NodeSetup setup = load_setup(parameters.setup());
     parameters.refuse_others();
@@ -28,7 +28,7 @@ Scenario read_scenario() {
 
 class SuctionCupNode {
 public:
-    explicit SuctionCupNode(const Scenario& scenario) : cup_(scenario), own_("~") {
+    explicit SuctionCupNode(const scenario::Scenario& scenario) : cup_(scenario), own_("~") {
         state_ = node_.advertise<limpet_ros::CupState>("cup/state", kQueue);
         pressure_ = node_.advertise<sensor_msgs::FluidPressure>("cup/pressure", kQueue);
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);

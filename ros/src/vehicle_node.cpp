@@ -34,15 +34,17 @@ void vehicle_node() {
     tell_flight(arguments);
     RosVehicle vehicle(setup.scenario, options);
     std::atomic<bool> stop{false};
-    FlightWatch watch;
+    simulation::FlightWatch watch;
     watch.on_event = [](const Event& event) {
         ROS_INFO("%7.3f  %s %s%s%s", event.time_s, std::string(event.station).c_str(),
                  std::string(to_string(event.name)).c_str(), event.reason.empty() ? "" : ": ",
                  std::string(event.reason).c_str());
     };
-    watch.on_tick = [&stop](Flight&, const EventList&) { stop = !::ros::ok(); };
-    const FlightResult result = fly(model, recording, watch, 0,
-                                    {.outside = vehicle.outside(), .speed = speed, .stop = &stop});
+    watch.on_tick = [&stop](simulation::Flight&, const guidance::EventList&) {
+        stop = !::ros::ok();
+    };
+    const simulation::FlightResult result = fly(
+        model, recording, watch, 0, {.outside = vehicle.outside(), .speed = speed, .stop = &stop});
     fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
                result.performance.simulated_s);
 }

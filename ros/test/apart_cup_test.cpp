@@ -50,32 +50,34 @@ Kinematics cup_at(double t_s) {
     return cup;
 }
 
-Scenario scenario() {
+scenario::Scenario scenario() {
     return load_setup(
                {.scenario = "", .vehicle = "", .surface = "", .mission = "", .set = {}, .seed = 4})
         .scenario;
 }
 
 /// @param delay_s  from a report to its answer
-Happened in_two_halves(const Scenario& scenario, double delay_s) {
-    const CupModel model{.parameters = scenario.cup, .wall = {}};
+Happened in_two_halves(const scenario::Scenario& scenario, double delay_s) {
+    const suction::CupModel model{.parameters = scenario.cup, .wall = {}};
     ApartLip lip;
     SuctionCup far(scenario);
-    CupState state;
+    suction::CupState state;
     Happened happened;
     std::deque<std::pair<double, LipAnswer>> on_the_way;  // when each arrives
     for (long k = 0; k < 24000; ++k) {
         const double t_s = static_cast<double>(k) * kStep_s;
         const Script now = script(t_s);
-        const CupInput input{.time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
-        const CupOutput output = lip.step(model, state, scenario.wall.surface, cup_at(t_s), input);
+        const suction::CupInput input{
+            .time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
+        const suction::CupOutput output =
+            lip.step(model, state, scenario.wall.surface, cup_at(t_s), input);
         if (output.event) {
             happened.events.push_back(*output.event);
         }
         if (const auto report = lip.take_report()) {
             far.command(now.pump_on, false);
             (void)far.feel(report->contact, report->press_N, report->time_s);
-            const CupState& told = far.state();
+            const suction::CupState& told = far.state();
             const LipAnswer answer{.contact = report->number,
                                    .phase = told.status.phase,
                                    .pressure_Pa = told.status.pressure_Pa,
@@ -96,16 +98,17 @@ Happened in_two_halves(const Scenario& scenario, double delay_s) {
     return happened;
 }
 
-Happened in_one_piece(const Scenario& scenario) {
-    const CupModel model{.parameters = scenario.cup, .wall = {}};
-    CupState state;
+Happened in_one_piece(const scenario::Scenario& scenario) {
+    const suction::CupModel model{.parameters = scenario.cup, .wall = {}};
+    suction::CupState state;
     state.random = RandomStream(scenario.seed, 0, Stream::seal);
     Happened happened;
     for (long k = 0; k < 24000; ++k) {
         const double t_s = static_cast<double>(k) * kStep_s;
         const Script now = script(t_s);
-        const CupInput input{.time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
-        const CupOutput output =
+        const suction::CupInput input{
+            .time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
+        const suction::CupOutput output =
             limpet::step(model, state, scenario.wall.surface, cup_at(t_s), input, kStep_s);
         if (output.event) {
             happened.events.push_back(*output.event);
@@ -145,10 +148,10 @@ TEST(ApartCup, AnswersThatComeLateDelayAndDoNotConfuse) {
 }
 
 TEST(ApartCup, AnOldAnswerDoesNotSealALipThatHasLetGo) {
-    const Scenario s = scenario();
-    const CupModel model{.parameters = s.cup, .wall = {}};
+    const scenario::Scenario s = scenario();
+    const suction::CupModel model{.parameters = s.cup, .wall = {}};
     ApartLip lip;
-    CupState state;
+    suction::CupState state;
     double t_s = 0.0;
     std::uint32_t last = 0;
     const auto hold = [&](double depth_m, double duration_s) {
@@ -184,13 +187,13 @@ TEST(ApartCup, AnOldAnswerDoesNotSealALipThatHasLetGo) {
 
 TEST(SuctionCup, TheSameInputsAndSeedGiveTheSameStates) {
     const auto run = [](std::uint64_t seed) {
-        Scenario s = scenario();
+        scenario::Scenario s = scenario();
         s.seed = seed;
         SuctionCup cup(s);
         cup.command(true, false);
         std::vector<double> out;
         for (int k = 0; k < 600; ++k) {
-            const LipContact contact{.touches = k > 100, .gap_m = k > 100 ? -0.001 : 0.01};
+            const suction::LipContact contact{.touches = k > 100, .gap_m = k > 100 ? -0.001 : 0.01};
             (void)cup.feel(contact, k > 100 ? 200.0 : 0.0, 1.0 + 1e-3 * k);
             out.push_back(cup.state().status.pressure_Pa);
             out.push_back(cup.pressure().value.pressure_Pa);

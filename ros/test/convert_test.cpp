@@ -138,20 +138,20 @@ TEST(RosConvert, WhatIsNoSetPointIsNone) {
 }
 
 TEST(RosConvert, AContactComesBackWhole) {
-    const LipContact contact{.touches = true,
-                             .gap_m = -0.001,
-                             .tilt_rad = 0.1,
-                             .lies_still = false,
-                             .let_go = LetGo::sheared,
-                             .pull_N = -20.0,
-                             .pull_margin_N = 1.0,
-                             .shear_margin_N = -2.0,
-                             .peel_margin_N = 3.0};
+    const suction::LipContact contact{.touches = true,
+                                      .gap_m = -0.001,
+                                      .tilt_rad = 0.1,
+                                      .lies_still = false,
+                                      .let_go = suction::LetGo::sheared,
+                                      .pull_N = -20.0,
+                                      .pull_margin_N = 1.0,
+                                      .shear_margin_N = -2.0,
+                                      .peel_margin_N = 3.0};
     const auto back = lip_contact(contact_message(contact));
     ASSERT_TRUE(back);
     EXPECT_TRUE(back->touches);
     EXPECT_FALSE(back->lies_still);
-    EXPECT_EQ(back->let_go, LetGo::sheared);
+    EXPECT_EQ(back->let_go, suction::LetGo::sheared);
     EXPECT_EQ(back->gap_m, contact.gap_m);
     EXPECT_EQ(back->shear_margin_N, contact.shear_margin_N);
     auto broken = contact_message(contact);

@@ -34,7 +34,7 @@ protected:
     static limpet_ros::PerchingStatus status(double clock_s) {
         limpet_ros::PerchingStatus status;
         status.header.stamp = ros_time(clock_s);
-        status.state = static_cast<std::uint8_t>(PerchingState::resting);
+        status.state = static_cast<std::uint8_t>(guidance::PerchingState::resting);
         status.attempt = 2;
         status.outcome = "perched";
         status.reason = "rests";
@@ -48,8 +48,8 @@ protected:
     }
 
     Heard heard_{OffboardManners{}, true};
-    PerchingMemory guidance_;
-    EventList events_;
+    guidance::PerchingMemory guidance_;
+    guidance::EventList events_;
     bool anew_ = false;
 };
 
@@ -57,7 +57,7 @@ TEST_F(AWorldReset, IsNoneWhileTimeGoesOn) {
     EXPECT_FALSE(anew_);
     EXPECT_FALSE(guidance_.setpoint.armed);
     EXPECT_TRUE(guidance_.setpoint.pump_on);
-    EXPECT_EQ(guidance_.state, PerchingState::resting);
+    EXPECT_EQ(guidance_.state, guidance::PerchingState::resting);
     EXPECT_EQ(guidance_.attempt, 2);
     ASSERT_TRUE(guidance_.ending.has_value());
     EXPECT_TRUE(heard_.answer().has_value());
@@ -68,7 +68,7 @@ TEST_F(AWorldReset, FliesAsIfNothingHadBeenHeard) {
     take();
     EXPECT_TRUE(guidance_.setpoint.armed) << "it would fall";
     EXPECT_FALSE(guidance_.setpoint.pump_on);
-    EXPECT_EQ(guidance_.state, PerchingState::hovering);
+    EXPECT_EQ(guidance_.state, guidance::PerchingState::hovering);
     EXPECT_FALSE(guidance_.ending.has_value()) << "the old outcome would end the new flight";
     EXPECT_FALSE(heard_.answer().has_value());
     EXPECT_FALSE(heard_.guidance_heard());

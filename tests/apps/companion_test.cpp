@@ -77,7 +77,7 @@ TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
                           "the autopilot"));
     EXPECT_THAT(finished.err, HasSubstr("limpet: nothing was flown: waited 2 s: no"));
     EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
-    EXPECT_EQ(read_recording(bench.folder() / "out/companion/flight.mcap").damage, "");
+    EXPECT_EQ(record::read_recording(bench.folder() / "out/companion/flight.mcap").damage, "");
 }
 
 TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
@@ -88,7 +88,7 @@ TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
         companion.signal(signal);
         const Finished finished = companion.wait(20s);
         EXPECT_EQ(finished.exit_code, 130) << finished.err;
-        EXPECT_EQ(read_recording(bench.folder() / "o/flight.mcap").damage, "");
+        EXPECT_EQ(record::read_recording(bench.folder() / "o/flight.mcap").damage, "");
     }
 }
 
@@ -129,7 +129,8 @@ TEST_F(ThreeProcesses, PerchAndTakeOff) {
     for (const char* event : {"impact", "attached", "perched", "motors_off", "detached"}) {
         EXPECT_THAT(seen.out, HasSubstr(event));
     }
-    const Recording recording = read_recording(bench.folder() / "companion_out/flight.mcap");
+    const record::Recording recording =
+        record::read_recording(bench.folder() / "companion_out/flight.mcap");
     EXPECT_EQ(recording.damage, "");
     const Finished drawn = bench.run({"plot", "companion_out/flight.mcap"});
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
@@ -144,7 +145,7 @@ TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     EXPECT_THAT(flown.out, HasSubstr("goes on until it rests or is off the wall"));
     EXPECT_THAT(flown.out, HasSubstr("nothing asked for; the pump stays on"));
     EXPECT_THAT(flown.out, testing::Not(HasSubstr("motors_on")));
-    EXPECT_EQ(read_recording(bench.folder() / "companion_out/flight.mcap").damage, "");
+    EXPECT_EQ(record::read_recording(bench.folder() / "companion_out/flight.mcap").damage, "");
     const Finished seen = surroundings.wait(20s);
     EXPECT_THAT(seen.out, HasSubstr("motors_off"));
     EXPECT_THAT(seen.out, testing::Not(HasSubstr("detached")));

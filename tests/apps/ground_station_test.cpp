@@ -26,8 +26,8 @@ using Clock = std::chrono::steady_clock;
 class GroundView {
 public:
     GroundView()
-        : link(open_transport({.medium = Medium::udp}, Role::listen),
-               {.system = 255, .component = kGroundStationComponent}) {}
+        : link(open_transport({.medium = wire::Medium::udp}, wire::Role::listen),
+               {.system = 255, .component = mavlink::kGroundStationComponent}) {}
 
     [[nodiscard]] std::string address() const {
         return "udp:127.0.0.1:" + std::to_string(link.transport().address().port);
@@ -49,13 +49,13 @@ public:
         return texts.find(text) != std::string::npos;
     }
     void set(const char* name, float value) {
-        ParamSet message{
+        mavlink::ParamSet message{
             .target_system = 1, .target_component = 1, .param_value = value, .param_type = 9};
         set_text(message.param_id, name);
-        EXPECT_EQ(link.send(message), TransferStatus::done);
+        EXPECT_EQ(link.send(message), wire::TransferStatus::done);
     }
 
-    Link link;
+    mavlink::Link link;
     std::map<std::uint32_t, int> heard;
     std::map<std::string, float> parameters;
     int parameter_count = -1;
@@ -63,15 +63,15 @@ public:
     bool armed = false;
 
 private:
-    void take(const Frame& frame) {
+    void take(const mavlink::Frame& frame) {
         ++heard[frame.id];
-        if (const auto value = decode<ParamValue>(frame)) {
+        if (const auto value = decode<mavlink::ParamValue>(frame)) {
             parameters[std::string(text_of(value->param_id))] = value->param_value;
             parameter_count = value->param_count;
-        } else if (const auto text = decode<StatusText>(frame)) {
+        } else if (const auto text = decode<mavlink::StatusText>(frame)) {
             texts += text_of(text->text);
             texts += text->id == 0 ? "\n" : "";
-        } else if (const auto beat = decode<Heartbeat>(frame)) {
+        } else if (const auto beat = decode<mavlink::Heartbeat>(frame)) {
             armed = (beat->base_mode & 128) != 0;
         }
     }
@@ -87,9 +87,10 @@ TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
     GroundView view;
     auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                                 "--no-figures", "--out", ".", "--ground-station", view.address()});
-    ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
+    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
     EXPECT_TRUE(view.armed);
-    EXPECT_EQ(view.link.send(ParamRequestList{.target_system = 1}), TransferStatus::done);
+    EXPECT_EQ(view.link.send(mavlink::ParamRequestList{.target_system = 1}),
+              wire::TransferStatus::done);
     // All but the earth's field: its names do not fit the wire.
     EXPECT_TRUE(view.until([&] {
         return view.parameter_count > 0 &&
@@ -104,18 +105,19 @@ TEST(GroundStation, SeesAFlightAndSetsItsParameters) {
     EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
     EXPECT_TRUE(view.said("parameter_set, MC_PITCHRATE_P 0.125\n"));
     for (const std::uint32_t id :
-         {SysStatus::kId, Attitude::kId, LocalPositionNed::kId, GlobalPositionInt::kId,
-          HomePosition::kId, BatteryStatus::kId, DistanceSensor::kId, ExtendedSysState::kId}) {
+         {mavlink::SysStatus::kId, mavlink::Attitude::kId, mavlink::LocalPositionNed::kId,
+          mavlink::GlobalPositionInt::kId, mavlink::HomePosition::kId, BatteryStatus::kId,
+          mavlink::DistanceSensor::kId, mavlink::ExtendedSysState::kId}) {
         EXPECT_GT(view.heard[id], 3) << id;
     }
 
     const Finished finished = flight.get();
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     EXPECT_THAT(finished.out, HasSubstr("parameter_set      MC_PITCHRATE_P = 0.125"));
-    const Recording recording = read_recording(bench.folder() / "flight.mcap");
+    const record::Recording recording = record::read_recording(bench.folder() / "flight.mcap");
     EXPECT_EQ(recording.damage, "");
     std::vector<std::string> names;
-    for (const RecordedEvent& event : recording.events) {
+    for (const record::RecordedEvent& event : recording.events) {
         names.push_back(event.name);
     }
     EXPECT_THAT(names, Contains("parameter_set"));
@@ -129,7 +131,7 @@ TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
     auto flight =
         start(bench, {"fly", "hover", "--set", "simulation.hover_s=20", "--speed", "4",
                       "--no-record", "--ground-station", view.address(), "--signing-key", "key"});
-    ASSERT_TRUE(view.until([&] { return view.heard[Heartbeat::kId] > 0; }));
+    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
     view.set("MC_PITCHRATE_P", 0.1F);  // unsigned
     view.link.sign({.key = read_signing_key(file), .link_id = 3, .unix_us = [] {
                         return static_cast<std::uint64_t>(

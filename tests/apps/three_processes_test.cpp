@@ -74,7 +74,8 @@ struct OverDevices : testing::Test {
         EXPECT_EQ(flown.exit_code, 0) << flown.out << flown.err << guided.out << guided.err;
         EXPECT_EQ(guided.exit_code, 0) << guided.out << guided.err;
         // The simulator's recording holds what guidance told and what the cup did, in order.
-        const Recording recording = read_recording(bench.folder() / "sim" / "flight.mcap");
+        const record::Recording recording =
+            record::read_recording(bench.folder() / "sim" / "flight.mcap");
         std::vector<std::string> wanted = {"approach_started", "attached",  "perched",
                                            "motors_off",       "motors_on", "pump_off",
                                            "valve_open",       "detached",  "backed_off"};
@@ -137,7 +138,7 @@ TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {
     const Finished flown = sim_io->wait(30s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
     EXPECT_NE(flown.out.find("the recording is whole"), std::string::npos);
-    EXPECT_FALSE(read_recording(bench.folder() / "sim" / "flight.mcap").events.empty());
+    EXPECT_FALSE(record::read_recording(bench.folder() / "sim" / "flight.mcap").events.empty());
 }
 
 TEST(SimIo, WhatItCannotUseIsSaidInOneLine) {

@@ -5,7 +5,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kDt_s = 0.004;
@@ -180,4 +180,4 @@ TEST(Aiding, AFieldThatIsLongRejectedOpensTheAttitude) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -9,7 +9,7 @@
 #include "flight_rig.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 RotorVector commands(const Allocation& allocation) {
@@ -137,4 +137,4 @@ TEST(Allocation, NeverAddsThrustNorTurnsTorqueRound) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -5,7 +5,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 const AutopilotParameters kDefaults;
@@ -77,4 +77,4 @@ TEST(AttitudeControl, UpsideDownStillTurns) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

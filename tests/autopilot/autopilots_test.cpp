@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 TEST(Autopilots, HaveNamesOfTheirOwnAndTheCascadeFirst) {
@@ -39,4 +39,4 @@ TEST(Autopilots, CarryTheVehicleWhereItStands) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

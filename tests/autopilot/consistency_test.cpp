@@ -11,7 +11,7 @@
 /// honest 15-state filter has mean 15; over N runs its average has the deviation sqrt(2 * 15 / N).
 /// Sensors and parameters agree here; the defaults of the parameters are larger on purpose.
 /// Source: Bar-Shalom, Li, Kirubarajan, "Estimation with applications to tracking", 5.4.2.
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr int kRuns = 30;
@@ -87,4 +87,4 @@ TEST(Consistency, BoldFilterIsCaught) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

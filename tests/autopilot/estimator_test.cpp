@@ -9,7 +9,7 @@
 
 #include "trajectory.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 /// Flight and filter side by side.
@@ -235,4 +235,4 @@ TEST(Estimator, AttitudeComesFromFarOff) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kImu_s = 0.004;
@@ -102,4 +102,4 @@ void FlightRig::move() {
         (truth.q_WF * quaternion_from_rotation_vector(kTick_s * truth.w_WF_F_rad_s)).normalized();
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

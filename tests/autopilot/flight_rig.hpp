@@ -8,7 +8,7 @@
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/time.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 /// The paper's quad-x with its rotors at +-0.205 m.
 [[nodiscard]] std::array<RotorGeometry, kRotors> quad_x();
@@ -43,4 +43,4 @@ private:
     std::deque<Sample<PoseReading>> on_the_way_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -6,7 +6,7 @@
 
 #include "flight_rig.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 Setpoint armed(const decltype(Setpoint::motion)& motion) {
@@ -234,4 +234,4 @@ TEST(Flight, SavedStateGoesOnAlike) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

@@ -7,7 +7,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 Covariance random_covariance(RandomStream& random) {
@@ -111,4 +111,4 @@ TEST(Kalman, GateIsInStandardDeviations) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

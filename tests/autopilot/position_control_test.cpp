@@ -7,7 +7,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kDt_s = 0.004;
@@ -159,4 +159,4 @@ TEST(AccelerationFilter, FirstOrderAtItsCutoff) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

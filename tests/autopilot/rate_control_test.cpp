@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kDt_s = 0.004;
@@ -109,4 +109,4 @@ TEST(RateControl, HeldIntegralKeepsItsValue) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::autopilot

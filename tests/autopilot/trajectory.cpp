@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-namespace limpet {
+namespace limpet::autopilot {
 namespace {
 
 constexpr double kImu_s = 0.004;
@@ -178,4 +178,4 @@ Estimate draw_initial(const AutopilotParameters& parameters, SensedFlight& fligh
     return initial;
 }
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

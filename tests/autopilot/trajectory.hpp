@@ -9,7 +9,7 @@
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/readings.hpp"
 
-namespace limpet {
+namespace limpet::autopilot {
 
 using Motion = std::function<Kinematics(double time_s)>;
 
@@ -76,4 +76,4 @@ private:
 [[nodiscard]] Estimate draw_initial(const AutopilotParameters& parameters, SensedFlight& flight,
                                     RandomStream& random);
 
-}  // namespace limpet
+}  // namespace limpet::autopilot

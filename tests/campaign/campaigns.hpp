@@ -8,7 +8,7 @@
 #include "limpet/campaign/results.hpp"
 #include "program.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// Hovers of half a second with something different in each: a few milliseconds a run.
 inline std::string short_hovers(int runs, const std::string& more = {}) {
@@ -46,4 +46,4 @@ inline std::vector<std::vector<std::string>> table_of(const std::filesystem::pat
     return rows;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -13,7 +13,7 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/suction/seal.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 struct Bin {
@@ -67,8 +67,8 @@ TEST(Fig3, NoneBelowFourTenthsAndBestFromOneOn) {
 /// Who pressed hard enough: P(peak > threshold) with the peaks of the two-mass reference
 /// (baseline.md) and the surface's own distribution, within three standard deviations a bin.
 TEST(Fig3, ForceAloneIsBinomialAboutTheTwoMassReference) {
-    const Surface surface =
-        load_scenario("pendulum_concrete", {{}, {}, LIMPET_SOURCE_DIR}).wall.surface;
+    const suction::Surface surface =
+        scenario::load_scenario("pendulum_concrete", {{}, {}, LIMPET_SOURCE_DIR}).wall.surface;
     const std::map<double, double> peak_N = {{0.2, 11.9}, {0.4, 18.9}, {0.6, 25.7}, {0.8, 32.5},
                                              {1.0, 39.1}, {1.1, 42.3}, {1.2, 45.8}};
     int compared = 0;
@@ -98,4 +98,4 @@ TEST(Fig3, MisalignmentCostsSomeOfThosePressedHardEnough) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -11,7 +11,7 @@
 #include "limpet/core/errors.hpp"
 #include "running.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,4 +253,4 @@ TEST(CampaignProgram, ShippedCampaignsLoad) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::campaign

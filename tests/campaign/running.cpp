@@ -10,7 +10,7 @@
 #include <chrono>
 #include <thread>
 
-namespace limpet {
+namespace limpet::campaign {
 
 Running::Running(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
     std::vector<std::string> words = {LIMPET_PROGRAM};
@@ -63,4 +63,4 @@ bool eventually(const std::function<bool()>& happened) {
     return false;
 }
 
-}  // namespace limpet
+}  // namespace limpet::campaign

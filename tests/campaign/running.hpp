@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace limpet {
+namespace limpet::campaign {
 
 /// The program at work in the background, until it is killed or waited for.
 class Running {
@@ -29,4 +29,4 @@ private:
 /// Waits up to half a minute. @return whether it came true
 [[nodiscard]] bool eventually(const std::function<bool()>& happened);
 
-}  // namespace limpet
+}  // namespace limpet::campaign

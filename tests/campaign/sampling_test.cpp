@@ -9,7 +9,7 @@
 
 #include "limpet/campaign/statistics.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 constexpr std::uint32_t kDraws = 20'000;
@@ -144,4 +144,4 @@ TEST(Sampling, NumbersSurviveTheirText) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -7,7 +7,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 TEST(Wilson, HandCalculations) {
@@ -101,4 +101,4 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::campaign

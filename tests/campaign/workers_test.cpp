@@ -12,7 +12,7 @@
 #include "limpet/campaign/summary.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,9 +51,10 @@ TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     const auto sample = draw(campaign.keys, campaign.seed, 3);
     EXPECT_EQ(row.sample, sample);
     EXPECT_EQ(std::get<std::string>(row.sample[1]), "iris");
-    const Scenario scenario = scenario_of(campaign, sample);
+    const scenario::Scenario scenario = scenario_of(campaign, sample);
     EXPECT_EQ(scenario.sensors.lidar_noise_m, std::get<double>(sample[0]));
-    EXPECT_EQ(row.state_hash, fly(build_model(scenario), {}, {}, 3).state_hash);
+    EXPECT_EQ(row.state_hash,
+              simulation::fly(simulation::build_model(scenario), {}, {}, 3).state_hash);
 }
 
 TEST(Workers, PlantsAreMadeOnceForEachVehicleAndScene) {
@@ -171,4 +172,4 @@ TEST(Summary, CountsWhatTheRowsSay) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::campaign

@@ -4,7 +4,7 @@
 
 #include "tests/companion/rehearsal.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 using testing::ElementsAre;
@@ -19,7 +19,7 @@ std::vector<EventName> names(const CompanionResult& result) {
 
 TEST(Companion, PerchesAndTakesOffOverItsWires) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::resting)) << testing::PrintToString(r.lines);
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::resting)) << testing::PrintToString(r.lines);
     r.tick();
     r.stage.step();
     EXPECT_FALSE(r.stage.armed);
@@ -90,7 +90,7 @@ TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {
     Rehearsal r;
     r.stage.mechanism.pump_on = true;
     r.stage.puppet.vacuum_Pa = 60000.0;
-    r.stage.puppet.estimate.p_WB_m.x() = Puppet::kWall_m - Puppet::kLip_m;
+    r.stage.puppet.estimate.p_WB_m.x() = guidance::Puppet::kWall_m - guidance::Puppet::kLip_m;
     for (int i = 0; i < 100; ++i) {  // the vacuum is there before the companion
         r.stage.step();
     }
@@ -184,10 +184,10 @@ TEST(DryRun, SendsNothingAndSaysWhatItWouldDo) {
     r.stage.tells_pose = false;
     // Somebody carries the vehicle to the pre-position.
     r.stage.puppet.estimate.p_WB_m.x() =
-        Puppet::kWall_m - r.config.guidance.pre_distance_m - r.config.guidance.lidar_x_m;
+        guidance::Puppet::kWall_m - r.config.guidance.pre_distance_m - r.config.guidance.lidar_x_m;
     r.run(4.0);
     EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
-    EXPECT_EQ(r.companion->memory().state, PerchingState::approaching);
+    EXPECT_EQ(r.companion->memory().state, guidance::PerchingState::approaching);
     EXPECT_EQ(r.stage.autopilot.frames, 0);
     EXPECT_EQ(r.stage.sensors.frames, 0);
     for (const char* line : {"state     pre_positioning", "set-point position (", "motors    on",
@@ -221,4 +221,4 @@ TEST(PoseEstimate, FollowsAStraightRunAndATurn) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -13,7 +13,7 @@
 #include "limpet/core/errors.hpp"
 #include "tests/core/whole_table.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST(CompanionParameters, AreAllInTheirTablesOnceAndInRange) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -6,7 +6,7 @@
 
 // The table of watchdog.hpp, flown: what the wires carry after a loss in each place.
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 /// What was said to the autopilot since this was made.
@@ -29,7 +29,7 @@ private:
 void expect_hold_in_the_approach(const std::function<void(Rehearsal&)>& wrong, double within_s,
                                  CompanionEnd end, const std::string& why) {
     Rehearsal r({"guidance.dock_speed_m_s=0.3"});  // long enough for a silent autopilot to show
-    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
     r.tick();
     wrong(r);
     const double begin_s = r.stage.time_s();
@@ -83,7 +83,7 @@ TEST(HandBack, ALateTickOnTheWayToItsStartCountsToo) {
 
 TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
     r.late_s = 0.29;
     r.tick();
     EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
@@ -92,12 +92,14 @@ TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
 }
 
 TEST(HandBack, WhereTheOperatorTakesTheModeNothingIsAskedForAnyMore) {
-    for (const PerchingState state : {PerchingState::approaching, PerchingState::pitching_up,
-                                      PerchingState::resting, PerchingState::backing_off}) {
+    for (const guidance::PerchingState state :
+         {guidance::PerchingState::approaching, guidance::PerchingState::pitching_up,
+          guidance::PerchingState::resting, guidance::PerchingState::backing_off}) {
         Rehearsal r;
         ASSERT_TRUE(r.run_to(state)) << to_string(state);
         r.tick();
-        const bool on_wall = state == PerchingState::pitching_up || state == PerchingState::resting;
+        const bool on_wall = state == guidance::PerchingState::pitching_up ||
+                             state == guidance::PerchingState::resting;
         r.stage.mode = Stage::kPosition;
         r.tick();
         r.stage.step();
@@ -114,7 +116,7 @@ TEST(HandBack, WhereTheOperatorTakesTheModeNothingIsAskedForAnyMore) {
 
 TEST(HandBack, WhoIsDisarmedByOthersIsNotArmedAgain) {
     Rehearsal r({"guidance.dock_speed_m_s=0.1"});
-    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
     r.tick();
     r.stage.armed = false;
     const Since since(r);
@@ -128,7 +130,7 @@ TEST(HandBack, OnTheCupItLandsFirstAndNeverHolds) {
     const auto finishes = [](const std::function<void(Rehearsal&)>& wrong, CompanionEnd end,
                              const std::string& why) {
         Rehearsal r;
-        ASSERT_TRUE(r.run_to(PerchingState::pitching_up)) << why;
+        ASSERT_TRUE(r.run_to(guidance::PerchingState::pitching_up)) << why;
         r.tick();
         wrong(r);
         const Since since(r);
@@ -151,7 +153,7 @@ TEST(HandBack, OnTheCupItLandsFirstAndNeverHolds) {
 
 TEST(HandBack, OnTheCupASilentAutopilotThatHearsIsLandedFirst) {
     Rehearsal r({"guidance.land_limit_s=20", "guidance.land_pitch_s=6"});
-    ASSERT_TRUE(r.run_to(PerchingState::pitching_up));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::pitching_up));
     r.stage.beats = false;
     r.run(3.2);
     ASSERT_EQ(r.companion->phase(), SessionPhase::flying);
@@ -165,7 +167,7 @@ TEST(HandBack, OnTheCupASilentAutopilotThatHearsIsLandedFirst) {
 
 TEST(HandBack, AnOperatorWhoAnswersHoldWithAModeOfHisOwnKeepsIt) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
     r.stage.motion_capture_works = false;
     while (r.stage.mode == Stage::kOffboard && r.stage.time_s() < 100.0) {
         r.tick();
@@ -197,7 +199,7 @@ TEST(HandBack, InterruptedWhilePressedItLeavesOrLandsFirst) {
     for (const bool seals : {true, false}) {
         Rehearsal r;
         r.stage.puppet.seals = seals;
-        ASSERT_TRUE(r.run_to(PerchingState::holding));
+        ASSERT_TRUE(r.run_to(guidance::PerchingState::holding));
         r.tick();
         r.interrupted = true;
         const Since since(r);
@@ -213,7 +215,7 @@ TEST(HandBack, InterruptedWhilePressedItLeavesOrLandsFirst) {
 
 TEST(HandBack, AtRestCtrlCLetsGoAndThePumpStaysOn) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::resting));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::resting));
     r.run(1.0);
     r.interrupted = true;
     const Since since(r);
@@ -221,14 +223,14 @@ TEST(HandBack, AtRestCtrlCLetsGoAndThePumpStaysOn) {
     EXPECT_EQ(r.result().end, CompanionEnd::interrupted);
     EXPECT_EQ(since.holds() + since.arms(), 0);
     EXPECT_TRUE(r.stage.mechanism.pump_on);
-    EXPECT_EQ(r.companion->memory().state, PerchingState::resting);
+    EXPECT_EQ(r.companion->memory().state, guidance::PerchingState::resting);
 }
 
 TEST(HandBack, AtRestItIsOnlyOnceTheMotorsAreKnownToBeOff) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::unloading));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::unloading));
     r.stage.obeys_arming = false;  // the first commands to disarm are lost
-    ASSERT_TRUE(r.run_to(PerchingState::resting));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::resting));
     r.interrupted = true;
     const Since since(r);
     r.run(1.0);
@@ -244,7 +246,7 @@ TEST(HandBack, AtRestItIsOnlyOnceTheMotorsAreKnownToBeOff) {
 
 TEST(HandBack, AtRestWithoutAPoseItDoesNotTakeOff) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::resting));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::resting));
     r.tick();
     r.stage.motion_capture_works = false;
     const Since since(r);
@@ -257,7 +259,7 @@ TEST(HandBack, AtRestWithoutAPoseItDoesNotTakeOff) {
 
 TEST(HandBack, AtRestAPoseThatComesBackLetsItTakeOff) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::resting));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::resting));
     r.stage.motion_capture_works = false;
     r.run(3.0);
     EXPECT_TRUE(r.said("motion-capture pose stale, at rest on the wall"));
@@ -270,7 +272,7 @@ TEST(HandBack, AtRestAPoseThatComesBackLetsItTakeOff) {
 
 TEST(HandBack, LidarAndForceAreGuidancesOwnBusiness) {
     Rehearsal r({"guidance.attempts=1"});
-    ASSERT_TRUE(r.run_to(PerchingState::approaching));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
     r.tick();
     r.stage.puppet.lidar_works = false;
     ASSERT_TRUE(r.run_out());
@@ -280,4 +282,4 @@ TEST(HandBack, LidarAndForceAreGuidancesOwnBusiness) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

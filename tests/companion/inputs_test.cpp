@@ -10,11 +10,11 @@
 #include "limpet/devices/natnet.hpp"
 #include "limpet/mavlink/translate.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 /// A serial port within this process: what was sent stays in `sent`.
-class Port final : public Transport {
+class Port final : public wire::Transport {
 public:
     std::deque<std::byte> waiting;
     std::string sent;
@@ -24,28 +24,28 @@ public:
     }
     void put(std::string_view text) { put(std::as_bytes(std::span(text))); }
 
-    Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
+    wire::Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
         for (const std::byte byte : bytes) {
             sent += static_cast<char>(byte);
         }
-        return {TransferStatus::done, bytes.size()};
+        return {wire::TransferStatus::done, bytes.size()};
     }
-    Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
+    wire::Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
         std::size_t count = 0;
         for (; count < into.size() && !waiting.empty(); ++count) {
             into[count] = waiting.front();
             waiting.pop_front();
         }
-        return {count > 0 ? TransferStatus::done : TransferStatus::timed_out, count};
+        return {count > 0 ? wire::TransferStatus::done : wire::TransferStatus::timed_out, count};
     }
     bool wait_for_peer(std::chrono::nanoseconds) override { return true; }
     void close() override {}
-    TransportAddress address() const override { return {.medium = Medium::serial}; }
+    wire::TransportAddress address() const override { return {.medium = wire::Medium::serial}; }
     std::string describe() const override { return "a port of the test"; }
-    const TransportStatistics& statistics() const override { return statistics_; }
+    const wire::TransportStatistics& statistics() const override { return statistics_; }
 
 private:
-    TransportStatistics statistics_;
+    wire::TransportStatistics statistics_;
 };
 
 /// A companion whose LiDARs and mechanism hang on serial ports.
@@ -115,14 +115,14 @@ TEST(Inputs, ReadNoLoadsFromTheLinesWhereTheyAreToComeFromElsewhere) {
 
 TEST(Inputs, OfASourceThatIsNotChosenCountForNothing) {
     CompanionConfig config;
-    config.autopilot = {.medium = Medium::udp};
-    config.sensors = TransportAddress{.medium = Medium::udp};
+    config.autopilot = {.medium = wire::Medium::udp};
+    config.sensors = wire::TransportAddress{.medium = wire::Medium::udp};
     config.pose_source = PoseSource::mavlink;
     config.lidar_source = ReadingSource::autopilot;
     Wires wires = open_wires(config);
-    mavlink::Link autopilot(open_transport(wires.autopilot->transport().address(), Role::connect),
-                            {1, 1});
-    mavlink::Link sensors(open_transport(wires.sensors->transport().address(), Role::connect),
+    mavlink::Link autopilot(
+        open_transport(wires.autopilot->transport().address(), wire::Role::connect), {1, 1});
+    mavlink::Link sensors(open_transport(wires.sensors->transport().address(), wire::Role::connect),
                           {1, 25});
     mavlink::Offboard offboard({});
     Inputs inputs(config);
@@ -169,15 +169,15 @@ TEST(Inputs, OfAnotherVehicleOnTheAutopilotsWireCountForNothing) {
 
 TEST(Inputs, TakeTheRigidBodyOutOfNatNet) {
     CompanionConfig config;
-    config.autopilot = {.medium = Medium::udp};
+    config.autopilot = {.medium = wire::Medium::udp};
     config.pose_source = PoseSource::natnet;
-    config.pose_address = {.medium = Medium::udp};
+    config.pose_address = {.medium = wire::Medium::udp};
     config.rigid_body = 4;
     config.axes.up = devices::UpAxis::z;
     config.lidar_source = ReadingSource::autopilot;
     Wires wires = open_wires(config);
-    auto data = open_transport(config.pose_address, Role::listen);
-    const auto motive = open_transport(data->address(), Role::connect);
+    auto data = open_transport(config.pose_address, wire::Role::listen);
+    const auto motive = open_transport(data->address(), wire::Role::connect);
     wires.motion_capture = std::make_unique<devices::NatNetClient>(
         devices::NatNetOptions{.body_id = config.rigid_body, .axes = config.axes}, std::move(data),
         nullptr);
@@ -191,7 +191,7 @@ TEST(Inputs, TakeTheRigidBodyOutOfNatNet) {
     devices::NatNetBuffer buffer;
     ASSERT_EQ(
         motive->send(devices::encode_frame(frame, {}, buffer), std::chrono::seconds(1)).status,
-        TransferStatus::done);
+        wire::TransferStatus::done);
     inputs.poll(wires, offboard, 5.0);
     ASSERT_TRUE(inputs.readings().motion_capture.ever());
     EXPECT_NEAR((inputs.readings().motion_capture.value.p_WB_m - Vector3(1.0, -2.0, -3.0)).norm(),
@@ -216,4 +216,4 @@ TEST(MechanismOut, SaysChangesAtOnceAndRepeats) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -10,7 +10,7 @@
 #include "limpet/companion/companion.hpp"
 #include "tests/companion/stage.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// The shipped companion for a simulation, on ports that the kernel chooses.
 inline CompanionConfig rehearsal_config(const std::vector<std::string>& overrides = {}) {
@@ -60,7 +60,7 @@ struct Rehearsal {
         }
     }
     /// @return whether guidance got there
-    bool run_to(PerchingState state, double limit_s = 60.0) {
+    bool run_to(guidance::PerchingState state, double limit_s = 60.0) {
         for (const double end_s = stage.time_s() + limit_s;
              stage.time_s() < end_s && !companion->over();) {
             if (companion->phase() == SessionPhase::flying && companion->memory().state == state) {
@@ -83,4 +83,4 @@ struct Rehearsal {
     }
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -13,13 +13,13 @@
 // recording go in, the same decisions must come out. Events may come up to 0.1 s apart: the wire
 // carries LiDARs in whole centimetres.
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 /// One topic, handed out as time goes on.
 class Track {
 public:
-    Track(const Recording& recording, std::string_view topic, double latency_s)
+    Track(const record::Recording& recording, std::string_view topic, double latency_s)
         : table_(recording.table(topic)), latency_s_(latency_s) {}
     /// @return whether there are newer rows by now; the newest is then the current one
     bool advance(double time_s) {
@@ -31,26 +31,27 @@ public:
         return news;
     }
     [[nodiscard]] double operator()(std::string_view column) const {
-        const Column* values = table_.find(column);
+        const record::Column* values = table_.find(column);
         EXPECT_NE(values, nullptr) << column;
         return values->values[next_ - 1];
     }
     [[nodiscard]] bool any() const { return next_ > 0; }
 
 private:
-    const Table& table_;
+    const record::Table& table_;
     double latency_s_;
     std::size_t next_ = 0;
 };
 
 Vector3 position_W(const Track& pose) {
-    return ros::enu_from_ned(
+    return record::ros::enu_from_ned(
         {pose("pose.position.x"), pose("pose.position.y"), pose("pose.position.z")});
 }
 
 Quaternion attitude_WB(const Track& pose) {
-    return ros::enu_flu_from_ned_frd({pose("pose.orientation.w"), pose("pose.orientation.x"),
-                                      pose("pose.orientation.y"), pose("pose.orientation.z")});
+    return record::ros::enu_flu_from_ned_frd(
+        {pose("pose.orientation.w"), pose("pose.orientation.x"), pose("pose.orientation.y"),
+         pose("pose.orientation.z")});
 }
 
 /// A recording's tracks as the companion's outside. Its clock is kLead_s ahead of the flight's.
@@ -58,7 +59,8 @@ class Replay {
 public:
     static constexpr double kLead_s = 1.0;
 
-    Replay(const Recording& recording, const SensorParameters& sensors, const Wires& wires)
+    Replay(const record::Recording& recording, const sensors::SensorParameters& sensors,
+           const Wires& wires)
         : left_(recording, "/sensors/range_left", sensors.lidar_latency_s),
           right_(recording, "/sensors/range_right", sensors.lidar_latency_s),
           force_(recording, "/sensors/force", 0.0),
@@ -66,8 +68,10 @@ public:
           mocap_(recording, "/sensors/motion_capture", sensors.mocap_latency_s),
           pose_(recording, "/estimate/pose", 0.0),
           twist_(recording, "/estimate/twist", 0.0),
-          autopilot_(open_transport(wires.autopilot->transport().address(), Role::connect), {1, 1}),
-          sensors_(open_transport(wires.sensors->transport().address(), Role::connect), {1, 25}) {}
+          autopilot_(open_transport(wires.autopilot->transport().address(), wire::Role::connect),
+                     {1, 1}),
+          sensors_(open_transport(wires.sensors->transport().address(), wire::Role::connect),
+                   {1, 25}) {}
 
     /// @param time_s  of the flight; before 0 its first instant, still on the ground
     void tell(double time_s) {
@@ -109,10 +113,10 @@ private:
         Estimate estimate;
         estimate.p_WB_m = position_W(pose_);
         estimate.q_WB = attitude_WB(pose_);
-        const Vector3 v_B = ros::flu_from_frd(
+        const Vector3 v_B = record::ros::flu_from_frd(
             {twist_("twist.linear.x"), twist_("twist.linear.y"), twist_("twist.linear.z")});
         estimate.v_WB_m_s = estimate.q_WB * v_B;
-        estimate.w_WB_B_rad_s = ros::flu_from_frd(
+        estimate.w_WB_B_rad_s = record::ros::flu_from_frd(
             {twist_("twist.angular.x"), twist_("twist.angular.y"), twist_("twist.angular.z")});
         estimate.valid = true;
         (void)autopilot_.send(mavlink::odometry(estimate, 1));
@@ -153,7 +157,7 @@ private:
     bool armed_ = true;
 };
 
-CompanionResult replayed(const Recording& recording, const Scenario& scenario) {
+CompanionResult replayed(const record::Recording& recording, const scenario::Scenario& scenario) {
     CompanionConfig config = rehearsal_config({"autopilot.asks_for_mode=false"});
     config.guidance = scenario.guidance;
     Wires wires = open_wires(config);
@@ -170,11 +174,13 @@ CompanionResult replayed(const Recording& recording, const Scenario& scenario) {
 
 TEST(Replay, OfASimulatedFlightGivesTheSameDecisions) {
     for (const char* name : {"perch_concrete", "perch_metal_valve", "failed_perch"}) {
-        const Scenario scenario = load_scenario(name, {.data_root = LIMPET_SOURCE_DIR});
+        const scenario::Scenario scenario =
+            scenario::load_scenario(name, {.data_root = LIMPET_SOURCE_DIR});
         const std::filesystem::path file =
             std::filesystem::path(testing::TempDir()) / (std::string("replay_") + name + ".mcap");
-        const FlightResult flown = fly(build_model(scenario), file);
-        const CompanionResult result = replayed(read_recording(file), scenario);
+        const simulation::FlightResult flown =
+            simulation::fly(simulation::build_model(scenario), file);
+        const CompanionResult result = replayed(record::read_recording(file), scenario);
         std::filesystem::remove(file);
         EXPECT_EQ(result.end, CompanionEnd::mission_over) << name << ": " << result.reason;
         EXPECT_EQ(result.outcome, flown.outcome) << name;
@@ -197,4 +203,4 @@ TEST(Replay, OfASimulatedFlightGivesTheSameDecisions) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -12,7 +12,7 @@
 #include "tests/companion/rehearsal.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,14 +36,14 @@ struct Theatre {
                 .wait_until_s =
                     [this](double time_s) {
                         now_s = std::max(now_s, time_s);
-                        while (stage.time_s() + Puppet::kDt_s <= now_s) {
+                        while (stage.time_s() + guidance::Puppet::kDt_s <= now_s) {
                             stage.step();
                         }
                         at(now_s);
                     }};
     }
     CompanionResult run(const CompanionConduct& conduct = {}) {
-        return limpet::run(config, wires, clock(), conduct, {});
+        return companion::run(config, wires, clock(), conduct, {});
     }
 };
 
@@ -63,7 +63,7 @@ TEST(Run, FliesAMissionOnAbsoluteDeadlinesAndRecordsIt) {
         << "what a tick costs must not add up";
     EXPECT_EQ(result.late_ticks, 0U);
 
-    const Recording recording = read_recording(file);
+    const record::Recording recording = record::read_recording(file);
     EXPECT_EQ(recording.damage, "");
     EXPECT_EQ(recording.events.size(), result.events.size());
     for (const char* topic : {"/sensors/range_left", "/sensors/range_right", "/sensors/force",
@@ -118,14 +118,14 @@ TEST(Run, TheRecordingIsWholeWhereNothingWasFlown) {
         const fs::path file = recording_of("nothing");
         const CompanionResult result = theatre.run({.stop = &stop, .recording = file});
         EXPECT_EQ(result.end, stop_at_once ? CompanionEnd::interrupted : CompanionEnd::absent);
-        EXPECT_EQ(read_recording(file).damage, "");
+        EXPECT_EQ(record::read_recording(file).damage, "");
         fs::remove(file);
     }
 }
 
 TEST(Run, AllocatesNothingInFlight) {
     Rehearsal r;
-    ASSERT_TRUE(r.run_to(PerchingState::aligning));
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::aligning));
     long during = 0;
     for (int k = 0; k < 200; ++k) {
         r.stage.step();
@@ -149,4 +149,4 @@ TEST(SteadyClock, RunsAsFastAsItIsTold) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

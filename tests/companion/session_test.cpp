@@ -8,7 +8,7 @@
 
 #include "limpet/companion/mechanism_out.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 using testing::HasSubstr;
@@ -64,7 +64,7 @@ protected:
         }
     }
     /// Through the manoeuvre, by its signs, to a state.
-    void run_until(PerchingState state, double limit_s) {
+    void run_until(guidance::PerchingState state, double limit_s) {
         const double end_s = time_s_ + limit_s;
         while (session_.memory().state != state && time_s_ < end_s) {
             run(0.02);
@@ -74,13 +74,13 @@ protected:
     void perch_until_rest() {
         run(0.5);
         ASSERT_TRUE(session_.perch(time_s_).done);
-        run_until(PerchingState::approaching, 5.0);
+        run_until(guidance::PerchingState::approaching, 5.0);
         force_N_ = -50.0;
-        run_until(PerchingState::holding, 1.0);
+        run_until(guidance::PerchingState::holding, 1.0);
         pressure_Pa_ = 70000.0;
-        run_until(PerchingState::pitching_up, 2.0);
+        run_until(guidance::PerchingState::pitching_up, 2.0);
         pitch_rad_ = radians(66.0);
-        run_until(PerchingState::resting, 10.0);
+        run_until(guidance::PerchingState::resting, 10.0);
         run(0.1);
     }
 
@@ -123,14 +123,14 @@ TEST_F(Session, PerchesWhenAskedRestsUntilAskedTakesOff) {
     EXPECT_FALSE(session_.perch(time_s_).done);
     EXPECT_TRUE(session_.take_off(time_s_).done);
     run(0.1);
-    EXPECT_EQ(session_.memory().state, PerchingState::spinning_up);
+    EXPECT_EQ(session_.memory().state, guidance::PerchingState::spinning_up);
     EXPECT_TRUE(word_.armed);
     EXPECT_FALSE(session_.take_off(time_s_).done);
-    run_until(PerchingState::pitching_down, 3.0);
+    run_until(guidance::PerchingState::pitching_down, 3.0);
     pitch_rad_ = 0.0;
-    run_until(PerchingState::releasing, 10.0);
+    run_until(guidance::PerchingState::releasing, 10.0);
     pressure_Pa_ = kAtmosphere_Pa;
-    run_until(PerchingState::backing_off, 2.0);
+    run_until(guidance::PerchingState::backing_off, 2.0);
     run(2.0);
     EXPECT_EQ(session_.outcome(), Outcome::released);
     EXPECT_EQ(session_.phase(), SessionPhase::ready);
@@ -143,13 +143,13 @@ TEST_F(Session, AtRestItGoesOnWatchingTheVacuum) {
     run(5.0);
     pressure_Pa_ = 95000.0;
     run(0.2);
-    EXPECT_EQ(session_.memory().state, PerchingState::spinning_up);
+    EXPECT_EQ(session_.memory().state, guidance::PerchingState::spinning_up);
 }
 
 TEST_F(Session, AbortedInTheAirItHandsBackAndThePumpGoesOff) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     EXPECT_TRUE(session_.setpoint().pump_on);
     EXPECT_TRUE(session_.abort().done);
     run(0.04);
@@ -166,11 +166,11 @@ TEST_F(Session, AbortedInTheAirItHandsBackAndThePumpGoesOff) {
 TEST_F(Session, AbortedOnTheCupItComesToRestAndSetPointsGoOn) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     force_N_ = -50.0;
-    run_until(PerchingState::holding, 1.0);
+    run_until(guidance::PerchingState::holding, 1.0);
     pressure_Pa_ = 70000.0;
-    run_until(PerchingState::pitching_up, 2.0);
+    run_until(guidance::PerchingState::pitching_up, 2.0);
     EXPECT_TRUE(session_.abort().done);
     for (int k = 0; k < 500; ++k) {
         run(0.02);
@@ -181,13 +181,13 @@ TEST_F(Session, AbortedOnTheCupItComesToRestAndSetPointsGoOn) {
     EXPECT_EQ(session_.place(), Place::at_rest);
     EXPECT_TRUE(session_.take_off(time_s_).done);  // an abort is done with once it rests
     run(0.1);
-    EXPECT_EQ(session_.memory().state, PerchingState::spinning_up);
+    EXPECT_EQ(session_.memory().state, guidance::PerchingState::spinning_up);
 }
 
 TEST_F(Session, WithoutAPoseItHoldsInTheAir) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     alive_ = false;
     run(0.2);
     EXPECT_EQ(session_.phase(), SessionPhase::flying);
@@ -199,11 +199,11 @@ TEST_F(Session, WithoutAPoseItHoldsInTheAir) {
 TEST_F(Session, WithoutAPoseOnTheCupSetPointsGoOn) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     force_N_ = -50.0;
-    run_until(PerchingState::holding, 1.0);
+    run_until(guidance::PerchingState::holding, 1.0);
     pressure_Pa_ = 70000.0;
-    run_until(PerchingState::pitching_up, 2.0);
+    run_until(guidance::PerchingState::pitching_up, 2.0);
     alive_ = false;
     run(0.45);
     EXPECT_EQ(session_.phase(), SessionPhase::flying);
@@ -214,7 +214,7 @@ TEST_F(Session, WithoutAPoseOnTheCupSetPointsGoOn) {
 TEST_F(Session, AnOperatorsModeIsNotTakenBack) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     word_.offboard = false;
     run(1.0);
     EXPECT_EQ(session_.phase(), SessionPhase::handed_back);
@@ -244,7 +244,7 @@ TEST_F(Session, ACupThatMayHoldAVehicleIsLeftAsItIs) {
 TEST_F(Session, TimeThatRunsBackBeginsAnew) {
     run(0.5);
     ASSERT_TRUE(session_.perch(time_s_).done);
-    run_until(PerchingState::approaching, 5.0);
+    run_until(guidance::PerchingState::approaching, 5.0);
     time_s_ = 0.5;
     feed();
     session_.tick(time_s_);
@@ -341,4 +341,4 @@ TEST(MechanismPace, SaysItAtOnceAndAgain) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -14,7 +14,7 @@
 #include "limpet/mavlink/translate.hpp"
 #include "tests/guidance/puppet.hpp"
 
-namespace limpet {
+namespace limpet::companion {
 
 /// What the autopilot's end has heard.
 struct HeardByAutopilot {
@@ -46,13 +46,14 @@ public:
     static constexpr std::uint32_t kLoiter = (4U << 16U) | (3U << 24U);
     static constexpr std::uint32_t kPosition = 3U << 16U;
 
-    Stage(const TransportAddress& autopilot_address, const TransportAddress& sensors_address)
-        : autopilot_(open_transport(autopilot_address, Role::connect),
+    Stage(const wire::TransportAddress& autopilot_address,
+          const wire::TransportAddress& sensors_address)
+        : autopilot_(open_transport(autopilot_address, wire::Role::connect),
                      {1, mavlink::kAutopilotComponent}),
-          sensors_(open_transport(sensors_address, Role::connect),
+          sensors_(open_transport(sensors_address, wire::Role::connect),
                    {1, mavlink::kMechanismComponent}) {}
 
-    Puppet puppet;
+    guidance::Puppet puppet;
     HeardByAutopilot autopilot;
     HeardBySensors sensors;
     std::uint32_t mode = kPosition;
@@ -120,7 +121,7 @@ private:
             ++autopilot.set_points;
             if (const auto aim = mavlink::attitude_set_point(*attitude)) {
                 setpoint.motion = *aim;
-                const bool free = puppet.estimate.p_WB_m.x() < Puppet::kWall_m - 0.6;
+                const bool free = puppet.estimate.p_WB_m.x() < guidance::Puppet::kWall_m - 0.6;
                 autopilot.drops += armed && landed_state == 2 && free && aim->thrust <= 0.0;
             }
         } else if (const auto command = mavlink::decode<mavlink::CommandLong>(frame)) {
@@ -223,4 +224,4 @@ private:
     mavlink::Link sensors_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::companion

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace limpet {
+namespace limpet::companion {
 namespace {
 
 using enum Action;
@@ -101,33 +101,36 @@ TEST(Watchdog, TheGravestOfSeveralCounts) {
 }
 
 TEST(Watchdog, KnowsThePlaceOfEveryState) {
-    const auto place = [](PerchingState state, bool armed = true) {
-        PerchingMemory memory;
+    const auto place = [](guidance::PerchingState state, bool armed = true) {
+        guidance::PerchingMemory memory;
         memory.state = state;
         memory.setpoint.armed = armed;
         return place_of(memory);
     };
-    for (const auto state : {PerchingState::hovering, PerchingState::pre_positioning,
-                             PerchingState::aligning, PerchingState::approaching}) {
+    for (const auto state :
+         {guidance::PerchingState::hovering, guidance::PerchingState::pre_positioning,
+          guidance::PerchingState::aligning, guidance::PerchingState::approaching}) {
         EXPECT_EQ(place(state), in_air) << to_string(state);
     }
-    for (const auto state : {PerchingState::holding, PerchingState::deciding}) {
+    for (const auto state : {guidance::PerchingState::holding, guidance::PerchingState::deciding}) {
         EXPECT_EQ(place(state), pressed) << to_string(state);
     }
-    for (const auto state : {PerchingState::retreating, PerchingState::backing_off}) {
+    for (const auto state :
+         {guidance::PerchingState::retreating, guidance::PerchingState::backing_off}) {
         EXPECT_EQ(place(state), leaving) << to_string(state);
     }
     for (const auto state :
-         {PerchingState::pitching_up, PerchingState::unloading, PerchingState::spinning_up,
-          PerchingState::pitching_down, PerchingState::levelled, PerchingState::releasing,
-          PerchingState::resealing}) {
+         {guidance::PerchingState::pitching_up, guidance::PerchingState::unloading,
+          guidance::PerchingState::spinning_up, guidance::PerchingState::pitching_down,
+          guidance::PerchingState::levelled, guidance::PerchingState::releasing,
+          guidance::PerchingState::resealing}) {
         EXPECT_EQ(place(state), on_cup) << to_string(state);
     }
-    for (const auto state : {PerchingState::standing, PerchingState::resting}) {
+    for (const auto state : {guidance::PerchingState::standing, guidance::PerchingState::resting}) {
         EXPECT_EQ(place(state, false), at_rest) << to_string(state);
     }
-    EXPECT_EQ(place(PerchingState::finished, true), in_air);
-    EXPECT_EQ(place(PerchingState::finished, false), at_rest);
+    EXPECT_EQ(place(guidance::PerchingState::finished, true), in_air);
+    EXPECT_EQ(place(guidance::PerchingState::finished, false), at_rest);
 }
 
 TEST(ArmingWatch, SeesWhoWasArmedAndIsNoLonger) {
@@ -142,4 +145,4 @@ TEST(ArmingWatch, SeesWhoWasArmedAndIsNoLonger) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::companion

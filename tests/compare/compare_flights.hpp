@@ -27,10 +27,10 @@ struct ComparedTape {
     std::string model = {};  ///< model.xml
 };
 
-inline Recording record(const ComparedTape& tape) {
+inline record::Recording record(const ComparedTape& tape) {
     const Folder folder;
     const auto path = folder.path() / "flight.mcap";
-    RecordingInfo info;
+    record::RecordingInfo info;
     info.scenario = "tape";
     info.version = "test";
     if (!tape.model.empty()) {
@@ -39,7 +39,7 @@ inline Recording record(const ComparedTape& tape) {
                                     .text = tape.model,
                                     .log_time_ns = 0});
     }
-    Recorder recorder(path, info);
+    record::Recorder recorder(path, info);
     auto event = tape.events.begin();
     const auto steps = static_cast<int>(std::lround((tape.to_s - tape.from_s) / tape.step_s));
     for (int i = 0; i <= steps; ++i) {
@@ -64,32 +64,34 @@ inline Recording record(const ComparedTape& tape) {
         }
     }
     recorder.finish(tape.summary);
-    return read_recording(path);
+    return record::read_recording(path);
 }
 
 /// Two recordings compared; they live as long as this.
 struct Held {
-    Recording reference;
-    Recording other;
-    FlightComparison comparison;
+    record::Recording reference;
+    record::Recording other;
+    compare::FlightComparison comparison;
 
-    Held(const ComparedTape& a, const ComparedTape& b, const Alignment& alignment = {})
+    Held(const ComparedTape& a, const ComparedTape& b, const compare::Alignment& alignment = {})
         : reference(record(a)), other(record(b)) {
-        StateNumbers numbers;
-        const FlightTrace first{&reference, "first", flight_channels(reference, numbers)};
-        const FlightTrace second{&other, "second", flight_channels(other, numbers)};
-        comparison = compare(first, second, alignment);
+        compare::StateNumbers numbers;
+        const compare::FlightTrace first{&reference, "first",
+                                         compare::flight_channels(reference, numbers)};
+        const compare::FlightTrace second{&other, "second",
+                                          compare::flight_channels(other, numbers)};
+        comparison = compare::compare(first, second, alignment);
     }
-    [[nodiscard]] const ChannelDifference& channel(const std::string& name) const {
-        for (const ChannelDifference& found : comparison.channels) {
+    [[nodiscard]] const compare::ChannelDifference& channel(const std::string& name) const {
+        for (const compare::ChannelDifference& found : comparison.channels) {
             if (found.name == name) {
                 return found;
             }
         }
         throw std::runtime_error("no channel " + name);
     }
-    [[nodiscard]] const FlightFigure& figure(const std::string& name) const {
-        for (const FlightFigure& found : comparison.figures) {
+    [[nodiscard]] const compare::FlightFigure& figure(const std::string& name) const {
+        for (const compare::FlightFigure& found : comparison.figures) {
             if (found.name == name) {
                 return found;
             }

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "../support/png.hpp"
 #include "compare_flights.hpp"
-#include "limpet/core/errors.hpp"
-#include "limpet/draw/colours.hpp"
 #include "limpet/compare/figures.hpp"
 #include "limpet/compare/limits.hpp"
 #include "limpet/compare/text.hpp"
-#include "../support/png.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/draw/colours.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 using test::ComparedTape;
@@ -31,7 +31,7 @@ Truth ramp(double since_impact_s, double offset_Pa = 0.0) {
 }
 
 /// Of exactly this colour, "#RRGGBB".
-std::size_t pixels(const Image& image, const std::string& colour) {
+std::size_t pixels(const draw::Image& image, const std::string& colour) {
     const unsigned long rgb = std::stoul(colour.substr(1), nullptr, 16);
     std::size_t count = 0;
     for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
@@ -303,20 +303,20 @@ TEST(CompareFigures, MetricsOfTheSummariesStandSideBySide) {
 }
 
 TEST(CompareFigures, OverlaysAreDrawnInBothColours) {
-    const Recording a = test::record(tape_with_impact(4.0));
-    const Recording b = test::record(tape_with_impact(4.0, 5000.0));
+    const record::Recording a = test::record(tape_with_impact(4.0));
+    const record::Recording b = test::record(tape_with_impact(4.0, 5000.0));
     StateNumbers numbers;
     const FlightTrace first{&a, "first", flight_channels(a, numbers)};
     const std::vector<FlightTrace> others = {{&b, "second", flight_channels(b, numbers)}};
     const test::Folder folder;
-    const Pictures pictures =
+    const draw::Pictures pictures =
         draw_comparison(first, others, {compare(first, others[0], {})}, folder.path());
     EXPECT_THAT(pictures.files, testing::Contains(folder.path() / "compare_cup.png"));
     const auto image = test::read_png(folder.path() / "compare_cup.png");
     EXPECT_EQ(image.width_px, 1200);
-    EXPECT_GT(pixels(image, colours::kDarkBlue), 500u) << "the reference";
-    EXPECT_GT(pixels(image, colours::kOrange), 500u) << "the other and its difference";
+    EXPECT_GT(pixels(image, draw::colours::kDarkBlue), 500u) << "the reference";
+    EXPECT_GT(pixels(image, draw::colours::kOrange), 500u) << "the other and its difference";
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::compare

@@ -8,9 +8,9 @@
 
 #include "compare_flights.hpp"
 #include "limpet/compare/rest.hpp"
-#include "limpet/vehicle/model_writer.hpp"
+#include "limpet/models/model_writer.hpp"
 
-namespace limpet {
+namespace limpet::compare {
 namespace {
 
 using test::ComparedTape;
@@ -106,7 +106,7 @@ ComparedTape resting(const Vector3& cup_W_N, const Vector3& legs_W_N) {
         {.roll_rad = radians(2.0), .pitch_rad = radians(66.8), .yaw_rad = radians(-7.0)});
     const Quaternion q_WC = q_WB * Eigen::AngleAxisd(radians(-64.0), Vector3::UnitY()) *
                             Eigen::AngleAxisd(radians(4.0), Vector3::UnitZ());
-    Airframe airframe;
+    vehicle::Airframe airframe;
     airframe.has_cup = true;
     return {.truth =
                 [=](double) {
@@ -118,7 +118,7 @@ ComparedTape resting(const Vector3& cup_W_N, const Vector3& legs_W_N) {
                     return truth;
                 },
             .state = [](double t) { return std::string(t < 2.0 ? "standing" : "resting"); },
-            .model = write_mjcf(airframe, Scene{})};
+            .model = write_mjcf(airframe, models::Scene{})};
 }
 
 TEST(CompareRest, TheWallCarriesWhatCupAndLegsTakeTogether) {
@@ -140,4 +140,4 @@ TEST(CompareRest, AFlightThatDoesNotRestHasNone) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::compare

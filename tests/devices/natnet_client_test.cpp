@@ -8,24 +8,24 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::unique_ptr<Transport> free_port() {
-    return open_transport({.medium = Medium::udp, .port = 0}, Role::listen);
+std::unique_ptr<wire::Transport> free_port() {
+    return open_transport({.medium = wire::Medium::udp, .port = 0}, wire::Role::listen);
 }
 
-void say(Transport& wire, std::span<const std::byte> packet) {
-    ASSERT_EQ(wire.send(packet, 1s).status, TransferStatus::done);
+void say(wire::Transport& wire, std::span<const std::byte> packet) {
+    ASSERT_EQ(wire.send(packet, 1s).status, wire::TransferStatus::done);
 }
 
 /// @return kind of the next packet
-std::optional<NatNetMessage> heard(Transport& wire) {
+std::optional<NatNetMessage> heard(wire::Transport& wire) {
     std::array<std::byte, 2000> in = {};
-    const Transfer transfer = wire.receive(in, 5s);
+    const wire::Transfer transfer = wire.receive(in, 5s);
     return natnet_message(std::span(in).first(transfer.bytes));
 }
 
 /// Motive as the client meets it: a command port on loopback, unicast.
 struct Server {
-    std::unique_ptr<Transport> wire = free_port();
+    std::unique_ptr<wire::Transport> wire = free_port();
     NatNetVersion version{4, 1};
     std::int32_t number = 100;
 
@@ -51,7 +51,7 @@ struct NatNetUnicast : testing::Test {
     Server server;
     NatNetClient client{{.axes = {.up = UpAxis::z}},
                         nullptr,
-                        open_transport(server.wire->address(), Role::connect)};
+                        open_transport(server.wire->address(), wire::Role::connect)};
 
     /// Receives until something came or five seconds are over: loopback, but another process's.
     std::optional<Sample<PoseReading>> pose(double time_s) {
@@ -151,12 +151,12 @@ TEST_F(NatNetUnicast, AStreamThatBeginsAnewIsFollowed) {
 }
 
 TEST(NatNetMulticast, JoinsTheGroupAndNeedsNoServer) {
-    auto data = open_transport({.medium = Medium::udp_multicast,
+    auto data = open_transport({.medium = wire::Medium::udp_multicast,
                                 .host = std::string(kNatNetGroup),
                                 .port = 0,
                                 .interface = "127.0.0.1"},
-                               Role::listen);
-    const auto motive = open_transport(data->address(), Role::connect);
+                               wire::Role::listen);
+    const auto motive = open_transport(data->address(), wire::Role::connect);
     NatNetClient client({.body_id = 3, .axes = {.up = UpAxis::z}, .version = {3, 1}},
                         std::move(data), nullptr);
     client.update(0.0);

@@ -30,9 +30,9 @@ std::optional<Sample<PoseReading>> pose_over(NatNetSource& source, NatNetClient&
 }
 
 TEST(NatNetSource, UnicastStreamsToWhoSaidConnect) {
-    auto command = open_transport({.medium = Medium::udp, .port = 0}, Role::listen);
+    auto command = open_transport({.medium = wire::Medium::udp, .port = 0}, wire::Role::listen);
     NatNetClient client({.body_id = 2, .axes = {.up = UpAxis::z}}, nullptr,
-                        open_transport(command->address(), Role::connect));
+                        open_transport(command->address(), wire::Role::connect));
     NatNetSource source({.version = {4, 1}, .clock_Hz = 1000000}, nullptr, std::move(command));
     EXPECT_FALSE(source.connected());
     const auto sample = pose_over(source, client);
@@ -45,12 +45,12 @@ TEST(NatNetSource, UnicastStreamsToWhoSaidConnect) {
 }
 
 TEST(NatNetSource, MulticastStreamsToTheGroup) {
-    auto data = open_transport({.medium = Medium::udp_multicast,
+    auto data = open_transport({.medium = wire::Medium::udp_multicast,
                                 .host = std::string(kNatNetGroup),
                                 .port = 0,
                                 .interface = "127.0.0.1"},
-                               Role::listen);
-    NatNetSource source({.version = {3, 1}}, open_transport(data->address(), Role::connect),
+                               wire::Role::listen);
+    NatNetSource source({.version = {3, 1}}, open_transport(data->address(), wire::Role::connect),
                         nullptr);
     NatNetClient client({.body_id = 2, .axes = {.up = UpAxis::z}}, std::move(data), nullptr);
     EXPECT_TRUE(pose_over(source, client));

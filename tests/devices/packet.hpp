@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace limpet::packets {
+namespace limpet::devices::packets {
 
 using Bytes = std::vector<std::byte>;
 
@@ -69,4 +69,4 @@ private:
     Bytes bytes_;
 };
 
-}  // namespace limpet::packets
+}  // namespace limpet::devices::packets

@@ -23,13 +23,13 @@ struct Folder {
     ~Folder() { fs::remove_all(path); }
 };
 
-std::vector<TfminiFrame> heard(Transport& wire, std::size_t count) {
+std::vector<TfminiFrame> heard(wire::Transport& wire, std::size_t count) {
     TfminiParser parser;
     std::vector<TfminiFrame> frames;
     std::array<std::byte, 256> in;
     while (frames.size() < count) {
-        const Transfer transfer = wire.receive(in, 5s);
-        if (transfer.status != TransferStatus::done) {
+        const wire::Transfer transfer = wire.receive(in, 5s);
+        if (transfer.status != wire::TransferStatus::done) {
             break;
         }
         for (const std::byte byte : std::span(in).first(transfer.bytes)) {
@@ -44,15 +44,15 @@ std::vector<TfminiFrame> heard(Transport& wire, std::size_t count) {
 TEST(PseudoTerminal, IsOpenedAsASerialPortAndCarriesBothWays) {
     const Folder folder;
     const auto device = open_pseudo_terminal(folder.path / "lidar");
-    const auto port = open_transport(device->address(), Role::connect);
+    const auto port = open_transport(device->address(), wire::Role::connect);
     for (int i = 0; i < 3; ++i) {
         const auto frame = encode(TfminiFrame{.distance_cm = 200, .strength = 900});
-        ASSERT_EQ(device->send(frame, 1s).status, TransferStatus::done);
+        ASSERT_EQ(device->send(frame, 1s).status, wire::TransferStatus::done);
     }
     EXPECT_EQ(heard(*port, 3).size(), 3U);
 
     const auto back = encode(TfminiFrame{.distance_cm = 0x0A0D, .strength = 900});
-    ASSERT_EQ(port->send(back, 1s).status, TransferStatus::done);
+    ASSERT_EQ(port->send(back, 1s).status, wire::TransferStatus::done);
     const auto frames = heard(*device, 1);
     ASSERT_EQ(frames.size(), 1U);  // line ends arrive as they were, nothing is echoed
     EXPECT_EQ(frames[0].distance_cm, 0x0A0D);
@@ -62,11 +62,11 @@ TEST(PseudoTerminal, WhatNobodyReadsIsDroppedAndNobodyWaits) {
     const Folder folder;
     const auto device = open_pseudo_terminal(folder.path / "lidar");
     const auto frame = encode(TfminiFrame{.distance_cm = 200, .strength = 900});
-    TransferStatus status = TransferStatus::done;
-    for (int i = 0; i < 20000 && status == TransferStatus::done; ++i) {
+    wire::TransferStatus status = wire::TransferStatus::done;
+    for (int i = 0; i < 20000 && status == wire::TransferStatus::done; ++i) {
         status = device->send(frame, 0ns).status;
     }
-    EXPECT_EQ(status, TransferStatus::timed_out);
+    EXPECT_EQ(status, wire::TransferStatus::timed_out);
 }
 
 TEST(PseudoTerminal, TheLinkGoesWithItAndReplacesOneThatWasLeftBehind) {

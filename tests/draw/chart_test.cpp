@@ -15,7 +15,7 @@
 #include "limpet/draw/chart_parts.hpp"
 #include "limpet/draw/colours.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using Mark = ChartSeries::Mark;
@@ -385,4 +385,4 @@ TEST(Chart, shades_and_names_its_stretches) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::draw

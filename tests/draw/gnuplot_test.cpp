@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "../support/flights.hpp"
+#include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/pictures.hpp"
-#include "../support/png.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using testing::HasSubstr;
@@ -79,4 +79,4 @@ TEST(Publish, names_the_folder_that_it_cannot_write) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::draw

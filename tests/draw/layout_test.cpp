@@ -8,7 +8,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using testing::ElementsAre;
@@ -98,4 +98,4 @@ TEST(Canvas, has_the_origin_of_gnuplot_at_the_bottom_left) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::draw

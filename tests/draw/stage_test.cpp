@@ -7,11 +7,11 @@
 #include <cstdlib>
 
 #include "../support/flights.hpp"
+#include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/offscreen.hpp"
-#include "../support/png.hpp"
 
-namespace limpet {
+namespace limpet::draw {
 namespace {
 
 using testing::HasSubstr;
@@ -21,8 +21,8 @@ using testing::Throws;
 constexpr int kWidth_px = 160;
 constexpr int kHeight_px = 120;
 
-Scene scene() {
-    Scene scene;
+models::Scene scene() {
+    models::Scene scene;
     scene.wall.p_WT_m = {3.0, 0.0, -1.5};
     return scene;
 }
@@ -42,7 +42,7 @@ Pose pose() {
 }
 
 TEST(Stage, photographs_the_vehicle_in_its_colours) {
-    Stage stage(write_mjcf(Airframe{}, scene()), kWidth_px, kHeight_px);
+    Stage stage(write_mjcf(vehicle::Airframe{}, scene()), kWidth_px, kHeight_px);
     const Image image = stage.photograph(pose(), view());
     ASSERT_EQ(image.rgb.size(), 3u * kWidth_px * kHeight_px);
     EXPECT_GT(test::distinct_colours(image), 200u);
@@ -54,7 +54,7 @@ TEST(Stage, photographs_the_vehicle_in_its_colours) {
 }
 
 TEST(Stage, has_its_sky_above) {
-    Stage stage(write_mjcf(Airframe{}, scene()), kWidth_px, kHeight_px);
+    Stage stage(write_mjcf(vehicle::Airframe{}, scene()), kWidth_px, kHeight_px);
     const Image image = stage.photograph(pose(), view());
     const std::size_t bottom = image.rgb.size() - 3u * kWidth_px;
     EXPECT_GT(image.rgb[2], image.rgb[0]) << "sky is blue";
@@ -62,7 +62,7 @@ TEST(Stage, has_its_sky_above) {
 }
 
 TEST(Stage, sees_every_part_move) {
-    Stage stage(write_mjcf(Airframe{}, scene()), kWidth_px, kHeight_px);
+    Stage stage(write_mjcf(vehicle::Airframe{}, scene()), kWidth_px, kHeight_px);
     const Image still = stage.photograph(pose(), view());
     EXPECT_EQ(test::difference(still, stage.photograph(pose(), view()), 1), 0.0)
         << "it stands still";
@@ -84,9 +84,9 @@ TEST(Stage, sees_every_part_move) {
 }
 
 TEST(Stage, knows_its_wall) {
-    Scene turned = scene();
+    models::Scene turned = scene();
     turned.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
-    const Stage stage(write_mjcf(Airframe{}, turned), kWidth_px, kHeight_px);
+    const Stage stage(write_mjcf(vehicle::Airframe{}, turned), kWidth_px, kHeight_px);
     const auto face = stage.wall();
     ASSERT_TRUE(face.has_value());
     EXPECT_LT((face->centre_m - Vector3(3.0, 0.0, 1.5)).norm(), 1e-6);
@@ -95,16 +95,16 @@ TEST(Stage, knows_its_wall) {
 }
 
 TEST(Stage, stands_beside_another_one) {
-    Stage first(write_mjcf(Airframe{}, scene()), kWidth_px, kHeight_px);
+    Stage first(write_mjcf(vehicle::Airframe{}, scene()), kWidth_px, kHeight_px);
     const Image before = first.photograph(pose(), view());
-    { const Stage second(write_mjcf(Airframe{}, scene()), 32, 32); }
+    { const Stage second(write_mjcf(vehicle::Airframe{}, scene()), 32, 32); }
     EXPECT_EQ(test::difference(before, first.photograph(pose(), view()), 1), 0.0);
 }
 
 TEST(Stage, does_without_wall_and_cup) {
-    Scene open;
+    models::Scene open;
     open.wall.present = false;
-    Airframe plain;
+    vehicle::Airframe plain;
     plain.has_cup = false;
     Stage stage(write_mjcf(plain, open), kWidth_px, kHeight_px);
     EXPECT_FALSE(stage.wall().has_value());
@@ -135,4 +135,4 @@ TEST(OffscreenDeathTest, says_what_to_install_when_nothing_can_draw) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::draw

@@ -6,7 +6,7 @@
 
 #include "puppet.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 std::string reason_of_abort(const Puppet& puppet) {
@@ -215,4 +215,4 @@ TEST(Faults, OneNoisySampleIsNoWeakVacuum) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::guidance

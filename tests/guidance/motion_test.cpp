@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 struct Run {
@@ -61,4 +61,4 @@ TEST(PrePosition, LiesOnTheDockingLineBeforeATurnedWall) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::guidance

@@ -6,7 +6,7 @@
 
 #include "puppet.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 using enum EventName;
@@ -150,4 +150,4 @@ TEST(Perching, ACopyGoesOnAlike) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::guidance

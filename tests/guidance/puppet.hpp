@@ -9,7 +9,7 @@
 
 #include "limpet/guidance/perching.hpp"
 
-namespace limpet {
+namespace limpet::guidance {
 
 /// A vehicle on strings: it does what the set-point says, at once, before a wall to the north.
 /// Enough of a world to walk guidance through its table without any physics.
@@ -160,4 +160,4 @@ private:
     double pressure_ = kAtmosphere_Pa;
 };
 
-}  // namespace limpet
+}  // namespace limpet::guidance

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::guidance {
 namespace {
 
 TEST(WallAngle, IsEquationSeven) {
@@ -75,4 +75,4 @@ TEST(WallSeen, AFarWallIsNotTheOne) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::guidance

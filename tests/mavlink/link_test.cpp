@@ -43,16 +43,16 @@ TEST(Link, CorkedMessagesGoInOnePieceAndInOrder) {
     ScriptedLink wire;
     wire.link.cork();
     for (std::uint32_t k = 0; k < 3; ++k) {
-        EXPECT_EQ(wire.link.send(beat(k)), TransferStatus::done);
+        EXPECT_EQ(wire.link.send(beat(k)), wire::TransferStatus::done);
     }
     EXPECT_THAT(wire.ends->sent, SizeIs(0));
-    EXPECT_EQ(wire.link.uncork(), TransferStatus::done);
+    EXPECT_EQ(wire.link.uncork(), wire::TransferStatus::done);
     EXPECT_THAT(wire.ends->sent, SizeIs(1));
     const auto sent = wire.sent<Heartbeat>();
     ASSERT_THAT(sent, SizeIs(3));
     EXPECT_THAT(sent[2].custom_mode, Eq(2U));
     EXPECT_THAT(wire.link.count().sent, Eq(3U));
-    EXPECT_EQ(wire.link.uncork(), TransferStatus::done) << "nothing is left to send";
+    EXPECT_EQ(wire.link.uncork(), wire::TransferStatus::done) << "nothing is left to send";
     EXPECT_THAT(wire.ends->sent, SizeIs(1));
 }
 
@@ -60,9 +60,9 @@ TEST(Link, MoreThanOnePieceHoldsIsSentInSeveral) {
     ScriptedLink wire;
     wire.link.cork();
     for (std::uint32_t k = 0; k < 200; ++k) {
-        EXPECT_EQ(wire.link.send(beat(k)), TransferStatus::done);
+        EXPECT_EQ(wire.link.send(beat(k)), wire::TransferStatus::done);
     }
-    EXPECT_EQ(wire.link.uncork(), TransferStatus::done);
+    EXPECT_EQ(wire.link.uncork(), wire::TransferStatus::done);
     EXPECT_THAT(wire.sent<Heartbeat>(), SizeIs(200));
     for (const auto& piece : wire.ends->sent) {
         EXPECT_LE(piece.size(), 1400U) << "fits a datagram";
@@ -105,7 +105,7 @@ TEST(Link, SignedHearsSignedAlone) {
 
     ScriptedLink friend_end;
     friend_end.link.sign(signing(1));
-    ASSERT_EQ(friend_end.link.send(beat(5)), TransferStatus::done);
+    ASSERT_EQ(friend_end.link.send(beat(5)), wire::TransferStatus::done);
     wire.ends->to_receive.push_back(friend_end.ends->sent.front());
     EXPECT_TRUE(wire.link.receive());
     wire.ends->to_receive.push_back(friend_end.ends->sent.front());
@@ -113,7 +113,7 @@ TEST(Link, SignedHearsSignedAlone) {
 
     ScriptedLink stranger;
     stranger.link.sign(signing(2));
-    ASSERT_EQ(stranger.link.send(beat(6)), TransferStatus::done);
+    ASSERT_EQ(stranger.link.send(beat(6)), wire::TransferStatus::done);
     wire.ends->to_receive.push_back(stranger.ends->sent.front());
     EXPECT_FALSE(wire.link.receive()) << "another key";
     EXPECT_THAT(wire.link.count().unsigned_, Eq(3U));

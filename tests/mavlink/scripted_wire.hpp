@@ -15,42 +15,42 @@ namespace limpet::mavlink {
 
 /// A wire whose far end is a script: what is sent is kept, what is received was put there before or
 /// is put there by `on_send`. Nothing waits.
-class ScriptedWire final : public Transport {
+class ScriptedWire final : public wire::Transport {
 public:
     struct Ends {
         std::vector<std::vector<std::byte>> sent;
         std::deque<std::vector<std::byte>> to_receive;
         std::function<void(std::span<const std::byte>)> on_send;
         std::function<void()> on_empty;  ///< nothing was there to receive: it may put something
-        TransportStatistics statistics{.peers = 1};
+        wire::TransportStatistics statistics{.peers = 1};
     };
 
     explicit ScriptedWire(std::shared_ptr<Ends> ends) : ends_(std::move(ends)) {}
 
-    Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
+    wire::Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
         ends_->sent.emplace_back(bytes.begin(), bytes.end());
         if (ends_->on_send) {
             ends_->on_send(bytes);
         }
-        return {TransferStatus::done, bytes.size()};
+        return {wire::TransferStatus::done, bytes.size()};
     }
-    Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
+    wire::Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
         if (ends_->to_receive.empty() && ends_->on_empty) {
             ends_->on_empty();
         }
         if (ends_->to_receive.empty()) {
-            return {TransferStatus::timed_out, 0};
+            return {wire::TransferStatus::timed_out, 0};
         }
         const std::vector<std::byte> piece = std::move(ends_->to_receive.front());
         ends_->to_receive.pop_front();
         std::memcpy(into.data(), piece.data(), piece.size());
-        return {TransferStatus::done, piece.size()};
+        return {wire::TransferStatus::done, piece.size()};
     }
     bool wait_for_peer(std::chrono::nanoseconds) override { return true; }
     void close() override {}
-    TransportAddress address() const override { return {}; }
+    wire::TransportAddress address() const override { return {}; }
     std::string describe() const override { return "script"; }
-    const TransportStatistics& statistics() const override { return ends_->statistics; }
+    const wire::TransportStatistics& statistics() const override { return ends_->statistics; }
 
 private:
     std::shared_ptr<Ends> ends_;

@@ -14,21 +14,22 @@ namespace limpet::mavlink {
 /// A ground station and a vehicle's link to it, over a real UDP socket on loopback.
 struct Station {
     Station()
-        : ground(open_transport({.medium = Medium::udp}, Role::listen),
+        : ground(open_transport({.medium = wire::Medium::udp}, wire::Role::listen),
                  {.system = 255, .component = kGroundStationComponent}),
-          vehicle(open_transport({.medium = Medium::udp, .port = ground.transport().address().port},
-                                 Role::connect),
+          vehicle(open_transport(
+                      {.medium = wire::Medium::udp, .port = ground.transport().address().port},
+                      wire::Role::connect),
                   {.system = 1, .component = kAutopilotComponent}) {}
 
     /// The ground station answers who has spoken: the vehicle must have.
     void greet() {
-        ASSERT_EQ(vehicle.send(Heartbeat{}), TransferStatus::done);
+        ASSERT_EQ(vehicle.send(Heartbeat{}), wire::TransferStatus::done);
         ASSERT_TRUE(ground.receive(std::chrono::seconds(10)).has_value());
     }
 
     template <class Message>
     void ask(const Message& message) {
-        ASSERT_EQ(ground.send(message), TransferStatus::done);
+        ASSERT_EQ(ground.send(message), wire::TransferStatus::done);
     }
 
     /// All of one message that has come; loopback delivers before send returns.

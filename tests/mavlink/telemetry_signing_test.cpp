@@ -65,10 +65,10 @@ TEST_F(Signed, AReplayIsRefused) {
     const ByteView frame =
         signing.sign(buffer, encode(set_to(1.5F), sender, buffer), signing_time(kNow_us));
     const std::vector<std::uint8_t> recorded(frame.begin(), frame.end());
-    auto wire = open_transport({.medium = Medium::udp}, Role::listen);
-    Link vehicle(
-        open_transport({.medium = Medium::udp, .port = wire->address().port}, Role::connect),
-        {.system = 1, .component = kAutopilotComponent});
+    auto wire = open_transport({.medium = wire::Medium::udp}, wire::Role::listen);
+    Link vehicle(open_transport({.medium = wire::Medium::udp, .port = wire->address().port},
+                                wire::Role::connect),
+                 {.system = 1, .component = kAutopilotComponent});
     vehicle.sign({.key = key_, .link_id = 1, .unix_us = [] { return kNow_us; }});
     int sets = 0;
     Telemetry telemetry(vehicle, {.battery_cells = 6},
@@ -76,10 +76,10 @@ TEST_F(Signed, AReplayIsRefused) {
                         [&sets](std::string_view, double) { ++sets; });
     telemetry.update(view());
     std::array<std::byte, 512> hello = {};
-    ASSERT_EQ(wire->receive(hello, std::chrono::seconds(10)).status, TransferStatus::done);
+    ASSERT_EQ(wire->receive(hello, std::chrono::seconds(10)).status, wire::TransferStatus::done);
     for (int i = 0; i < 2; ++i) {
         ASSERT_EQ(wire->send(std::as_bytes(std::span(recorded)), std::chrono::seconds(10)).status,
-                  TransferStatus::done);
+                  wire::TransferStatus::done);
     }
     telemetry.update(view());
     EXPECT_EQ(sets, 1);

@@ -258,7 +258,7 @@ TEST_F(Watched, ParametersAreServedAndRefusalsTold) {
 
 TEST_F(Watched, NobodyThereCostsNothing) {
     const std::uint16_t port = station_.ground.transport().address().port;
-    station_.ground = Link(open_transport({.medium = Medium::udp}, Role::listen), {});
+    station_.ground = Link(open_transport({.medium = wire::Medium::udp}, wire::Role::listen), {});
     ASSERT_NE(station_.ground.transport().address().port, port);
     const auto begin = std::chrono::steady_clock::now();
     for (int i = 0; i < 5000; ++i) {  // refused by the kernel, one after the other

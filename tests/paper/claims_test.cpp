@@ -13,10 +13,10 @@
 #include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/reproduce.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
-PaperStatement number(double paper, Range accepted) {
+PaperStatement number(double paper, draw::Range accepted) {
     return {.id = "x",
             .section = "I",
             .text = "x is so much",
@@ -35,26 +35,26 @@ Evidence with(double value) {
 TEST(Judge, TheEvidenceDecidesTheVerdict) {
     const PaperStatement statement = number(1.0, {0.8, 1.4});
     for (const double inside : {0.8, 1.0, 1.4}) {
-        EXPECT_EQ(judge(statement, with(inside)).verdict, Verdict::reproduced) << inside;
+        EXPECT_EQ(judge(statement, with(inside)).verdict, report::Verdict::reproduced) << inside;
     }
     for (const double outside : {0.79, 1.41, -1.0, 1e300}) {
-        EXPECT_EQ(judge(statement, with(outside)).verdict, Verdict::differs) << outside;
+        EXPECT_EQ(judge(statement, with(outside)).verdict, report::Verdict::differs) << outside;
     }
 }
 
 TEST(Judge, WhatDidNotComeToPassDiffers) {
     for (const Evidence& evidence : {with(std::nan("")), Evidence{}}) {
-        const Claim claim = judge(number(1.0, {0.8, 1.4}), evidence);
-        EXPECT_EQ(claim.verdict, Verdict::differs);
-        EXPECT_EQ(to_text(claim.simulated), "did not come to pass");
-        EXPECT_FALSE(to_text(claim.difference).empty());
+        const report::Claim claim = judge(number(1.0, {0.8, 1.4}), evidence);
+        EXPECT_EQ(claim.verdict, report::Verdict::differs);
+        EXPECT_EQ(report::to_text(claim.simulated), "did not come to pass");
+        EXPECT_FALSE(report::to_text(claim.difference).empty());
     }
 }
 
 TEST(Judge, WithoutEvidenceToLookForItIsNotModelled) {
     PaperStatement statement = number(1.0, {});
     statement.evidence.clear();
-    EXPECT_EQ(judge(statement, with(1.0)).verdict, Verdict::not_modelled);
+    EXPECT_EQ(judge(statement, with(1.0)).verdict, report::Verdict::not_modelled);
 }
 
 TEST(Judge, DifferencesAreSimulatedLessPaper) {
@@ -62,7 +62,7 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
     EXPECT_EQ(std::get<double>(judge(number(12.0, {0, 20}), with(12.0 + 2e-15)).difference), 0.0)
         << "noise of the last digit";
     PaperStatement range = number(0.0, {1.0, 1.2});
-    range.paper = Range{1.0, 1.2};
+    range.paper = draw::Range{1.0, 1.2};
     EXPECT_EQ(std::get<std::string>(judge(range, with(1.1)).difference), "inside");
     EXPECT_NEAR(std::get<double>(judge(range, with(1.5)).difference), 0.3, 1e-6);
     EXPECT_NEAR(std::get<double>(judge(range, with(0.9)).difference), -0.1, 1e-6);
@@ -79,7 +79,7 @@ TEST(Statements, AreCompleteAndAppearOnce) {
         EXPECT_TRUE(ids.insert(statement.id).second) << statement.id;
         EXPECT_FALSE(statement.section.empty()) << statement.id;
         EXPECT_FALSE(statement.text.empty()) << statement.id;
-        EXPECT_FALSE(to_text(statement.paper).empty()) << statement.id;
+        EXPECT_FALSE(report::to_text(statement.paper).empty()) << statement.id;
         EXPECT_LE(statement.accepted.low, statement.accepted.high) << statement.id;
         if (statement.evidence.empty()) {
             EXPECT_FALSE(statement.note.empty()) << statement.id << ": say why not";
@@ -161,7 +161,7 @@ TEST_F(StatementsFile, IsReadAsItStands) {
     EXPECT_EQ(read[0].basis, "as set");
     EXPECT_EQ(read[0].accepted.low, 2.0);
     EXPECT_TRUE(std::isinf(read[0].accepted.high));
-    EXPECT_EQ(std::get<Range>(read[1].paper).high, 2.0);
+    EXPECT_EQ(std::get<draw::Range>(read[1].paper).high, 2.0);
     EXPECT_TRUE(read[1].evidence.empty());
 }
 
@@ -186,4 +186,4 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::paper

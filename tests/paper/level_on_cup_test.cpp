@@ -10,7 +10,7 @@
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 using Complex = std::complex<double>;
@@ -31,7 +31,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 /// The pitch loop written by hand: an inertia on a pivot, motors as a lag behind a dead time, PX4's
 /// rate controller with its filters. Zero at a mode.
-Complex characteristic(const Case& c, const Airframe& airframe, const Complex& s) {
+Complex characteristic(const Case& c, const vehicle::Airframe& airframe, const Complex& s) {
     constexpr double kRateD = 0.003, kCutoff_rad_s = 2.0 * kPi * 30.0;
     // Half of a control period until the command comes, half of one since the mean rate was.
     constexpr double kHold_s = 0.002, kMeanRate_s = 0.002;
@@ -54,7 +54,7 @@ Complex characteristic(const Case& c, const Airframe& airframe, const Complex& s
     return inertia * s * s + joint - torque_N_m * motor * command;
 }
 
-Complex mode_by_hand(const Case& c, const Airframe& airframe) {
+Complex mode_by_hand(const Case& c, const vehicle::Airframe& airframe) {
     Complex s(0.0, 2.0 * kPi * 0.65);
     for (int k = 0; k < 50; ++k) {  // Newton, derivative by a small step
         constexpr double kStep = 1e-6;
@@ -83,7 +83,7 @@ TEST_P(LevelOnCupMode, IsThatOfTheLoopWrittenByHand) {
                                  set("autopilot.MC_PITCH_P", c.attitude_p)};
     const Mode mode = linear_swing("perch_metal", overrides);
     const Complex by_hand =
-        mode_by_hand(c, load_scenario("perch_metal", {.overrides = overrides}).airframe);
+        mode_by_hand(c, scenario::load_scenario("perch_metal", {.overrides = overrides}).airframe);
     EXPECT_NEAR(mode.growth_1_s, by_hand.real(), 0.02);
     EXPECT_NEAR(mode.frequency_Hz, by_hand.imag() / (2.0 * kPi), 0.01);
     EXPECT_GT(mode.pitch_share, 0.95);
@@ -109,7 +109,7 @@ TEST(LevelOnCup, GazebosMotorsDecayAndSlowOnesGrow) {
 
 /// The paper tells of pitch: nothing else may grow.
 TEST(LevelOnCup, SlowMotorsSwingInPitchAlone) {
-    LevelOnCup loop(build_model(load_scenario("slow_motors_metal")));
+    LevelOnCup loop(simulation::build_model(scenario::load_scenario("slow_motors_metal")));
     for (const Mode& mode : loop.modes()) {
         if (mode.pitch_share < 0.5) {
             EXPECT_LT(mode.growth_1_s, 0.0) << mode.frequency_Hz << " Hz";
@@ -118,4 +118,4 @@ TEST(LevelOnCup, SlowMotorsSwingInPitchAlone) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -7,7 +7,7 @@
 
 #include "../apps/program.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ TEST(ReproduceBadInput, IsOneLineAndTouchesNothing) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -7,12 +7,14 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 TEST(BreakOff, IsThatOfTheClosedForms) {
     constexpr double kRadius_m = 0.04;
-    const auto surface = [](const std::string& name) { return load_surface(name, data_root()); };
+    const auto surface = [](const std::string& name) {
+        return scenario::load_surface(name, scenario::data_root());
+    };
     const std::vector<std::pair<std::string, double>> frictions = {
         {"porous concrete", surface("porous_concrete").friction},
         {"cinder block", surface("cinder_block").friction},
@@ -62,4 +64,4 @@ TEST(EnergyUse, RestingTakesASmallShareOfHovering) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::paper

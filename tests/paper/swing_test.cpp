@@ -6,7 +6,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/paper/oscillation.hpp"
 
-namespace limpet {
+namespace limpet::paper {
 namespace {
 
 struct Trace {
@@ -100,4 +100,4 @@ TEST(SlowMotors, FreeFlightIsSound) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::paper

@@ -8,7 +8,7 @@
 
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 /// What the loop takes for granted of any engine.
@@ -17,7 +17,7 @@ TEST(Engines, MakePlantsOfAirframeAndScene) {
     for (const Engine* engine : engines()) {
         EXPECT_TRUE(names.insert(engine->name).second) << engine->name;
         EXPECT_NE(engine->description, "");
-        for (const Airframe& airframe : {Airframe{}, test::plain_multirotor()}) {
+        for (const vehicle::Airframe& airframe : {vehicle::Airframe{}, test::plain_multirotor()}) {
             const auto model = engine->make(airframe, test::wall_ahead());
             const auto plant = model->make();
             EXPECT_TRUE(plant->kinematics(Body::base).p_WF_m.isZero()) << engine->name;
@@ -38,7 +38,7 @@ TEST(Engines, MakePlantsOfAirframeAndScene) {
 }
 
 TEST(Engines, LeaveLooksOut) {
-    Scene scene = test::wall_ahead();
+    models::Scene scene = test::wall_ahead();
     scene.visuals = true;
     const auto bare = std::dynamic_pointer_cast<const MujocoModel>(
         kMujocoEngine.make(test::plain_multirotor(), scene));
@@ -47,4 +47,4 @@ TEST(Engines, LeaveLooksOut) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

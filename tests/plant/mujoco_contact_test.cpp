@@ -3,13 +3,13 @@
 
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 TEST(Ray, MeasuresTheDistanceToASlantedWall) {
-    Scene scene = test::wall_ahead();
+    models::Scene scene = test::wall_ahead();
     scene.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(20.0)}).toRotationMatrix();
-    MujocoPlant plant(test::compile(Airframe{}, scene));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}, scene));
     // The wall's plane through (1.5, 0) with normal (cos 20, sin 20): along x from y = +-0.2 it is
     // 1.5 -+ 0.2 tan 20 away. The vehicle, in the way, is transparent.
     const Vector3 north(1.0, 0.0, 0.0);
@@ -24,12 +24,12 @@ TEST(Ray, MeasuresTheDistanceToASlantedWall) {
 /// A shape's distances and the body that stands for it in the engine are one wall.
 TEST(Ray, MeetsEveryShapeWhereItsTangentFrameIs) {
     for (const WallShape* shape : wall_shapes()) {
-        Scene scene = test::wall_ahead();
+        models::Scene scene = test::wall_ahead();
         scene.wall.shape = shape;
         scene.wall.R_WT =
             quaternion_from_euler({.pitch_rad = radians(10.0), .yaw_rad = radians(20.0)})
                 .toRotationMatrix();
-        const MujocoPlant plant(test::compile(Airframe{}, scene));
+        const MujocoPlant plant(test::compile(vehicle::Airframe{}, scene));
         for (const double y : {-0.8, 0.0, 1.1}) {
             for (const double z : {-0.7, 0.0, 0.9}) {
                 const Vector3 p_W_m(0.1, y, z);
@@ -46,7 +46,7 @@ TEST(Ray, MeetsEveryShapeWhereItsTangentFrameIs) {
 }
 
 TEST(Ray, MissesWhatIsNotThere) {
-    MujocoPlant plant(test::compile(Airframe{}));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}));
     EXPECT_FALSE(plant.ray(Vector3::Zero(), -Vector3::UnitX()));
     EXPECT_FALSE(plant.ray({0.0, 2.01, 0.0}, Vector3::UnitX()));
     EXPECT_TRUE(plant.ray({0.0, 1.99, 0.0}, Vector3::UnitX()));
@@ -55,21 +55,21 @@ TEST(Ray, MissesWhatIsNotThere) {
 }
 
 TEST(Ray, FindsTheGroundBelow) {
-    MujocoPlant plant(test::compile(Airframe{}));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}));
     EXPECT_NEAR(plant.ray({0.0, 0.0, 1.0}, Vector3::UnitZ()).value(), 9.0, 1e-12);
 }
 
 TEST(Ray, NeedsNoWall) {
-    Scene scene = test::wall_ahead();
+    models::Scene scene = test::wall_ahead();
     scene.wall.present = false;
-    MujocoPlant plant(test::compile(Airframe{}, scene));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}, scene));
     EXPECT_FALSE(plant.ray(Vector3::Zero(), Vector3::UnitX()));
 }
 
 /// Weightless in front of the wall, nose up by 60 deg, leg tips just off it; pushed towards it
 /// through the middle of the tips.
 struct LegsOnWall {
-    Airframe airframe;
+    vehicle::Airframe airframe;
     MujocoPlant plant{test::compile(airframe)};
     Vector3 tips_B{airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m};
 
@@ -131,4 +131,4 @@ TEST(Contact, SwitchedOnItIsFeltInTheVeryNextStep) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -5,7 +5,7 @@
 
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 TEST(MujocoFrames, NorthStaysEastAndDownChangeSign) {
@@ -40,7 +40,7 @@ TEST(MujocoFrames, YawRightIsTurningClockwiseSeenFromAbove) {
 }
 
 TEST(MujocoKinematics, PutsTheLipWhereGeometrySays) {
-    MujocoPlant plant(test::compile(Airframe{}));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}));
     // Nose east and 30 deg up, moving north, yawing right at 2 rad/s about its own z.
     const Quaternion q_WB =
         quaternion_from_euler({.pitch_rad = radians(30.0), .yaw_rad = radians(90.0)});
@@ -70,7 +70,7 @@ TEST(MujocoKinematics, PutsTheLipWhereGeometrySays) {
 }
 
 TEST(MujocoKinematics, OffersTheEnginesCoordinatesForPictures) {
-    MujocoPlant plant(test::compile(Airframe{}));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}));
     plant.set_pose({1.0, 2.0, 3.0}, Quaternion::Identity());
     const auto q = plant.positions();
     ASSERT_EQ(q.size(), 10U);
@@ -81,4 +81,4 @@ TEST(MujocoKinematics, OffersTheEnginesCoordinatesForPictures) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -7,7 +7,7 @@
 #include "limpet/core/errors.hpp"
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 using testing::HasSubstr;
@@ -23,9 +23,10 @@ Eigen::MatrixXd mass_matrix(const mjModel& model) {
 }
 
 TEST(MujocoModel, HasTheStatedMassCentreAndInertia) {
-    Airframe skewed;
+    vehicle::Airframe skewed;
     skewed.cup.joint_z_m = 0.06;
-    for (const Airframe& airframe : {Airframe{}, skewed, test::plain_multirotor()}) {
+    for (const vehicle::Airframe& airframe :
+         {vehicle::Airframe{}, skewed, test::plain_multirotor()}) {
         const Eigen::MatrixXd mass = mass_matrix(test::compile(airframe)->get());
         const Matrix3 translation = mass.block<3, 3>(0, 0);
         const Matrix3 coupling = mass.block<3, 3>(0, 3);
@@ -37,10 +38,10 @@ TEST(MujocoModel, HasTheStatedMassCentreAndInertia) {
 }
 
 TEST(MujocoModel, PicturesAddNoPhysics) {
-    Scene plain = test::wall_ahead();
-    Scene pretty = plain;
+    models::Scene plain = test::wall_ahead();
+    models::Scene pretty = plain;
     pretty.visuals = true;
-    for (const Airframe& airframe : {Airframe{}, test::plain_multirotor()}) {
+    for (const vehicle::Airframe& airframe : {vehicle::Airframe{}, test::plain_multirotor()}) {
         const auto bare = test::compile(airframe, plain);
         for (const char* surface :
              {"porous_concrete", "cinder_block", "turbine_blade", "smooth_metal", "unheard_of"}) {
@@ -61,9 +62,9 @@ TEST(MujocoModel, PicturesAddNoPhysics) {
 }
 
 TEST(MujocoModel, NamesWhatOthersLookFor) {
-    Scene scene = test::wall_ahead();
+    models::Scene scene = test::wall_ahead();
     scene.visuals = true;
-    const auto model = test::compile(Airframe{}, scene);
+    const auto model = test::compile(vehicle::Airframe{}, scene);
     const auto has = [&model](mjtObj type, const char* name) {
         return mj_name2id(&model->get(), type, name) >= 0;
     };
@@ -100,4 +101,4 @@ TEST(MujocoModel, RefusesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

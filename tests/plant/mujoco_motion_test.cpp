@@ -3,17 +3,17 @@
 
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 constexpr StepMode kFree{.step_s = 1e-3, .contacts = false};
 
-Vector3 angular_momentum_W(const Kinematics& base, const Airframe& airframe) {
+Vector3 angular_momentum_W(const Kinematics& base, const vehicle::Airframe& airframe) {
     const Vector3 momentum_B = airframe.inertia_kg_m2.asDiagonal() * base.w_WF_F_rad_s;
     return base.q_WF * momentum_B;
 }
 
-double energy_J(const Kinematics& base, const Airframe& airframe) {
+double energy_J(const Kinematics& base, const vehicle::Airframe& airframe) {
     const Vector3 w = base.w_WF_F_rad_s;
     const Vector3 momentum_B = airframe.inertia_kg_m2.asDiagonal() * w;
     return 0.5 * airframe.mass_kg * base.v_WF_W_m_s.squaredNorm() + 0.5 * w.dot(momentum_B) -
@@ -43,7 +43,7 @@ TEST(FreeFall, FollowsTheSemiImplicitSumExactly) {
 }
 
 TEST(FreeFall, KeepsEnergyMomentumAndTheQuaternionsNorm) {
-    const Airframe airframe = test::plain_multirotor();
+    const vehicle::Airframe airframe = test::plain_multirotor();
     MujocoPlant plant(test::compile(airframe));
     plant.set_pose({0.0, 0.0, -20.0}, Quaternion::Identity(), {1.0, 2.0, -3.0}, {2.0, 1.0, 3.0});
     const Kinematics start = plant.kinematics(Body::base);
@@ -70,7 +70,7 @@ TEST(FreeFall, HalvingTheStepHalvesTheErrors) {
 }
 
 TEST(Wrench, AtALeverArmTurnsAndPushes) {
-    const Airframe airframe = test::plain_multirotor();
+    const vehicle::Airframe airframe = test::plain_multirotor();
     MujocoPlant plant(test::compile(airframe));
     const Quaternion q_WB = quaternion_from_euler({0.4, -0.3, 1.1});
     const Vector3 p_WB(0.2, -0.1, -1.0);
@@ -104,7 +104,7 @@ TEST(Wrench, LastsForOneStep) {
 }
 
 TEST(Wrench, OnTheCupMovesTheWholeVehiclesCentreOfMass) {
-    const Airframe airframe;
+    const vehicle::Airframe airframe;
     MujocoPlant plant(test::compile(airframe));
     const Vector3 force_W(4.0, -2.0, 1.0);
     for (int i = 0; i < 20; ++i) {
@@ -129,7 +129,7 @@ TEST(Wrench, OnTheCupMovesTheWholeVehiclesCentreOfMass) {
 
 /// Falls freely with the stops at work and a push on both ends of the slider.
 double settled_slider_m(double push_N) {
-    const Airframe airframe;
+    const vehicle::Airframe airframe;
     MujocoPlant plant(test::compile(airframe));
     for (int i = 0; i < 3000; ++i) {
         const SliderMotion slider = plant.slider();
@@ -159,4 +159,4 @@ TEST(Slider, IsAbsentWithoutACup) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -9,12 +9,12 @@
 #include "limpet/core/errors.hpp"
 #include "plants.hpp"
 
-namespace limpet {
+namespace limpet::plant {
 namespace {
 
 /// Hangs on its cup, which a spring holds at the wall, with the legs on it; the step changes on the
 /// way as around a touch.
-void hang(MujocoPlant& plant, const Airframe& airframe, int from, int to) {
+void hang(MujocoPlant& plant, const vehicle::Airframe& airframe, int from, int to) {
     const Vector3 anchor_W(1.5, 0.0, 0.0);
     for (int i = from; i < to; ++i) {
         const Kinematics cup = plant.kinematics(Body::cup);
@@ -35,7 +35,7 @@ void start(MujocoPlant& plant) {
 }
 
 TEST(State, ResumesBitExactlyInAnotherPlant) {
-    const Airframe airframe;
+    const vehicle::Airframe airframe;
     const auto model = test::compile(airframe);
     MujocoPlant whole(model);
     start(whole);
@@ -59,7 +59,7 @@ TEST(State, ResumesBitExactlyInAnotherPlant) {
 }
 
 TEST(State, KeepsWrenchesThatWaitForTheirStep) {
-    const auto model = test::compile(Airframe{});
+    const auto model = test::compile(vehicle::Airframe{});
     MujocoPlant plant(model);
     plant.apply(Body::base, {.force_N = {1.0, 2.0, 3.0}, .moment_N_m = {0.1, 0.2, 0.3}},
                 Vector3::Zero());
@@ -73,13 +73,13 @@ TEST(State, KeepsWrenchesThatWaitForTheirStep) {
 }
 
 TEST(State, OfAnotherModelIsRefused) {
-    MujocoPlant with_cup(test::compile(Airframe{}));
+    MujocoPlant with_cup(test::compile(vehicle::Airframe{}));
     MujocoPlant without(test::compile(test::plain_multirotor()));
     EXPECT_THROW(without.restore(with_cup.save()), InternalError);
 }
 
 TEST(State, ManyThreadsShareOneModelAndAgree) {
-    const Airframe airframe;
+    const vehicle::Airframe airframe;
     const auto model = test::compile(airframe);
     std::array<PlantState, 4> ends;
     std::vector<std::thread> threads;
@@ -100,7 +100,7 @@ TEST(State, ManyThreadsShareOneModelAndAgree) {
 }
 
 TEST(Divergence, IsAnErrorAndAnEarlierStateStillRestores) {
-    const auto model = test::compile(Airframe{});
+    const auto model = test::compile(vehicle::Airframe{});
     MujocoPlant plant(model);
     plant.step({});
     const PlantState healthy = plant.save();
@@ -118,7 +118,7 @@ TEST(Divergence, IsAnErrorAndAnEarlierStateStillRestores) {
 }
 
 TEST(Divergence, TheEnginesFatalErrorsThrow) {
-    MujocoPlant plant(test::compile(Airframe{}));
+    MujocoPlant plant(test::compile(vehicle::Airframe{}));
     EXPECT_THAT([] { mju_error("stack overflow"); },
                 testing::ThrowsMessage<InternalError>("MuJoCo: stack overflow"));
     EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
@@ -132,4 +132,4 @@ TEST(MujocoPlant, RefusesPartsThatAPlainMultirotorHasNot) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::plant

@@ -3,30 +3,30 @@
 
 #include <memory>
 
+#include "limpet/models/model_writer.hpp"
 #include "limpet/plant/mujoco_plant.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
 /// Vehicles and scenes that the plant's tests share.
 namespace limpet::test {
 
-inline Airframe plain_multirotor() {
-    Airframe airframe;
+inline vehicle::Airframe plain_multirotor() {
+    vehicle::Airframe airframe;
     airframe.has_cup = false;
     return airframe;
 }
 
 /// Wall of the default size at x = 1.5 m, facing the origin; the floor far below.
-inline Scene wall_ahead() {
-    Scene scene;
+inline models::Scene wall_ahead() {
+    models::Scene scene;
     scene.wall.p_WT_m = {1.5, 0.0, 0.0};
     scene.ground_z_W_m = 10.0;
     scene.visuals = false;
     return scene;
 }
 
-inline std::shared_ptr<const MujocoModel> compile(const Airframe& airframe,
-                                                  const Scene& scene = wall_ahead()) {
-    return std::make_shared<const MujocoModel>(write_mjcf(airframe, scene));
+inline std::shared_ptr<const plant::MujocoModel> compile(
+    const vehicle::Airframe& airframe, const models::Scene& scene = wall_ahead()) {
+    return std::make_shared<const plant::MujocoModel>(write_mjcf(airframe, scene));
 }
 
 }  // namespace limpet::test

@@ -6,10 +6,10 @@
 
 #include <limits>
 
-#include "files.hpp"
+#include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 using ::testing::ElementsAre;
@@ -90,4 +90,4 @@ TEST(Csv, ATopicsNameDoesNotLeadOutOfTheFolder) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::record

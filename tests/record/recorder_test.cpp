@@ -6,13 +6,13 @@
 
 #include <cmath>
 
-#include "files.hpp"
+#include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/record/recording.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 using ::testing::ElementsAre;
@@ -328,4 +328,4 @@ TEST(Recorder, ASampleThatNeverCameIsAMistake) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::record

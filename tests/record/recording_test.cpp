@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "files.hpp"
+#include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/record/mcap_writer.hpp"
+#include "limpet/mcap/writer.hpp"
 #include "limpet/record/recorder.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 using ::testing::AllOf;
@@ -138,4 +138,4 @@ TEST(Recording, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::record

@@ -5,7 +5,7 @@
 
 #include "limpet/core/random.hpp"
 
-namespace limpet::ros {
+namespace limpet::record::ros {
 namespace {
 
 const double kHalf = std::sqrt(0.5);
@@ -64,4 +64,4 @@ TEST(RosFrames, ThereAndBackIsTheSame) {
 }
 
 }  // namespace
-}  // namespace limpet::ros
+}  // namespace limpet::record::ros

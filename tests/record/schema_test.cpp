@@ -9,13 +9,13 @@
 #include <regex>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/record/mcap_format.hpp"
+#include "limpet/mcap/format.hpp"
 #include "limpet/record/message_definitions.hpp"
 #include "limpet/record/table.hpp"
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 using ::testing::ElementsAre;
@@ -211,4 +211,4 @@ TEST(TableReader, RefusesSchemasWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::record

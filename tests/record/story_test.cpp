@@ -5,7 +5,7 @@
 
 #include "../support/flights.hpp"
 
-namespace limpet {
+namespace limpet::record {
 namespace {
 
 using test::Attempt;
@@ -115,4 +115,4 @@ TEST(Story, summary_of_nothing_and_of_nonsense_is_empty) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::record

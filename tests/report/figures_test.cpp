@@ -9,7 +9,7 @@
 #include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using testing::ElementsAre;
@@ -37,16 +37,16 @@ bool has(const std::string& text, const std::string& part) {
 }
 
 TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
-    const Recording flight = test::fly();
-    const Chart chart = flight_chart(flight, {"overview", "whole flight", {0.0, 28.5}});
+    const record::Recording flight = test::fly();
+    const draw::Chart chart = flight_chart(flight, {"overview", "whole flight", {0.0, 28.5}});
     ASSERT_EQ(chart.panels.size(), 6u);
     std::size_t curves = 0, named = 0;
     for (const auto& any : chart.panels) {
-        const auto& panel = std::get<ChartPanel>(any);
+        const auto& panel = std::get<draw::ChartPanel>(any);
         curves += panel.series.size();
         EXPECT_EQ(panel.moments.size(), flight.events.size()) << "they run through all panels";
         EXPECT_EQ(panel.stretches.size(), phases(flight).size());
-        for (const ChartLine& moment : panel.moments) {
+        for (const draw::ChartLine& moment : panel.moments) {
             named += moment.label.empty() ? 0 : 1;
         }
     }
@@ -62,14 +62,15 @@ TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
 
 TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {
     const test::Folder folder;
-    const Pictures pictures = plot(test::fly({.failed_first = true}), folder.path() / "it's new");
+    const draw::Pictures pictures =
+        plot(test::fly({.failed_first = true}), folder.path() / "it's new");
     EXPECT_THAT(names(pictures.files), ElementsAre("overview.png", "overview.svg", "perching.png",
                                                    "perching.svg", "take_off.png", "take_off.svg",
                                                    "failed_attempt.png", "failed_attempt.svg"));
     EXPECT_THAT(pictures.missing, IsEmpty());
     for (const auto& file : pictures.files) {
         if (file.extension() == ".png") {
-            const Image image = test::read_png(file);
+            const draw::Image image = test::read_png(file);
             EXPECT_EQ(image.width_px, 1400) << file;
             EXPECT_GT(image.height_px, 1300) << file;
             EXPECT_GT(test::distinct_colours(image), 200u) << file;
@@ -84,7 +85,7 @@ TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {
 
 TEST(Plot, of_the_same_recording_is_the_same) {
     const test::Folder first, second;
-    const Recording flight = test::fly({.to_s = 5.0});
+    const record::Recording flight = test::fly({.to_s = 5.0});
     const auto a = plot(flight, first.path()).files, b = plot(flight, second.path()).files;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -94,7 +95,7 @@ TEST(Plot, of_the_same_recording_is_the_same) {
 
 TEST(Plot, of_a_hover_has_what_there_is) {
     const test::Folder folder;
-    const Pictures pictures = plot(test::fly({.cup = false}), folder.path());
+    const draw::Pictures pictures = plot(test::fly({.cup = false}), folder.path());
     EXPECT_THAT(names(pictures.files), ElementsAre("overview.png", "overview.svg"));
     EXPECT_THAT(pictures.missing, IsEmpty());
     EXPECT_FALSE(has(read_text(folder.path() / "overview.svg"), "cup pressure"));
@@ -102,9 +103,9 @@ TEST(Plot, of_a_hover_has_what_there_is) {
 
 TEST(Plot, of_half_a_recording_says_where_it_was_cut) {
     const test::Folder folder;
-    const Recording flight = test::fly_and_cut(0.5);
+    const record::Recording flight = test::fly_and_cut(0.5);
     ASSERT_NE(flight.damage, "");
-    const Pictures pictures = plot(flight, folder.path());
+    const draw::Pictures pictures = plot(flight, folder.path());
     EXPECT_THAT(names(pictures.files),
                 ElementsAre("overview.png", "overview.svg", "perching.png", "perching.svg"));
     char cut[64];
@@ -114,7 +115,7 @@ TEST(Plot, of_half_a_recording_says_where_it_was_cut) {
 
 TEST(Plot, of_nothing_is_an_error_that_leaves_no_file) {
     const test::Folder folder;
-    Recording recording;
+    record::Recording recording;
     recording.path = "empty.mcap";
     EXPECT_THAT([&] { (void)plot(recording, folder.path() / "out"); },
                 Throws<InputError>(Property(&InputError::what, HasSubstr("empty.mcap"))));
@@ -123,11 +124,11 @@ TEST(Plot, of_nothing_is_an_error_that_leaves_no_file) {
 
 TEST(Plot, without_gnuplot_leaves_no_file) {
     const test::Folder folder;
-    const Recording flight = test::fly({.to_s = 1.0});
+    const record::Recording flight = test::fly({.to_s = 1.0});
     const test::Environment path("PATH", folder.path().string());
     EXPECT_THROW((void)plot(flight, folder.path() / "out"), InputError);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

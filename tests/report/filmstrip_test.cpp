@@ -7,7 +7,7 @@
 #include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using testing::ElementsAre;
@@ -17,9 +17,9 @@ using testing::Property;
 using testing::Throws;
 
 /// A frame of a strip of one row; sizes as filmstrip.cpp has them.
-Image frame(const Image& strip, int index) {
+draw::Image frame(const draw::Image& strip, int index) {
     constexpr int kLeft_px = 32, kTop_px = 84, kWidth_px = 640, kHeight_px = 560, kStep_px = 656;
-    Image cut{kWidth_px, kHeight_px, {}};
+    draw::Image cut{kWidth_px, kHeight_px, {}};
     for (int row = 0; row < kHeight_px; ++row) {
         const auto from = strip.rgb.begin() +
                           3 * ((kTop_px + row) * strip.width_px + kLeft_px + index * kStep_px);
@@ -30,10 +30,10 @@ Image frame(const Image& strip, int index) {
 
 TEST(Film, shows_the_vehicle_at_the_instants_of_the_story) {
     const test::Folder folder;
-    const Pictures pictures = film(test::fly({.to_s = 4.2}), folder.path());
+    const draw::Pictures pictures = film(test::fly({.to_s = 4.2}), folder.path());
     ASSERT_THAT(pictures.files, ElementsAre(folder.path() / "perching_film.png"));
     EXPECT_THAT(pictures.missing, IsEmpty());
-    const Image strip = test::read_png(pictures.files[0]);
+    const draw::Image strip = test::read_png(pictures.files[0]);
     ASSERT_EQ(strip.width_px, 2 * 32 + 4 * 640 + 3 * 16) << "pre-positioned to attached";
     ASSERT_EQ(strip.height_px, 84 + 560 + 84 + 16);
     for (int i = 0; i < 4; ++i) {
@@ -49,7 +49,7 @@ TEST(Film, needs_a_model_and_poses) {
     const auto out = folder.path() / "out";
     EXPECT_THAT([&] { (void)film(test::fly({.to_s = 0.1, .model = false}), out); },
                 Throws<InputError>(Property(&InputError::what, HasSubstr("model.xml"))));
-    Recording blind = test::fly({.to_s = 0.1});
+    record::Recording blind = test::fly({.to_s = 0.1});
     blind.tables.clear();
     EXPECT_THAT([&] { (void)film(blind, out); },
                 Throws<InputError>(Property(&InputError::what, HasSubstr("/truth/pose"))));
@@ -57,4 +57,4 @@ TEST(Film, needs_a_model_and_poses) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

@@ -8,7 +8,7 @@
 #include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using test::Attempt;
@@ -30,7 +30,7 @@ void expect_rising(const std::vector<Moment>& moments) {
 }
 
 TEST(Moments, tell_the_perching) {
-    const Recording flight = test::fly();
+    const record::Recording flight = test::fly();
     const auto moments = perching_moments(flight);
     EXPECT_THAT(names(moments),
                 ElementsAre("pre-positioned", "approach", "impact", "attached", "landing",
@@ -52,9 +52,9 @@ TEST(Moments, tell_the_take_off) {
 }
 
 TEST(Moments, tell_the_last_attempt_also_when_it_failed) {
-    const Recording both = test::fly({.failed_first = true});
+    const record::Recording both = test::fly({.failed_first = true});
     EXPECT_GT(perching_moments(both).front().time_s, Attempt::kFailedEnd_s);
-    Recording failed = both;
+    record::Recording failed = both;
     failed.events.resize(6);  // up to the first retreat
     EXPECT_THAT(names(perching_moments(failed)), ElementsAre("pre-positioned", "approach", "impact",
                                                              "hold", "retreat started", "retreat"));
@@ -62,7 +62,7 @@ TEST(Moments, tell_the_last_attempt_also_when_it_failed) {
 }
 
 TEST(Moments, of_a_hover_are_spread_over_the_flight) {
-    const Recording flight = test::fly({.cup = false});
+    const record::Recording flight = test::fly({.cup = false});
     EXPECT_THAT(perching_moments(flight), IsEmpty());
     const auto moments = flight_moments(flight);
     ASSERT_EQ(moments.size(), 8u);
@@ -71,7 +71,7 @@ TEST(Moments, of_a_hover_are_spread_over_the_flight) {
 }
 
 TEST(Moments, of_a_flight_without_a_story_are_named_by_guidance) {
-    Recording flight = test::fly();
+    record::Recording flight = test::fly();
     flight.events.clear();
     const auto moments = flight_moments(flight);
     EXPECT_EQ(moments.front().name, "pre positioning");
@@ -80,8 +80,8 @@ TEST(Moments, of_a_flight_without_a_story_are_named_by_guidance) {
 }
 
 TEST(Pose, turns_east_north_up_into_north_west_up) {
-    const Recording flight = test::fly();
-    const Pose pose = pose_at(flight, 0.0);
+    const record::Recording flight = test::fly();
+    const draw::Pose pose = pose_at(flight, 0.0);
     EXPECT_NEAR(pose.position_m.x(), Attempt::kPre_m, 1e-9) << "north";
     EXPECT_NEAR(pose.position_m.y(), 0.0, 1e-9);
     EXPECT_NEAR(pose.position_m.z(), Attempt::kHeight_m, 1e-9) << "up";
@@ -91,7 +91,7 @@ TEST(Pose, turns_east_north_up_into_north_west_up) {
 }
 
 TEST(Pose, of_the_perched_vehicle_has_its_cup_flat_on_the_wall) {
-    const Pose pose = pose_at(test::fly(), 14.0);
+    const draw::Pose pose = pose_at(test::fly(), 14.0);
     const Vector3 nose = pose.attitude * Vector3::UnitX();
     EXPECT_NEAR(nose.z(), std::sin(radians(Attempt::kPitch_deg)), 1e-9) << "the nose points up";
     EXPECT_NEAR(degrees(pose.cup_pitch_rad), -Attempt::kPitch_deg, 1e-6);
@@ -107,20 +107,20 @@ TEST(Pose, of_the_perched_vehicle_has_its_cup_flat_on_the_wall) {
 TEST(Pose, has_the_angles_of_the_cup_on_its_joint) {
     const test::Folder folder;
     const auto path = folder.path() / "flight.mcap";
-    Recorder recorder(path, test::recording_info({.model = false}));
+    record::Recorder recorder(path, test::recording_info({.model = false}));
     Truth truth;
     truth.base.q_WF = quaternion_from_euler({.roll_rad = 0.3, .pitch_rad = -0.5, .yaw_rad = 2.0});
     truth.cup.q_WF = truth.base.q_WF * Eigen::AngleAxisd(0.4, Vector3::UnitY()) *
                      Eigen::AngleAxisd(-0.7, Vector3::UnitZ());
     recorder.truth(truth);
     recorder.finish("{}");
-    const Pose pose = pose_at(read_recording(path), 0.0);
+    const draw::Pose pose = pose_at(record::read_recording(path), 0.0);
     EXPECT_NEAR(pose.cup_pitch_rad, 0.4, 1e-12);
     EXPECT_NEAR(pose.cup_yaw_rad, -0.7, 1e-12);
 }
 
 TEST(Pose, is_that_of_the_nearest_sample) {
-    const Recording flight = test::fly();
+    const record::Recording flight = test::fly();
     const Attempt attempt;
     const double t = 1002 * 0.004;  // while the slider is in
     EXPECT_NEAR(pose_at(flight, t + 0.0019).slider_m, attempt.slider_m(t), 1e-12);
@@ -129,20 +129,21 @@ TEST(Pose, is_that_of_the_nearest_sample) {
 }
 
 TEST(Pose, is_missed_when_it_was_not_recorded) {
-    EXPECT_THROW((void)pose_at(Recording{}, 0.0), InputError);
+    EXPECT_THROW((void)pose_at(record::Recording{}, 0.0), InputError);
 }
 
 TEST(Caption, has_time_pitch_and_pressure) {
     EXPECT_EQ(caption_at(test::fly(), 14.0), "14.00 s   pitch 66.5°   650 hPa");
-    Recording hover = test::fly({.cup = false});
+    record::Recording hover = test::fly({.cup = false});
     EXPECT_EQ(caption_at(hover, 1.0), "1.00 s   pitch 0.0°");
-    const auto truth = std::find_if(hover.tables.begin(), hover.tables.end(),
-                                    [](const Table& t) { return t.topic == "/truth/vehicle"; });
-    for (Column& column : truth->columns) {
+    const auto truth =
+        std::find_if(hover.tables.begin(), hover.tables.end(),
+                     [](const record::Table& t) { return t.topic == "/truth/vehicle"; });
+    for (record::Column& column : truth->columns) {
         column.values.assign(column.values.size(), radians(-0.04));
     }
     EXPECT_EQ(caption_at(hover, 1.0), "1.00 s   pitch 0.0°") << "not -0.0";
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

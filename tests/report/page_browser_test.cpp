@@ -10,7 +10,7 @@
 #include "sample_page.hpp"
 
 /// Pages in a real browser (tests/support/browser).
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using Json = nlohmann::json;
@@ -92,4 +92,4 @@ TEST_F(InABrowser, the_policy_of_the_page_stops_what_slipped_in) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

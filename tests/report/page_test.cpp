@@ -12,7 +12,7 @@
 #include "limpet/draw/html.hpp"
 #include "sample_page.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using testing::HasSubstr;
@@ -164,22 +164,22 @@ TEST(Quantity, reads_as_people_write) {
     EXPECT_EQ(to_text(Quantity(2.0), true), "+2");
     EXPECT_EQ(to_text(Quantity(0.0), true), "0");
     EXPECT_EQ(to_text(Quantity(-2.0), true), "−2");
-    EXPECT_EQ(to_text(Quantity(Range{0.8, 1.4})), "0.8 … 1.4");
+    EXPECT_EQ(to_text(Quantity(draw::Range{0.8, 1.4})), "0.8 … 1.4");
     EXPECT_EQ(to_text(Quantity(std::numeric_limits<double>::quiet_NaN())), "not a number");
 }
 
 TEST(Html, marks_up_pairs_and_leaves_the_rest) {
-    EXPECT_EQ(html::marked_up("**a** <b> `c` **d"),
+    EXPECT_EQ(draw::html::marked_up("**a** <b> `c` **d"),
               "<strong>a</strong> &lt;b&gt; <code>c</code> **d");
-    EXPECT_EQ(html::marked_up("2 * 3 ` 4"), "2 * 3 ` 4");
-    EXPECT_EQ(html::escaped("a\"'\x01&"), "a&quot;&#39; &amp;");
+    EXPECT_EQ(draw::html::marked_up("2 * 3 ` 4"), "2 * 3 ` 4");
+    EXPECT_EQ(draw::html::escaped("a\"'\x01&"), "a&quot;&#39; &amp;");
 }
 
 TEST(Html, links_name_files_whatever_they_are_called) {
-    EXPECT_EQ(html::link("a/b c.mcap"), "a/b%20c.mcap");
-    EXPECT_EQ(html::link("javascript:alert(1)"), "javascript%3Aalert%281%29");
-    EXPECT_EQ(html::link("//host/x"), ".//host/x");
-    EXPECT_EQ(html::link("ü#?"), "%C3%BC%23%3F");
+    EXPECT_EQ(draw::html::link("a/b c.mcap"), "a/b%20c.mcap");
+    EXPECT_EQ(draw::html::link("javascript:alert(1)"), "javascript%3Aalert%281%29");
+    EXPECT_EQ(draw::html::link("//host/x"), ".//host/x");
+    EXPECT_EQ(draw::html::link("ü#?"), "%C3%BC%23%3F");
 }
 
 TEST(Html, base64_is_that_of_rfc_4648) {
@@ -187,14 +187,14 @@ TEST(Html, base64_is_that_of_rfc_4648) {
     const char* const coded[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
                                  "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "//79"};
     for (std::size_t i = 0; i < std::size(texts); ++i) {
-        EXPECT_EQ(html::base64(texts[i]), coded[i]);
+        EXPECT_EQ(draw::html::base64(texts[i]), coded[i]);
     }
 }
 
 TEST(Html, embeds_nothing_but_pictures) {
-    EXPECT_THROW((void)html::embedded("<html>"), InternalError);
-    EXPECT_THROW((void)html::embedded(""), InternalError);
+    EXPECT_THROW((void)draw::html::embedded("<html>"), InternalError);
+    EXPECT_THROW((void)draw::html::embedded(""), InternalError);
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

@@ -9,7 +9,7 @@
 
 #include "../support/flights.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using test::Attempt;
@@ -17,25 +17,25 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr Window kAll{0.0, 100.0};
+constexpr record::Window kAll{0.0, 100.0};
 
 /// Without its unit.
-std::string title(const ChartPanel& panel) {
+std::string title(const draw::ChartPanel& panel) {
     return panel.y_label.substr(0, panel.y_label.find("  ["));
 }
 
-std::vector<std::string> titles(const std::vector<ChartPanel>& panels) {
+std::vector<std::string> titles(const std::vector<draw::ChartPanel>& panels) {
     std::vector<std::string> names;
-    for (const ChartPanel& panel : panels) {
+    for (const draw::ChartPanel& panel : panels) {
         names.push_back(title(panel));
     }
     return names;
 }
 
-const ChartSeries& curve(const std::vector<ChartPanel>& panels, const std::string& name,
-                         const std::string& label) {
-    for (const ChartPanel& panel : panels) {
-        for (const ChartSeries& found : panel.series) {
+const draw::ChartSeries& curve(const std::vector<draw::ChartPanel>& panels, const std::string& name,
+                               const std::string& label) {
+    for (const draw::ChartPanel& panel : panels) {
+        for (const draw::ChartSeries& found : panel.series) {
             if (title(panel) == name && found.name == label) {
                 return found;
             }
@@ -45,9 +45,9 @@ const ChartSeries& curve(const std::vector<ChartPanel>& panels, const std::strin
 }
 
 /// The curve is the recording's column, scaled.
-void expect_column(const Recording& flight, const ChartSeries& drawn, const char* topic,
-                   const char* column, double scale) {
-    const Series recorded = flight.series(topic, column);
+void expect_column(const record::Recording& flight, const draw::ChartSeries& drawn,
+                   const char* topic, const char* column, double scale) {
+    const record::Series recorded = flight.series(topic, column);
     ASSERT_EQ(drawn.y.size(), recorded.values.size());
     for (std::size_t i = 0; i < drawn.y.size(); ++i) {
         ASSERT_EQ(drawn.x[i], recorded.time_s[i]);
@@ -63,7 +63,7 @@ TEST(Panels, draw_the_pressures_at_which_this_flight_decided) {
 }
 
 TEST(Panels, are_the_columns_of_the_recording) {
-    const Recording flight = test::fly();
+    const record::Recording flight = test::fly();
     const auto all = panels(flight, kAll);
     EXPECT_THAT(titles(all),
                 ElementsAre("cup pressure", "pitch", "force through the slider", "total thrust",
@@ -82,9 +82,9 @@ TEST(Panels, are_the_columns_of_the_recording) {
 TEST(Panels, keep_the_signs_of_the_house) {
     const Attempt attempt;
     const auto all = panels(test::fly(), kAll);
-    const ChartSeries& pitch = curve(all, "pitch", "true");
-    const ChartSeries& believed = curve(all, "pitch", "estimated");
-    const ChartSeries& force = curve(all, "force through the slider", "measured");
+    const draw::ChartSeries& pitch = curve(all, "pitch", "true");
+    const draw::ChartSeries& believed = curve(all, "pitch", "estimated");
+    const draw::ChartSeries& force = curve(all, "force through the slider", "measured");
     for (std::size_t i = 0; i < pitch.y.size(); ++i) {
         const double t = pitch.x[i];
         ASSERT_NEAR(pitch.y[i], degrees(attempt.pitch_rad(t)), 1e-9);
@@ -95,8 +95,8 @@ TEST(Panels, keep_the_signs_of_the_house) {
 
 TEST(Panels, show_their_window_alone) {
     const auto all = panels(test::fly(), {3.0, 5.0});
-    for (const ChartPanel& panel : all) {
-        for (const ChartSeries& drawn : panel.series) {
+    for (const draw::ChartPanel& panel : all) {
+        for (const draw::ChartSeries& drawn : panel.series) {
             EXPECT_NEAR(drawn.x.front(), 3.0, 0.005);
             EXPECT_NEAR(drawn.x.back(), 5.0, 0.005);
         }
@@ -105,7 +105,7 @@ TEST(Panels, show_their_window_alone) {
 
 TEST(Panels, have_a_gap_where_a_lidar_sees_nothing) {
     const auto all = panels(test::fly(), kAll);
-    const ChartSeries& left = curve(all, "distance of the LiDARs to the wall", "left");
+    const draw::ChartSeries& left = curve(all, "distance of the LiDARs to the wall", "left");
     const Attempt attempt;
     for (std::size_t i = 0; i < left.y.size(); ++i) {
         const bool seen = attempt.pitch_rad(left.x[i]) < radians(50.0);
@@ -114,7 +114,7 @@ TEST(Panels, have_a_gap_where_a_lidar_sees_nothing) {
 }
 
 TEST(Panels, of_a_hover_have_nothing_of_the_cup) {
-    const Recording flight = test::fly({.cup = false});
+    const record::Recording flight = test::fly({.cup = false});
     EXPECT_THAT(
         titles(panels(flight, kAll)),
         ElementsAre("pitch", "total thrust", "distance of the LiDARs to the wall", "speed ahead"));
@@ -122,19 +122,19 @@ TEST(Panels, of_a_hover_have_nothing_of_the_cup) {
 }
 
 TEST(Panels, name_what_is_missing) {
-    Recording flight = test::fly();
+    record::Recording flight = test::fly();
     EXPECT_THAT(missing_topics(flight), IsEmpty());
     flight.tables.erase(
         std::find_if(flight.tables.begin(), flight.tables.end(),
-                     [](const Table& t) { return t.topic == "/sensors/range_left"; }));
+                     [](const record::Table& t) { return t.topic == "/sensors/range_left"; }));
     EXPECT_THAT(missing_topics(flight), ElementsAre(HasSubstr("/sensors/range_left")));
     EXPECT_EQ(panels(flight, kAll)[4].series.size(), 1u);
 }
 
 /// A flight in which guidance asks in every way.
-Recording asked_flight() {
+record::Recording asked_flight() {
     const test::Folder folder;
-    Recorder recorder(folder.path() / "flight.mcap", test::recording_info({}));
+    record::Recorder recorder(folder.path() / "flight.mcap", test::recording_info({}));
     for (int i = 0; i < 40; ++i) {
         const double t = 0.1 * i;
         Truth truth;
@@ -164,11 +164,12 @@ Recording asked_flight() {
         recorder.setpoint(t, setpoint);
     }
     recorder.finish("{}");
-    return read_recording(folder.path() / "flight.mcap");
+    return record::read_recording(folder.path() / "flight.mcap");
 }
 
 /// The series is `value` from one time on to another and nowhere else.
-void expect_only_between(const ChartSeries& series, double from_s, double to_s, double value) {
+void expect_only_between(const draw::ChartSeries& series, double from_s, double to_s,
+                         double value) {
     ASSERT_EQ(series.x.size(), 40u) << series.name;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
         const double t = series.x[i];
@@ -186,19 +187,19 @@ TEST(Panels, show_what_guidance_asked_for_beside_what_came_of_it) {
     expect_only_between(curve(all, "distance of the LiDARs to the wall", "asked"), 1.0, 2.0, 1.3);
     expect_only_between(curve(all, "speed ahead", "asked"), 2.0, 3.0, 1.1);
     expect_only_between(curve(all, "pitch", "asked"), 3.0, 4.0, 20.0);
-    EXPECT_EQ(curve(all, "pitch", "asked").mark, ChartSeries::Mark::dashes);
+    EXPECT_EQ(curve(all, "pitch", "asked").mark, draw::ChartSeries::Mark::dashes);
     for (const double speed : curve(all, "speed ahead", "true").y) {
         EXPECT_NEAR(speed, 0.9, 1e-9);
     }
 }
 
 TEST(Panels, show_no_setpoint_where_none_was_recorded) {
-    for (const ChartPanel& panel : panels(test::fly(), kAll)) {
-        for (const ChartSeries& series : panel.series) {
+    for (const draw::ChartPanel& panel : panels(test::fly(), kAll)) {
+        for (const draw::ChartSeries& series : panel.series) {
             EXPECT_NE(series.name, "asked") << panel.y_label;
         }
     }
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

@@ -10,7 +10,7 @@
 #include "program_output.hpp"
 #include "sample_page.hpp"
 
-namespace limpet {
+namespace limpet::report {
 namespace {
 
 using Json = nlohmann::json;
@@ -58,7 +58,7 @@ TEST(ResultsJson, keeps_numbers_as_numbers) {
 TEST(ResultsJson, says_in_words_what_is_no_number) {
     Page page = test::sample_page();
     page.claims[0].simulated = std::numeric_limits<double>::quiet_NaN();
-    page.claims[1].paper = Range{0.0, std::numeric_limits<double>::infinity()};
+    page.claims[1].paper = draw::Range{0.0, std::numeric_limits<double>::infinity()};
     const Json json = Json::parse(results_json(page));
     EXPECT_EQ(json["claims"][0]["simulated"], "not a number");
     EXPECT_EQ(json["claims"][1]["paper"], "0 … not a number");
@@ -119,4 +119,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& spoilt) { return spoilt.param.how; });
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::report

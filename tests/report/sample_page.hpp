@@ -20,9 +20,10 @@ inline const std::string kLongWord =
 
 /// Draws into `folder`: success.png and .svg, growth.png and .svg.
 inline void draw_samples(const std::filesystem::path& folder) {
-    ChartSeries fit{.name = "logistic fit", .band = true, .colour = colours::kOrange};
-    ChartSeries trials{
-        .name = "trials", .mark = ChartSeries::Mark::points, .colour = colours::kDarkBlue};
+    draw::ChartSeries fit{.name = "logistic fit", .band = true, .colour = draw::colours::kOrange};
+    draw::ChartSeries trials{.name = "trials",
+                             .mark = draw::ChartSeries::Mark::points,
+                             .colour = draw::colours::kDarkBlue};
     for (int i = 0; i <= 28; ++i) {
         const double v = 0.05 * i, p = 1.0 / (1.0 + std::exp(-8.0 * (v - 0.8)));
         fit.x.push_back(v);
@@ -36,19 +37,20 @@ inline void draw_samples(const std::filesystem::path& folder) {
             trials.high.push_back(0.85 * p + 0.15);
         }
     }
-    (void)draw_chart({.title = "Success against impact speed",
-                      .subtitle = "porous concrete; 95 % intervals",
-                      .panels = {ChartPanel{.x_label = "impact speed  [m/s]",
-                                            .y_label = "probability of success",
-                                            .series = {fit, trials},
-                                            .levels = {{0.5, "half"}},
-                                            .moments = {{0.4, "none below"}, {1.0, "best"}}}}},
-                     "success", folder);
-    HeatPanel map{.x_label = "motor lag  [s]",
-                  .y_label = "distance of the pivot  [m]",
-                  .z_label = "growth rate  [1/s]",
-                  .levels = {-1.0, 0.5},
-                  .points = {{0.012, 0.2, "paper's simulation"}}};
+    (void)draw::draw_chart(
+        {.title = "Success against impact speed",
+         .subtitle = "porous concrete; 95 % intervals",
+         .panels = {draw::ChartPanel{.x_label = "impact speed  [m/s]",
+                                     .y_label = "probability of success",
+                                     .series = {fit, trials},
+                                     .levels = {{0.5, "half"}},
+                                     .moments = {{0.4, "none below"}, {1.0, "best"}}}}},
+        "success", folder);
+    draw::HeatPanel map{.x_label = "motor lag  [s]",
+                        .y_label = "distance of the pivot  [m]",
+                        .z_label = "growth rate  [1/s]",
+                        .levels = {-1.0, 0.5},
+                        .points = {{0.012, 0.2, "paper's simulation"}}};
     for (int i = 0; i <= 16; ++i) {
         map.x.push_back(0.006 * i);
         map.y.push_back(0.018 * i);
@@ -58,12 +60,12 @@ inline void draw_samples(const std::filesystem::path& folder) {
             map.z.push_back(-1.2 + 20.0 * x * (0.4 + 2.0 * y));
         }
     }
-    (void)draw_chart({.title = "Stability map", .panels = {map}}, "growth", folder);
+    (void)draw::draw_chart({.title = "Stability map", .panels = {map}}, "growth", folder);
 }
 
 /// Its figures are those of draw_samples(), its recording lies at "flights/a b#1.mcap".
-inline Page sample_page() {
-    Page page;
+inline report::Page sample_page() {
+    report::Page page;
     page.title = "Perching and take-off on vertical surfaces, reproduced";
     page.subtitle = "Every number, table and figure of the paper beside what was simulated";
     page.summary = {
@@ -71,17 +73,17 @@ inline Page sample_page() {
         "paper contradicts itself the note says so. " +
         kHostile};
     for (int i = 0; i < 24; ++i) {
-        Claim claim{
+        report::Claim claim{
             .id = "c" + std::to_string(i + 1),
             .section = i % 3 == 0 ? "IV-B" : "Fig. 11",
             .statement =
                 "The pressure in the cup falls below 880 hPa within half a second "
                 "after the impact on porous concrete.",
-            .paper = Range{0.8, 1.4},
+            .paper = draw::Range{0.8, 1.4},
             .simulated = 1.26 + 0.01 * i,
             .unit = "s",
             .difference = std::string("within"),
-            .verdict = static_cast<Verdict>(i % 3),
+            .verdict = static_cast<report::Verdict>(i % 3),
             .note = i % 2 == 0 ? "The range is **assumed**; the paper says `about 1 s`." : "",
             .figure = i % 4 == 0 ? "fig-success" : "",
             .recording = i % 5 == 0 ? "flights/a b#1.mcap" : ""};
@@ -99,28 +101,30 @@ inline Page sample_page() {
         }
         page.claims.push_back(claim);
     }
-    PageTable table{.id = "table-2",
-                    .title = "Table II: surfaces",
-                    .columns = {"surface", "τ₁ paper [s]", "τ₁ fitted [s]", "P_vac paper [hPa]",
-                                "P_vac fitted [hPa]", "τ₂ paper [s]", "τ₂ fitted [s]", "interval"},
-                    .caption = "Fitted to simulated measurements with noise, ripple and gaps."};
+    report::PageTable table{
+        .id = "table-2",
+        .title = "Table II: surfaces",
+        .columns = {"surface", "τ₁ paper [s]", "τ₁ fitted [s]", "P_vac paper [hPa]",
+                    "P_vac fitted [hPa]", "τ₂ paper [s]", "τ₂ fitted [s]", "interval"},
+        .caption = "Fitted to simulated measurements with noise, ripple and gaps."};
     for (const char* name : {"cinder block", "porous concrete", "metal", "glass"}) {
-        table.rows.push_back(
-            {std::string(name), 0.21, 0.2103, 590.0, 589.6, 1.32, 1.318, Range{0.208, 0.2126}});
+        table.rows.push_back({std::string(name), 0.21, 0.2103, 590.0, 589.6, 1.32, 1.318,
+                              draw::Range{0.208, 0.2126}});
     }
     table.rows.push_back({kHostile, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, std::string("none")});
-    const PageFigure success{.id = "fig-success",
-                             .title = "Fig. 3: success against impact speed.",
-                             .caption = "253 trials; the band is the fit's 95 % interval.",
-                             .alt = "Probability of success rising from 0 to 1 with impact speed",
-                             .png = "success.png",
-                             .svg = "success.svg"};
+    const report::PageFigure success{
+        .id = "fig-success",
+        .title = "Fig. 3: success against impact speed.",
+        .caption = "253 trials; the band is the fit's 95 % interval.",
+        .alt = "Probability of success rising from 0 to 1 with impact speed",
+        .png = "success.png",
+        .svg = "success.svg"};
     page.sections = {
-        {"claims", "Claims of the paper", {std::string("Line by line."), ClaimTable{}}},
+        {"claims", "Claims of the paper", {std::string("Line by line."), report::ClaimTable{}}},
         {"tables", "Tables I and II", {table, std::string("The paper calls concrete slowest.")}},
         {"figures", "Figures " + kLongWord, {success}}};
     for (int i = 0; i < 12; ++i) {
-        PageFigure figure = success;
+        report::PageFigure figure = success;
         figure.id = "fig-" + std::to_string(i);
         if (i % 2 == 0) {
             figure.png = "growth.png";

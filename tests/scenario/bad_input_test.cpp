@@ -3,7 +3,7 @@
 
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 // One test a kind of bad input, with the line that the user gets.
@@ -259,4 +259,4 @@ TEST_F(BadInput, AVehicleTooHeavyToHover) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -5,16 +5,16 @@
 #include <iterator>
 #include <pugixml.hpp>
 
+#include "limpet/models/cad_model.hpp"
+#include "limpet/models/model_writer.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
-#include "limpet/vehicle/cad_model.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 #include "tests/scenario/test_data.hpp"
 
 // tests/data/cad_uav is perching_uav as a CAD program exports it: its base taken apart into plate,
 // motors, propellers and legs, seen from an origin of its own, names of its own.
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 using testing::HasSubstr;
@@ -33,19 +33,19 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text.replace(at, what.size(), with);
 }
 
-Airframe cad_uav() {
+vehicle::Airframe cad_uav() {
     return load_vehicle((kFolder / "cad_uav.yaml").string(), data_root());
 }
 
-void expect_same(const BodyInertia& got, const BodyInertia& wanted) {
+void expect_same(const vehicle::BodyInertia& got, const vehicle::BodyInertia& wanted) {
     EXPECT_NEAR(got.mass_kg, wanted.mass_kg, 1e-9);
     EXPECT_LT((got.centre_B_m - wanted.centre_B_m).norm(), 1e-8);
     EXPECT_LT((got.inertia_kg_m2 - wanted.inertia_kg_m2).norm(), 1e-8);
 }
 
 TEST(CadVehicle, ItsPartsAddUpToTheVehicleThatTheyWereMadeFrom) {
-    const Airframe cad = cad_uav();
-    const Airframe made = load_vehicle("perching_uav", data_root());
+    const vehicle::Airframe cad = cad_uav();
+    const vehicle::Airframe made = load_vehicle("perching_uav", data_root());
     ASSERT_TRUE(cad.cad);
     EXPECT_NEAR(cad.mass_kg, 3.2, 1e-9);
     EXPECT_LT((cad.inertia_kg_m2 - made.inertia_kg_m2).norm(), 1e-8);
@@ -59,9 +59,9 @@ TEST(CadVehicle, ItsPartsAddUpToTheVehicleThatTheyWereMadeFrom) {
 }
 
 TEST(CadVehicle, SdfKeepsItsNamesItsMeshesAndTheirPlaces) {
-    const Airframe airframe = cad_uav();
+    const vehicle::Airframe airframe = cad_uav();
     pugi::xml_document sdf;
-    ASSERT_TRUE(sdf.load_string(write_sdf(airframe).c_str()));
+    ASSERT_TRUE(sdf.load_string(models::write_sdf(airframe).c_str()));
     const auto model = sdf.child("sdf").child("model");
     for (const char* link : {"base_link", "slider_link", "yoke_link", "cup_link"}) {
         EXPECT_TRUE(model.find_child_by_attribute("link", "name", link)) << link;
@@ -89,7 +89,7 @@ TEST(CadVehicle, SdfKeepsItsNamesItsMeshesAndTheirPlaces) {
 
 TEST(CadVehicle, MjcfHasEveryMeshInItsText) {
     pugi::xml_document mjcf;
-    ASSERT_TRUE(mjcf.load_string(write_mjcf(cad_uav(), {}).c_str()));
+    ASSERT_TRUE(mjcf.load_string(models::write_mjcf(cad_uav(), {}).c_str()));
     EXPECT_EQ(mjcf.select_nodes("//mesh").size(), 14U);  // of 14 links
     for (const auto& found : mjcf.select_nodes("//geom[@type='mesh']")) {
         const std::string mesh = found.node().attribute("mesh").value();
@@ -176,4 +176,4 @@ TEST_F(WrongCadVehicle, ANumberThatDiffersFromTheModel) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

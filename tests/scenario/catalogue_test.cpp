@@ -8,7 +8,7 @@
 
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 using ::testing::ElementsAre;
@@ -62,7 +62,7 @@ TEST(Catalogue, PrintsTheRowsOfARoom) {
     ASSERT_FALSE(slider.empty());
     EXPECT_EQ(slider[0].name, "stiffness_N_m");
     EXPECT_EQ(slider[0].default_value, 500.0);
-    EXPECT_EQ(parameters_of("guidance").size(), perching_table().size());
+    EXPECT_EQ(parameters_of("guidance").size(), guidance::perching_table().size());
     EXPECT_EQ(error_of([] { return parameters_of("guidence"); }).substr(0, 50),
               "\"guidence\": no such room (did you mean guidance?);");
 }
@@ -91,4 +91,4 @@ TEST(DataRoot, IsWhereTheEnvironmentSays) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

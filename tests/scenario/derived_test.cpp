@@ -7,7 +7,7 @@
 
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 class Derived : public ::testing::Test {
@@ -97,4 +97,4 @@ TEST_F(Derived, ALeaningWallsNormalPointsUp) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

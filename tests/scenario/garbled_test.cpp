@@ -4,7 +4,7 @@
 #include "limpet/core/random.hpp"
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 // Whatever the text: it loads, or it is refused in one line. Nothing else, and no crash.
@@ -51,4 +51,4 @@ TEST_F(Garbled, CharactersReplaced) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "limpet/identification/identification.hpp"
 #include "limpet/scenario/parts.hpp"
 #include "limpet/suction/cup.hpp"
-#include "limpet/suction/identification.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// A row of the paper's Table II, written down once more.
@@ -27,18 +27,18 @@ constexpr double kPress_N = 20.0;
 class PneumaticBench : public testing::TestWithParam<TableTwo> {
 protected:
     /// A cup with the shipped pump, pressed on a shipped surface by hand.
-    static PressureTrace press_and_release(double step_s) {
+    static identification::PressureTrace press_and_release(double step_s) {
         const TableTwo& row = GetParam();
-        Surface surface = load_surface(row.name, LIMPET_SOURCE_DIR);
+        suction::Surface surface = load_surface(row.name, LIMPET_SOURCE_DIR);
         surface.seal_threshold_median_N = 10.0;
         surface.seal_threshold_sigma = 0.0;
-        CupModel model;
+        suction::CupModel model;
         model.parameters.pressure_model = 1;
-        EXPECT_EQ(pressure_models()[1].name, Pneumatic::kName);
-        CupState state;
+        EXPECT_EQ(suction::pressure_models()[1].name, suction::Pneumatic::kName);
+        suction::CupState state;
         state.random = RandomStream(1, 0, Stream::seal);
         Kinematics cup;
-        PressureTrace trace;
+        identification::PressureTrace trace;
         const int steps_a_sample = static_cast<int>(std::lround(0.01 / step_s));
         const double end_s = kOff_s + 4.0 * row.tau_2_s;
         for (int k = 0; k * step_s < end_s; ++k) {
@@ -48,7 +48,8 @@ protected:
                 trace.pressure_Pa.push_back(state.mean_pressure_Pa);
             }
             cup.p_WF_m.x() = t_s < kOn_s ? -0.01 : kPress_N / model.parameters.lip.stiffness_N_m;
-            const CupInput input{.time_s = t_s, .press_N = kPress_N, .pump_on = t_s < kOff_s};
+            const suction::CupInput input{
+                .time_s = t_s, .press_N = kPress_N, .pump_on = t_s < kOff_s};
             (void)step(model, state, surface, cup, input, step_s);
         }
         return trace;
@@ -57,7 +58,7 @@ protected:
 
 TEST_P(PneumaticBench, OnePumpGivesTableTwoWithinItsTolerances) {
     const TableTwo& row = GetParam();
-    const PressureFit fit = identify_pressure(press_and_release(1e-3));
+    const identification::PressureFit fit = identify_pressure(press_and_release(1e-3));
     ASSERT_TRUE(fit.vacuum_Pa && fit.sealing_time_s && fit.unsealing_time_s);
     EXPECT_NEAR(fit.vacuum_Pa->value, row.vacuum_Pa, 0.015 * row.vacuum_Pa);  // none is given
     EXPECT_NEAR(fit.sealing_time_s->value, row.tau_1_s, row.tau_1_tolerance_s);
@@ -69,8 +70,8 @@ TEST_P(PneumaticBench, OnePumpGivesTableTwoWithinItsTolerances) {
 }
 
 TEST_P(PneumaticBench, StepDoesNotMatter) {
-    const PressureTrace coarse = press_and_release(1e-3);
-    const PressureTrace fine = press_and_release(2.5e-4);
+    const identification::PressureTrace coarse = press_and_release(1e-3);
+    const identification::PressureTrace fine = press_and_release(2.5e-4);
     ASSERT_EQ(coarse.t_s.size(), fine.t_s.size());
     double worst_Pa = 0.0;
     for (std::size_t i = 0; i < coarse.t_s.size(); ++i) {
@@ -88,9 +89,9 @@ INSTANTIATE_TEST_SUITE_P(TableII, PneumaticBench,
                          [](const auto& row) { return std::string(row.param.name); });
 
 TEST(PneumaticSurfaces, OnlyMetalPassesTheVacuumSwitch) {
-    const PneumaticParameters parameters;
+    const suction::PneumaticParameters parameters;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const CupAir cup =
+        const suction::CupAir cup =
             sealed_cup(parameters, load_surface(name, LIMPET_SOURCE_DIR), 0.04, kPress_N, false);
         double pressure_Pa = kAtmosphere_Pa;
         for (int k = 0; k < 10000; ++k) {
@@ -101,4 +102,4 @@ TEST(PneumaticSurfaces, OnlyMetalPassesTheVacuumSwitch) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -5,16 +5,16 @@
 #include "limpet/scenario/writer.hpp"
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 /// Bit by bit: 0.1 and its neighbour are not the same.
-void expect_same_surface(Surface a, Surface b) {
+void expect_same_surface(suction::Surface a, suction::Surface b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.description, b.description);
     EXPECT_EQ(a.source, b.source);
-    const auto rows_a = bind(surface_table(), a);
-    const auto rows_b = bind(surface_table(), b);
+    const auto rows_a = bind(suction::surface_table(), a);
+    const auto rows_b = bind(suction::surface_table(), b);
     for (std::size_t i = 0; i < rows_a.size(); ++i) {
         EXPECT_EQ(rows_a[i].value.get(), rows_b[i].value.get()) << rows_a[i].name;
     }
@@ -112,4 +112,4 @@ TEST(RoundTrip, OfShippedScenarios) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

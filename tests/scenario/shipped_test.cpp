@@ -12,7 +12,7 @@
 #include "limpet/suction/pressure.hpp"
 #include "limpet/suction/seal.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 const std::filesystem::path kRoot = LIMPET_SOURCE_DIR;
@@ -31,7 +31,7 @@ TEST(Surfaces, AreThoseOfTableII) {
                            Row{"turbine_blade", 265, 0.25, 8.0, 0.03, 0.5},
                            Row{"metal", 275, 0.25, 16.0, 0.03, 1.0}}) {
         SCOPED_TRACE(row.name);
-        const Surface surface = load_surface(row.name, kRoot);
+        const suction::Surface surface = load_surface(row.name, kRoot);
         EXPECT_EQ(surface.name, row.name);
         EXPECT_EQ(surface.vacuum_pressure_Pa, row.vacuum_hPa * 100.0);
         EXPECT_EQ(surface.sealing_time_constant_s, row.tau_1_s);
@@ -48,7 +48,7 @@ TEST(Surfaces, PassTheGateInTheTimesThatFollow) {
                                                       {"turbine_blade", 0.049},
                                                       {"metal", 0.050}};
     for (const auto& [name, time_s] : expected_s) {
-        EXPECT_NEAR(time_to_pressure_s(load_surface(name, kRoot), {}, Airflow::sealing,
+        EXPECT_NEAR(time_to_pressure_s(load_surface(name, kRoot), {}, suction::Airflow::sealing,
                                        kAtmosphere_Pa, 88000.0),
                     time_s, 0.5e-3)
             << name;
@@ -58,7 +58,7 @@ TEST(Surfaces, PassTheGateInTheTimesThatFollow) {
 TEST(Surfaces, SmootherOnesSealEasierAndOnlyMetalLetsThePumpRest) {
     double threshold_N = 1e9;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const Surface surface = load_surface(name, kRoot);
+        const suction::Surface surface = load_surface(name, kRoot);
         EXPECT_LT(surface.seal_threshold_median_N, threshold_N) << name;
         EXPECT_EQ(surface.pump_cycles, std::string(name) == "metal") << name;
         threshold_N = surface.seal_threshold_median_N;
@@ -71,7 +71,7 @@ TEST(Surfaces, NothingSealsOnTheSpalledSpot) {
 }
 
 TEST(Surfaces, SayWhatTheyAreAndWhereFrom) {
-    for (const Surface& surface : load_surfaces(kRoot)) {
+    for (const suction::Surface& surface : load_surfaces(kRoot)) {
         EXPECT_NE(surface.description, "") << surface.name;
         EXPECT_NE(surface.source, "") << surface.name;
     }
@@ -124,11 +124,12 @@ TEST(Scenarios, AreTheExperimentsOfThePaper) {
     EXPECT_EQ(shipped("failed_perch").wall.first_touches.at(0).name, "spalled_concrete");
     EXPECT_EQ(shipped("hover").mission, Mission::hover);
     EXPECT_FALSE(shipped("hover").wall.present);
-    EXPECT_EQ(shipped("pendulum_concrete").mount, Mount::pendulum);
+    EXPECT_EQ(shipped("pendulum_concrete").mount, vehicle::Mount::pendulum);
     for (const char* surface : {"concrete", "cinder_block", "turbine_blade", "metal"}) {
-        EXPECT_EQ(shipped(std::string("press_") + surface).mount, Mount::press_rig) << surface;
+        EXPECT_EQ(shipped(std::string("press_") + surface).mount, vehicle::Mount::press_rig)
+            << surface;
     }
-    EXPECT_EQ(shipped("perch_concrete").mount, Mount::free);
+    EXPECT_EQ(shipped("perch_concrete").mount, vehicle::Mount::free);
     EXPECT_EQ(shipped("perch_concrete").airframe.name, "perching_uav");
 }
 
@@ -146,7 +147,7 @@ TEST(Scenarios, WaitLongEnoughForTheReleaseWhereOneComes) {
     for (const char* name : {"perch_concrete", "perch_cinder_block", "perch_turbine_blade"}) {
         const Scenario s = shipped(name);
         const double release_s =
-            time_to_pressure_s(s.wall.surface, s.cup.pressure, Airflow::unsealing,
+            time_to_pressure_s(s.wall.surface, s.cup.pressure, suction::Airflow::unsealing,
                                s.wall.surface.vacuum_pressure_Pa, s.guidance.detach_pressure_Pa);
         EXPECT_LT(1.2 * release_s, s.guidance.release_limit_s) << name;
     }
@@ -164,4 +165,4 @@ TEST(Vehicles, AllFlyAHover) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 const std::vector<std::string_view> kNames = {"hold_s", "hold_depth_m", "dock_speed_m_s", "rest_s"};
@@ -39,4 +39,4 @@ TEST(Hint, ShowsTheNearestOrAFewOrWhereToLook) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

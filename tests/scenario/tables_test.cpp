@@ -9,7 +9,7 @@
 #include "limpet/scenario/sections.hpp"
 #include "tests/core/whole_table.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 // One test over every room's table: what the loader checks and `limpet params` prints.
@@ -49,27 +49,27 @@ TEST(Tables, NameEveryNumberOnce) {
 }
 
 TEST(Tables, ForgetNoField) {
-    test::expect_whole(perching_table(), "guidance");
-    test::expect_whole(autopilot_table(), "autopilot");
-    for_each_type(Sensors{}, [](auto sensor) {
+    test::expect_whole(guidance::perching_table(), "guidance");
+    test::expect_whole(autopilot::autopilot_table(), "autopilot");
+    for_each_type(sensors::Sensors{}, [](auto sensor) {
         test::expect_whole(decltype(sensor)::type::table(), "sensors");
     });
     test::expect_whole(simulation_table(), "simulation");
-    test::expect_whole(lip_table(), "lip");
-    test::expect_whole(rotor_table(), "rotor");
-    test::expect_whole(slider_table(), "slider");
-    test::expect_whole(cup_mount_table(), "cup");
-    test::expect_whole(leg_table(), "legs");
-    test::expect_whole(battery_table(), "battery");
-    test::expect_whole(wind_table(), "wind");
-    test::expect_whole(pendulum_table(), "pendulum");
-    test::expect_whole(press_rig_table(), "press_rig");
-    test::expect_whole(wall_air_table(), "wall_air");
-    for_each_type(PressureModels{}, [](auto model) {
+    test::expect_whole(suction::lip_table(), "lip");
+    test::expect_whole(vehicle::rotor_table(), "rotor");
+    test::expect_whole(vehicle::slider_table(), "slider");
+    test::expect_whole(vehicle::cup_mount_table(), "cup");
+    test::expect_whole(vehicle::leg_table(), "legs");
+    test::expect_whole(vehicle::battery_table(), "battery");
+    test::expect_whole(vehicle::wind_table(), "wind");
+    test::expect_whole(vehicle::pendulum_table(), "pendulum");
+    test::expect_whole(vehicle::press_rig_table(), "press_rig");
+    test::expect_whole(vehicle::wall_air_table(), "wall_air");
+    for_each_type(suction::PressureModels{}, [](auto model) {
         using Model = typename decltype(model)::type;
         test::expect_whole(Model::table(), Model::kName.data());
     });
-    CupParameters cup;
+    suction::CupParameters cup;
     auto rows = suction_rows(cup);
     rows.push_back({"pressure_model", "-", 0.0, 1.0, &cup.pressure_model, "given by its name", ""});
     test::expect_whole(cup, rows, "suction");
@@ -84,4 +84,4 @@ TEST(Tables, HoldEveryDerivedKey) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

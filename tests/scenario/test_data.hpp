@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 
 /// A data folder of its own for one test: a vehicle `small`, surfaces `stone` and `glass`.
 class TestData {
@@ -69,4 +69,4 @@ std::string error_of(const Run& run) {
     return "";
 }
 
-}  // namespace limpet
+}  // namespace limpet::scenario

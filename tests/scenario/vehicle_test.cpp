@@ -4,7 +4,7 @@
 #include "limpet/scenario/parts.hpp"
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 constexpr const char* kWhole =
@@ -27,7 +27,7 @@ constexpr const char* kWhole =
 
 class VehicleFile : public ::testing::Test {
 protected:
-    Airframe load(const std::string& text) const {
+    vehicle::Airframe load(const std::string& text) const {
         data_.write("vehicles/mine.yaml", text);
         return load_vehicle("mine", data_.root());
     }
@@ -41,7 +41,7 @@ protected:
 };
 
 TEST_F(VehicleFile, IsReadWhole) {
-    const Airframe a = load(kWhole);
+    const vehicle::Airframe a = load(kWhole);
     EXPECT_EQ(a.name, "mine");
     EXPECT_EQ(a.description, "all that a vehicle file can say");
     EXPECT_TRUE(a.has_cup);
@@ -55,7 +55,7 @@ TEST_F(VehicleFile, IsReadWhole) {
     EXPECT_EQ(a.lidar_z_m, 0.01);
     EXPECT_EQ(a.pump_B_m, Vector3(-0.1, 0.0, 0.02));
     EXPECT_EQ(a.slider.travel_m, 0.08);
-    EXPECT_EQ(a.slider.stiffness_N_m, SliderParameters{}.stiffness_N_m);
+    EXPECT_EQ(a.slider.stiffness_N_m, vehicle::SliderParameters{}.stiffness_N_m);
     EXPECT_EQ(a.cup.radius_m, 0.035);
     EXPECT_EQ(a.legs.tip_z_m, 0.26);
     EXPECT_EQ(a.battery.cells, 4.0);
@@ -100,4 +100,4 @@ TEST_F(VehicleFile, MustDescribeABody) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -7,13 +7,13 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/parts.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 TEST(Worlds, AScenariosWorldHasItsWallItsStartAndItsPlugin) {
     const std::vector<std::string> sets = {"wall.heading_deg=90", "simulation.start_distance_m=3"};
     const Scenario scenario = load_scenario("perch_concrete", {.overrides = sets});
-    const GazeboWorld world = world_of(scenario, "perch_concrete", sets);
+    const models::GazeboWorld world = world_of(scenario, "perch_concrete", sets);
     ASSERT_EQ(world.walls.size(), 1U);
     ASSERT_EQ(world.vehicles.size(), 1U);
     // The wall 3 m to the east; 0.1 m to the right of that line is south, nose 6 deg further right.
@@ -34,8 +34,8 @@ TEST(Worlds, HoverHasNoWall) {
 
 TEST(Worlds, TheShowroomHasAVehicleAtAWallOfEachSurface) {
     const auto surfaces = load_surfaces(data_root());
-    const Airframe airframe = load_vehicle("perching_uav", data_root());
-    const GazeboWorld world = showroom(airframe, surfaces);
+    const vehicle::Airframe airframe = load_vehicle("perching_uav", data_root());
+    const models::GazeboWorld world = showroom(airframe, surfaces);
     ASSERT_EQ(world.walls.size(), surfaces.size());
     ASSERT_EQ(world.vehicles.size(), surfaces.size());
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -43,7 +43,7 @@ TEST(Worlds, TheShowroomHasAVehicleAtAWallOfEachSurface) {
         EXPECT_TRUE(world.vehicles[i].is_static);
         // The lip, 0.46 m + 0.04 m ahead, is at the wall, and the wall stands on the ground.
         const Vector3 lip_W_m = world.vehicles[i].p_WB_m + Vector3(0.5, 0.0, 0.0);
-        const WallScene& face = world.walls[i].face;
+        const models::WallScene& face = world.walls[i].face;
         EXPECT_NEAR(lip_W_m.x(), face.p_WT_m.x(), 1e-12);
         EXPECT_NEAR(lip_W_m.y(), face.p_WT_m.y(), 1e-12);
         EXPECT_NEAR(face.p_WT_m.z() + face.half_height_m, world.ground_z_W_m, 1e-12);
@@ -55,4 +55,4 @@ TEST(Worlds, TheShowroomHasAVehicleAtAWallOfEachSurface) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

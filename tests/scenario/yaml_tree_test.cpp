@@ -5,7 +5,7 @@
 
 #include "tests/scenario/test_data.hpp"
 
-namespace limpet {
+namespace limpet::scenario {
 namespace {
 
 std::string parse_error(const std::string& text) {
@@ -103,4 +103,4 @@ TEST(YamlTree, ShowsAUsersTextOnOneLine) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::scenario

@@ -3,7 +3,7 @@
 
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 TEST(BatterySample, CopiesTheTruthTenTimesASecond) {
@@ -22,4 +22,4 @@ TEST(BatterySample, CopiesTheTruthTenTimesASecond) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

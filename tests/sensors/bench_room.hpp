@@ -12,13 +12,13 @@
 namespace limpet::test {
 
 /// A wall in the plane x = 0 of W with the vehicle on its side x < 0; nothing moves by itself.
-class WallPlant final : public Plant {
+class WallPlant final : public plant::Plant {
 public:
-    void apply(Body, const Wrench&, const Vector3&) override {}
+    void apply(plant::Body, const Wrench&, const Vector3&) override {}
     void apply_slider(double) override {}
-    void step(const StepMode&) override {}
-    [[nodiscard]] Kinematics kinematics(Body) const override { return {}; }
-    [[nodiscard]] SliderMotion slider() const override { return {}; }
+    void step(const plant::StepMode&) override {}
+    [[nodiscard]] Kinematics kinematics(plant::Body) const override { return {}; }
+    [[nodiscard]] plant::SliderMotion slider() const override { return {}; }
     [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
                                             const Vector3& dir_W) const override {
         if (dir_W.x() <= 1e-9) {
@@ -27,14 +27,14 @@ public:
         return -origin_W_m.x() / dir_W.x();
     }
     [[nodiscard]] Vector3 contact_force_W() const override { return Vector3::Zero(); }
-    [[nodiscard]] PlantState save() const override { return {}; }
-    void restore(const PlantState&) override {}
+    [[nodiscard]] plant::PlantState save() const override { return {}; }
+    void restore(const plant::PlantState&) override {}
     void set_pose(const Vector3&, const Quaternion&, const Vector3&, const Vector3&) override {}
 };
 
 /// Sensors without any error: what is left is sampling, latency and resolution.
-inline SensorParameters quiet() {
-    SensorParameters p;
+inline sensors::SensorParameters quiet() {
+    sensors::SensorParameters p;
     p.gyro_noise_density_rad_s_rtHz = p.gyro_bias_walk_rad_s2_rtHz = p.gyro_turn_on_bias_rad_s = 0;
     p.accel_noise_density_m_s2_rtHz = p.accel_bias_walk_m_s3_rtHz = p.accel_turn_on_bias_m_s2 = 0;
     p.baro_noise_Pa = p.baro_bias_Pa = p.mag_noise_gauss = p.mag_bias_gauss = 0;
@@ -47,7 +47,7 @@ inline SensorParameters quiet() {
     return p;
 }
 
-inline SensorsModel quiet_model() {
+inline sensors::SensorsModel quiet_model() {
     return {.parameters = quiet()};
 }
 
@@ -96,12 +96,12 @@ inline Interval wilson(std::int64_t hits, std::int64_t trials) {
 /// Runs the sensors over ticks [0, count) of `truth_at(tick)` and hands each tick's readings to
 /// `look(tick, readings)`.
 template <class TruthAt, class Look>
-void run(const SensorsModel& model, Tick count, TruthAt truth_at, Look look,
+void run(const sensors::SensorsModel& model, Tick count, TruthAt truth_at, Look look,
          std::uint64_t seed = 1) {
     const WallPlant plant;
-    SensorsState state = start(model, truth_at(0), seed, 0);
+    sensors::SensorsState state = start(model, truth_at(0), seed, 0);
     for (Tick tick = 0; tick < count; ++tick) {
-        sense(model, state, truth_at(tick), plant, tick);
+        sensors::sense(model, state, truth_at(tick), plant, tick);
         look(tick, state.readings);
     }
 }

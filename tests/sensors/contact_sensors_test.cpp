@@ -8,7 +8,7 @@
 #include "limpet/sensors/pressure.hpp"
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::at_rest;
@@ -112,4 +112,4 @@ TEST(PressureSensor, StuckItRepeatsItselfWithNewStamps) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -5,7 +5,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 Sample<int> numbered(int value) {
@@ -51,4 +51,4 @@ TEST(DelayLine, LatencyIsRoundedToTheNearestTick) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -9,7 +9,7 @@
 #include "limpet/sensors/noise.hpp"
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::at_rest;
@@ -247,4 +247,4 @@ TEST(Imu, SaturatesAtItsRange) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

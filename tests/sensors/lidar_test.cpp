@@ -8,7 +8,7 @@
 
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::at_rest;
@@ -152,4 +152,4 @@ TEST(Lidar, ArrivesLateWithItsOwnStamp) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -8,7 +8,7 @@
 #include "limpet/sensors/magnetometer.hpp"
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::at_rest;
@@ -90,4 +90,4 @@ TEST(Magnetometer, ErrorIsAConstantBiasAndWhiteNoise) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

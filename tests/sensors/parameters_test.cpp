@@ -8,7 +8,7 @@
 #include "tests/core/whole_table.hpp"
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 TEST(SensorParameters, TableCoversEveryFieldOnce) {
@@ -51,4 +51,4 @@ TEST(SensorParameters, ARateOfZeroMeansNotFitted) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

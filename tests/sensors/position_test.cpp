@@ -8,7 +8,7 @@
 #include "limpet/sensors/motion_capture.hpp"
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::at_rest;
@@ -140,4 +140,4 @@ TEST(Gps, WanderKeepsItsDeviationFromTheStart) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

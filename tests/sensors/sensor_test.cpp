@@ -5,7 +5,7 @@
 
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 /// As small as a sensor can be: height by a tape, which nobody in the loop reads.
@@ -80,4 +80,4 @@ TEST(Sample, NothingIsKnownOnceTheClockBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

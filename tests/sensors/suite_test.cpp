@@ -10,7 +10,7 @@
 
 #include "tests/sensors/bench_room.hpp"
 
-namespace limpet {
+namespace limpet::sensors {
 namespace {
 
 using test::WallPlant;
@@ -159,4 +159,4 @@ TEST(Suite, NothingIsHeardBeforeTheFirstTick) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::sensors

@@ -3,7 +3,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// The same vehicle by way of a URDF: its bodies differ in the tenth digit.
@@ -23,4 +23,4 @@ TEST(CadFlight, EndsAsThatOfTheVehicleThatItWasMadeFrom) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

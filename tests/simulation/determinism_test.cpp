@@ -8,7 +8,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 std::string bytes_of(const std::filesystem::path& path) {
@@ -103,4 +103,4 @@ TEST(Snapshot, BranchesGoTheirOwnWays) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

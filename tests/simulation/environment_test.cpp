@@ -3,7 +3,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// 4 lambda_1 w v = m g tan(pitch): nobody tells the autopilot, it finds the angle itself.
@@ -21,7 +21,7 @@ TEST(WindInTheLoop, AHoverLeansIntoTheWindByWhatTheRotorsDragAsks) {
             ++count;
         }
     }
-    const Airframe& airframe = model->scenario->airframe;
+    const vehicle::Airframe& airframe = model->scenario->airframe;
     const double weight_N = airframe.mass_kg * kGravity_m_s2;
     const double speed_rad_s = std::sqrt(weight_N / 4.0 / airframe.rotor.motor_constant_kg_m);
     const double drag_N = 4.0 * airframe.rotor.drag_constant_kg * speed_rad_s * 2.0;
@@ -85,4 +85,4 @@ TEST(WallInTheLoop, RecirculationShakesTheVehicleThatWaitsAtTheWall) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

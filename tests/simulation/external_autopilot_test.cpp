@@ -13,14 +13,14 @@
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/pace.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using testing::HasSubstr;
 
 /// The built-in autopilot as one from outside: no wire, but a boot, an estimator that begins with
 /// what it measures, and, when told to, an end.
-class Outsider final : public ExternalAutopilot {
+class Outsider final : public autopilot::ExternalAutopilot {
 public:
     explicit Outsider(const FlightModel& model, double boot_s = 1.0)
         : model_(model.autopilot), boot_s_(boot_s) {}
@@ -50,8 +50,8 @@ public:
             state_ = start(model_, begin);
             started_ = true;
         }
-        limpet::estimate(model_, state_, mine);
-        const RotorCommand command = limpet::control(model_, state_, setpoint, clock_s_);
+        limpet::autopilot::estimate(model_, state_, mine);
+        const RotorCommand command = limpet::autopilot::control(model_, state_, setpoint, clock_s_);
         armed_s_ += command.armed ? 0.004 : 0.0;
         return command;
     }
@@ -69,8 +69,8 @@ private:
         readings.motion_capture.time_s += ahead_s;
     }
 
-    AutopilotModel model_;
-    AutopilotState state_;
+    autopilot::AutopilotModel model_;
+    autopilot::AutopilotState state_;
     double boot_s_;
     double clock_s_ = 0.0;
     double armed_s_ = 0.0;
@@ -152,7 +152,7 @@ TEST(ExternalAutopilot, ItsEndInTheAirIsACrashWithTheReasonAndAWholeRecording) {
     const FlightResult result = fly(model, path, {}, 0, {.outside = {.autopilot = &outsider}});
     EXPECT_EQ(result.outcome, Outcome::crashed);
     EXPECT_EQ(result.reason, "as told");
-    const Recording recording = read_recording(path);
+    const record::Recording recording = record::read_recording(path);
     EXPECT_EQ(recording.damage, "");
     EXPECT_NE(recording.attachment("summary.json"), nullptr);
     std::filesystem::remove(path);
@@ -174,7 +174,7 @@ TEST(Flight, StopsWhenToldWithTheRecordingWhole) {
     const FlightResult result = fly(model, path, {}, 0, {.stop = &stop});
     EXPECT_EQ(result.outcome, Outcome::timed_out);
     EXPECT_EQ(result.reason, "interrupted");
-    EXPECT_EQ(read_recording(path).damage, "");
+    EXPECT_EQ(record::read_recording(path).damage, "");
     std::filesystem::remove(path);
 }
 
@@ -188,4 +188,4 @@ TEST(Pace, HoldsSimulatedTimeBackAndNeverAhead) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -12,19 +12,19 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 inline std::shared_ptr<const FlightModel> model_of(const std::string& scenario,
                                                    const std::vector<std::string>& overrides = {},
                                                    std::uint64_t seed = 1) {
-    return build_model(load_scenario(scenario, {.overrides = overrides, .seed = seed}));
+    return build_model(scenario::load_scenario(scenario, {.overrides = overrides, .seed = seed}));
 }
 
 /// What a flight looked like tick by tick, thinned to 100 Hz.
 struct Trace {
     FlightResult result;
     std::vector<Truth> truth;
-    std::vector<PerchingState> state;
+    std::vector<guidance::PerchingState> state;
     std::vector<double> force_sensor_N;
 
     [[nodiscard]] std::vector<double> times(EventName name) const {
@@ -42,7 +42,7 @@ struct Trace {
     }
     /// Mean over the samples in which guidance was in a state.
     template <class Value>
-    [[nodiscard]] double mean(PerchingState wanted, Value value) const {
+    [[nodiscard]] double mean(guidance::PerchingState wanted, Value value) const {
         double sum = 0.0;
         int count = 0;
         for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -63,7 +63,7 @@ inline Trace trace(const std::shared_ptr<const FlightModel>& model) {
     Trace trace;
     Flight flight(model);
     while (!flight.ended()) {
-        const EventList& events = flight.tick();
+        const guidance::EventList& events = flight.tick();
         for (std::size_t k = 0; k < events.count; ++k) {
             trace.result.events.push_back(events.events[k]);
         }
@@ -90,4 +90,4 @@ inline const Trace& flown(const std::string& scenario) {
                : flights.emplace(scenario, trace(model_of(scenario))).first->second;
 }
 
-}  // namespace limpet
+}  // namespace limpet::simulation

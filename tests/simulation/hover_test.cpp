@@ -3,7 +3,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 TEST(Hover, RotorsTurnAtTheWeightsSpeed) {
@@ -11,9 +11,9 @@ TEST(Hover, RotorsTurnAtTheWeightsSpeed) {
     const Trace& trace = flown("hover");
     EXPECT_EQ(trace.result.outcome, Outcome::released);
     for (std::size_t rotor = 0; rotor < kRotors; ++rotor) {
-        const double speed = trace.mean(PerchingState::hovering, [rotor](const Truth& truth) {
-            return truth.rotor_speed_rad_s[rotor];
-        });
+        const double speed =
+            trace.mean(guidance::PerchingState::hovering,
+                       [rotor](const Truth& truth) { return truth.rotor_speed_rad_s[rotor]; });
         EXPECT_NEAR(speed, 560.0, 5.6);
     }
 }
@@ -34,17 +34,17 @@ TEST(Hover, DrawsTheShaftPowerOfTheRotors) {
 }
 
 TEST(Hover, FliesTheOtherVehicleToo) {
-    const Trace trace = limpet::trace(model_of("hover", {"vehicle=iris"}));
+    const Trace trace = simulation::trace(model_of("hover", {"vehicle=iris"}));
     EXPECT_EQ(trace.result.outcome, Outcome::released);
     EXPECT_LT((trace.truth.back().base.p_WF_m - trace.truth.front().base.p_WF_m).norm(), 0.1);
 }
 
 TEST(Hover, OnGpsBarometerAndCompassItDriftsButStays) {
-    const Trace trace =
-        limpet::trace(model_of("hover", {"autopilot.EKF2_EV_CTRL=0", "autopilot.EKF2_GPS_CTRL=7"}));
+    const Trace trace = simulation::trace(
+        model_of("hover", {"autopilot.EKF2_EV_CTRL=0", "autopilot.EKF2_GPS_CTRL=7"}));
     EXPECT_EQ(trace.result.outcome, Outcome::released);
     EXPECT_LT((trace.truth.back().base.p_WF_m - trace.truth.front().base.p_WF_m).norm(), 3.0);
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

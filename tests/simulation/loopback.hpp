@@ -10,18 +10,18 @@
 #include <thread>
 #include <utility>
 
-#include "limpet/autopilot/px4.hpp"
-#include "limpet/autopilot/stand_in.hpp"
+#include "limpet/px4/autopilot.hpp"
+#include "limpet/px4/stand_in.hpp"
 #include "limpet/simulation/model.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 
 using namespace std::chrono_literals;
 
 /// A stand-in in a thread of its own, as if it were another program.
 class StandInThread {
 public:
-    StandInThread(const AutopilotModel& model, const StandInOptions& options)
+    StandInThread(const autopilot::AutopilotModel& model, const px4::StandInOptions& options)
         : stand_in_(model, options), thread_([this] { serve(); }) {}
     ~StandInThread() { end(); }
     StandInThread(const StandInThread&) = delete;
@@ -36,7 +36,7 @@ public:
     }
     void end() { fall_silent(); }
     /// After fall_silent().
-    [[nodiscard]] const StandIn& stand_in() const { return stand_in_; }
+    [[nodiscard]] const px4::StandIn& stand_in() const { return stand_in_; }
 
 private:
     void serve() {
@@ -45,7 +45,7 @@ private:
         }
     }
 
-    StandIn stand_in_;
+    px4::StandIn stand_in_;
     std::atomic<bool> stop_ = false;
     std::thread thread_;
 };
@@ -53,8 +53,10 @@ private:
 /// The simulator's wires with a stand-in at their end.
 class Loopback {
 public:
-    explicit Loopback(const FlightModel& model, StandInOptions options = perching())
-        : hil_(listen(Medium::tcp)), offboard_(listen(Medium::udp)), options_(std::move(options)) {
+    explicit Loopback(const FlightModel& model, px4::StandInOptions options = perching())
+        : hil_(listen(wire::Medium::tcp)),
+          offboard_(listen(wire::Medium::udp)),
+          options_(std::move(options)) {
         options_.hil = hil_.transport().address();
         options_.onboard.port = 0;
         options_.onboard_peer = offboard_.transport().address();
@@ -63,8 +65,8 @@ public:
     }
 
     /// As `limpet px4-params` sets up a vehicle that perches.
-    static StandInOptions perching() {
-        StandInOptions options;
+    static px4::StandInOptions perching() {
+        px4::StandInOptions options;
         options.parameters.FD_FAIL_P = options.parameters.FD_FAIL_R = 0;
         return options;
     }
@@ -75,22 +77,22 @@ public:
     void kill_stand_in() { stand_in_.reset(); }
 
     [[nodiscard]] StandInThread& stand_in() { return *stand_in_; }
-    [[nodiscard]] Px4Autopilot& autopilot() { return *autopilot_; }
+    [[nodiscard]] px4::Px4Autopilot& autopilot() { return *autopilot_; }
     [[nodiscard]] const mavlink::Link& hil() const { return hil_; }
     [[nodiscard]] const mavlink::Link& offboard() const { return offboard_; }
 
     std::string last_text;  ///< STATUSTEXT
 
 private:
-    static mavlink::Link listen(Medium medium) {
-        return {open_transport({.medium = medium, .port = 0}, Role::listen),
+    static mavlink::Link listen(wire::Medium medium) {
+        return {open_transport({.medium = medium, .port = 0}, wire::Role::listen),
                 {.system = 255, .component = mavlink::kCompanionComponent}};
     }
     void connect(const FlightModel& model) {
         if (!hil_.wait_for_peer(10s)) {
             throw std::runtime_error("the stand-in does not come");
         }
-        Px4Options px4;
+        px4::Px4Options px4;
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
         px4.on_text = [this](const std::string& text) { last_text = text; };
@@ -99,9 +101,9 @@ private:
 
     mavlink::Link hil_;
     mavlink::Link offboard_;
-    StandInOptions options_;
+    px4::StandInOptions options_;
     std::unique_ptr<StandInThread> stand_in_;
-    std::optional<Px4Autopilot> autopilot_;
+    std::optional<px4::Px4Autopilot> autopilot_;
 };
 
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -15,7 +15,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/bring_up.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using testing::HasSubstr;
@@ -124,7 +124,7 @@ TEST_F(LoopbackFile, KilledInTheAirItCrashesAndTheRecordingIsWhole) {
                         at(EventName::approach_started, [&] { loopback.kill_stand_in(); }));
     EXPECT_EQ(result.outcome, Outcome::crashed);
     EXPECT_THAT(result.reason, HasSubstr("closed the link"));
-    const Recording recording = read_recording(file("killed.mcap"));
+    const record::Recording recording = record::read_recording(file("killed.mcap"));
     EXPECT_TRUE(recording.damage.empty()) << recording.damage;
     EXPECT_FALSE(recording.events.empty());
 }
@@ -137,7 +137,7 @@ TEST_F(LoopbackFile, KilledOnTheWallTheCupStillHolds) {
                         at(EventName::perched, [&] { loopback.kill_stand_in(); }));
     EXPECT_EQ(result.outcome, Outcome::timed_out);
     EXPECT_THAT(result.reason, HasSubstr("closed the link"));
-    EXPECT_TRUE(read_recording(file("killed.mcap")).damage.empty());
+    EXPECT_TRUE(record::read_recording(file("killed.mcap")).damage.empty());
 }
 
 TEST(Loopback, SilentInTheAirItCrashesAfterTheWait) {
@@ -187,7 +187,7 @@ TEST(Loopback, ASecondClientIsRefusedAndDisturbsNothing) {
 
 TEST(Loopback, AnotherSystemIsNotOurAutopilot) {
     const auto model = model_of("hover");
-    StandInOptions options = Loopback::perching();
+    px4::StandInOptions options = Loopback::perching();
     options.system = 2;
     Loopback loopback(*model, options);
     BringUp patience;
@@ -202,11 +202,12 @@ TEST(Loopback, AnotherSystemIsNotOurAutopilot) {
 
 TEST(Loopback, WhatTheAutopilotRefusesIsSaid) {
     const auto model = model_of("perch_concrete");
-    Loopback loopback(*model, StandInOptions{});  // FD_FAIL_P as PX4 comes: it cannot arm perched
+    Loopback loopback(*model,
+                      px4::StandInOptions{});  // FD_FAIL_P as PX4 comes: it cannot arm perched
     const FlightResult result = fly_behind_wire(model, loopback);
     EXPECT_NE(result.outcome, Outcome::released);
     EXPECT_THAT(loopback.last_text, HasSubstr("FD_FAIL_P"));
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -4,7 +4,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using testing::StartsWith;
@@ -24,7 +24,7 @@ TEST_P(SwingAt, MeetsTheWallWithTheSpeedOfItsHeight) {
         touching_p_WB_m(*model->scenario).z() - model->scenario->start.p_WB_m.z();
     EXPECT_NEAR(std::sqrt(2.0 * kGravity_m_s2 * height_m), GetParam(), 1e-6);
     EXPECT_NEAR(trial.result.metrics.impact_speed_m_s, GetParam(), 0.01 * GetParam());
-    const double angle_rad = swing_angle_rad(GetParam(), 5.0);
+    const double angle_rad = vehicle::swing_angle_rad(GetParam(), 5.0);
     const double quarter_s =
         0.5 * kPi * std::sqrt(5.0 / kGravity_m_s2) * (1.0 + angle_rad * angle_rad / 16.0);
     EXPECT_NEAR(trial.first(EventName::impact), quarter_s, 0.01 * quarter_s);
@@ -112,7 +112,7 @@ TEST(PendulumTrial, PerchesAndHoldsForHalfASecond) {
 
 TEST(PressRigTrial, PressureIsEquationsFiveAndSix) {
     const auto model = model_of("press_concrete");
-    const Surface& surface = model->scenario->wall.surface;
+    const suction::Surface& surface = model->scenario->wall.surface;
     Flight flight(model);
     double seal_s = -1.0;
     double leak_s = -1.0;
@@ -189,4 +189,4 @@ TEST(MountedTrial, ResumesBitExactly) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

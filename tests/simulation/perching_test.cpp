@@ -4,7 +4,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using enum EventName;
@@ -128,7 +128,7 @@ TEST(PerchConcrete, StaticsOfTheHangingVehicleByHand) {
     }
     ASSERT_NE(last, nullptr);
     const auto model = model_of("perch_concrete");
-    const LegParameters& legs = model->scenario->airframe.legs;
+    const vehicle::LegParameters& legs = model->scenario->airframe.legs;
     const Vector3 tip_W = last->base.p_WF_m +
                           last->base.q_WF * Vector3(legs.tip_x_m, 0.0, legs.tip_z_m) +
                           Vector3(legs.tip_radius_m, 0.0, 0.0);
@@ -206,12 +206,12 @@ TEST(FailedPerch, PressureStaysHighInTheFirstRun) {
 }
 
 TEST(Missions, PerchEndsOnTheWall) {
-    const Trace trace = limpet::trace(model_of("perch_concrete", {"mission=perch"}));
+    const Trace trace = simulation::trace(model_of("perch_concrete", {"mission=perch"}));
     EXPECT_EQ(trace.result.outcome, Outcome::perched);
 }
 
 TEST(Missions, AWallThatNeverSealsUsesUpTheAttempts) {
-    const Trace trace = limpet::trace(
+    const Trace trace = simulation::trace(
         model_of("perch_concrete", {"wall.surface=spalled_concrete", "guidance.attempts=2"}));
     EXPECT_EQ(trace.result.outcome, Outcome::failed_to_seal);
     EXPECT_EQ(trace.result.attempts, 2);
@@ -220,7 +220,7 @@ TEST(Missions, AWallThatNeverSealsUsesUpTheAttempts) {
 TEST(Missions, TurnedAndLeaningWallsAreFlownToo) {
     for (const char* heading :
          {"wall.heading_deg=90", "wall.heading_deg=-135", "wall.lean_deg=3", "wall.lean_deg=-3"}) {
-        const Trace trace = limpet::trace(model_of("perch_concrete", {heading}));
+        const Trace trace = simulation::trace(model_of("perch_concrete", {heading}));
         EXPECT_EQ(trace.result.outcome, Outcome::released) << heading;
         EXPECT_NEAR(trace.result.metrics.impact_speed_m_s,
                     flown("perch_concrete").result.metrics.impact_speed_m_s, 0.03);
@@ -228,20 +228,22 @@ TEST(Missions, TurnedAndLeaningWallsAreFlownToo) {
 }
 
 TEST(Missions, TimeOver) {
-    const Trace trace = limpet::trace(model_of("perch_concrete", {"simulation.time_limit_s=3"}));
+    const Trace trace =
+        simulation::trace(model_of("perch_concrete", {"simulation.time_limit_s=3"}));
     EXPECT_EQ(trace.result.outcome, Outcome::timed_out);
 }
 
 TEST(Crashes, RotorsTooWeakForTheWeightReachTheGround) {
     const Trace trace =
-        limpet::trace(model_of("perch_concrete", {"vehicle.rotor.speed_max_rad_s=540"}));
+        simulation::trace(model_of("perch_concrete", {"vehicle.rotor.speed_max_rad_s=540"}));
     EXPECT_EQ(trace.result.outcome, Outcome::crashed);
     EXPECT_EQ(trace.result.reason, "hit the ground");
 }
 
 TEST(Crashes, AnArmShorterThanThePropellersPutsThemIntoTheWall) {
     // Propeller tips reach 0.357 m ahead of the centre of mass; this lip 0.32 m.
-    const Trace trace = limpet::trace(model_of("perch_concrete", {"vehicle.cup.joint_x_m=0.28"}));
+    const Trace trace =
+        simulation::trace(model_of("perch_concrete", {"vehicle.cup.joint_x_m=0.28"}));
     EXPECT_EQ(trace.result.outcome, Outcome::crashed);
     EXPECT_EQ(trace.result.reason, "a propeller hit the wall");
 }
@@ -260,7 +262,7 @@ TEST_P(SurvivesFault, OnConcreteAndOnMetalWithAValve) {
     for (const char* scenario : {"perch_concrete", "perch_metal_valve"}) {
         const std::string fault =
             std::string("sensors.") + GetParam().key + "=" + std::to_string(GetParam().time_s);
-        const Trace trace = limpet::trace(model_of(scenario, {fault}));
+        const Trace trace = simulation::trace(model_of(scenario, {fault}));
         EXPECT_NE(trace.result.outcome, Outcome::crashed)
             << scenario << ": " << trace.result.reason;
         EXPECT_NE(trace.result.outcome, Outcome::timed_out) << scenario;
@@ -295,7 +297,7 @@ TEST(Touches, OneDockIsOneTouch) {
 
 TEST(Missions, LidarLostInFlightIsSurvived) {
     const Trace trace =
-        limpet::trace(model_of("perch_concrete", {"sensors.lidar_left_fails_at_s=4.2"}));
+        simulation::trace(model_of("perch_concrete", {"sensors.lidar_left_fails_at_s=4.2"}));
     EXPECT_EQ(trace.result.outcome, Outcome::failed_to_seal);
     EXPECT_FALSE(trace.times(aborted).empty());
     const Vector3 moved_m = trace.truth.back().base.p_WF_m - trace.truth.front().base.p_WF_m;
@@ -303,4 +305,4 @@ TEST(Missions, LidarLostInFlightIsSurvived) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

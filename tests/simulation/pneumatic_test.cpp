@@ -3,7 +3,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using enum EventName;
@@ -25,7 +25,7 @@ TEST(PneumaticFlight, MetalStillHoldsAfterSixteenSecondsAndThePumpRests) {
     EXPECT_EQ(flight.result.outcome, Outcome::release_aborted);
     EXPECT_NEAR(flight.first(aborted) - flight.first(pump_off), 16.0, 0.05);
     EXPECT_NEAR(flight.result.metrics.pressure_at_release_end_Pa, 74200.0, 1500.0);
-    const double share = flight.mean(PerchingState::resting, [](const Truth& truth) {
+    const double share = flight.mean(guidance::PerchingState::resting, [](const Truth& truth) {
         return truth.cup_status.pump_running ? 1.0 : 0.0;
     });
     EXPECT_GT(share, 0.05);
@@ -53,4 +53,4 @@ TEST(PneumaticFlight, ItsRowsMoveNothingWhileItIsOff) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -3,7 +3,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using enum EventName;
@@ -33,12 +33,12 @@ TEST(PerchMetal, GivesTheReleaseUpAndRestsOnTheWallAgain) {
 TEST(PerchMetal, ThePumpRestsWhileItHangs) {
     // Paper, section V.B: no ripple on metal, the pump can turn off.
     const Trace& trace = flown("perch_metal");
-    const double share = trace.mean(PerchingState::resting, [](const Truth& truth) {
+    const double share = trace.mean(guidance::PerchingState::resting, [](const Truth& truth) {
         return truth.cup_status.pump_running ? 1.0 : 0.0;
     });
     EXPECT_LT(share, 0.7);
     const double on_concrete =
-        flown("perch_concrete").mean(PerchingState::resting, [](const Truth& truth) {
+        flown("perch_concrete").mean(guidance::PerchingState::resting, [](const Truth& truth) {
             return truth.cup_status.pump_running ? 1.0 : 0.0;
         });
     EXPECT_EQ(on_concrete, 1.0);
@@ -58,10 +58,10 @@ TEST(PerchMetalValve, IsReleasedAtOnce) {
 TEST(OscillationLimit, InterruptsTheRelease) {
     // A limit below what the take-off leaves behind stands for a swing that grew.
     const Trace trace =
-        limpet::trace(model_of("perch_metal", {"guidance.oscillation_limit_deg=0.5"}));
+        simulation::trace(model_of("perch_metal", {"guidance.oscillation_limit_deg=0.5"}));
     EXPECT_EQ(trace.result.outcome, Outcome::release_aborted);
     EXPECT_LT(trace.first(aborted) - trace.first(pump_off), 16.0);
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

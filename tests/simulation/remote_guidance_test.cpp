@@ -13,7 +13,7 @@
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using namespace std::chrono_literals;
@@ -34,12 +34,12 @@ Readings some_readings(double time_s) {
 
 /// A companion's end over loopback.
 struct Companion {
-    mavlink::Link link{open_transport({.medium = Medium::udp, .port = 0}, Role::listen),
+    mavlink::Link link{open_transport({.medium = wire::Medium::udp, .port = 0}, wire::Role::listen),
                        kCompanion};
 
     [[nodiscard]] std::unique_ptr<mavlink::Link> outside() const {
         return std::make_unique<mavlink::Link>(
-            open_transport(link.transport().address(), Role::connect),
+            open_transport(link.transport().address(), wire::Role::connect),
             mavlink::Sender{.system = 1, .component = mavlink::kMechanismComponent});
     }
 };
@@ -47,8 +47,8 @@ struct Companion {
 struct RemoteGuidanceOverMavlink : testing::Test {
     Companion companion;
     RemoteGuidance remote{{.sensors = companion.outside()}, {}};
-    PerchingMemory guidance;
-    EventList events;
+    guidance::PerchingMemory guidance;
+    guidance::EventList events;
     std::vector<EventName> told;
     double time_s = 5.0;
 
@@ -86,7 +86,7 @@ struct RemoteGuidanceOverMavlink : testing::Test {
         mavlink::CommandLong message =
             mavlink::actuator_command({.pump_on = pump > 0, .valve_open = valve > 0}, 1, 0);
         message.target_component = component;
-        ASSERT_EQ(companion.link.send(message), TransferStatus::done);
+        ASSERT_EQ(companion.link.send(message), wire::TransferStatus::done);
     }
 };
 
@@ -155,12 +155,12 @@ TEST_F(RemoteGuidanceOverMavlink, WhatTheCompanionTellsBecomesEventsStateAndOutc
     const Event approach = make_event(9.0, "guidance", EventName::approach_started, "aligned");
     (void)companion.link.send(mavlink::event_text(approach));
     (void)companion.link.send(
-        mavlink::guidance_state(static_cast<int>(PerchingState::approaching), 0));
+        mavlink::guidance_state(static_cast<int>(guidance::PerchingState::approaching), 0));
     (void)companion.link.send(mavlink::guidance_state(200, 0));  // none of ours
     (void)companion.link.send(mavlink::outcome_text(Outcome::released, "backed off"));
     EXPECT_TRUE(until([&] { return guidance.ending.has_value(); }));
     EXPECT_EQ(told, std::vector{EventName::approach_started});
-    EXPECT_EQ(guidance.state, PerchingState::approaching);
+    EXPECT_EQ(guidance.state, guidance::PerchingState::approaching);
     EXPECT_EQ(guidance.attempt, 1);
     EXPECT_EQ(guidance.ending->outcome, Outcome::released);
     EXPECT_EQ(guidance.ending->reason, "backed off");
@@ -191,17 +191,17 @@ TEST_F(RemoteGuidanceOverMavlink, AFloodOfEventsIsTakenInPiecesNoneLost) {
 
 TEST(RemoteGuidanceOverDevices, PosesGoByNatNetWithTheirAge) {
     const Companion companion;
-    auto command = open_transport({.medium = Medium::udp, .port = 0}, Role::listen);
+    auto command = open_transport({.medium = wire::Medium::udp, .port = 0}, wire::Role::listen);
     const devices::MocapAxes axes{.up = devices::UpAxis::y, .x_axis_yaw_deg = 30.0};
     devices::NatNetClient motive({.body_id = 4, .axes = axes}, nullptr,
-                                 open_transport(command->address(), Role::connect));
+                                 open_transport(command->address(), wire::Role::connect));
     RemoteGuidance remote({.sensors = companion.outside(),
                            .motion_capture = std::make_unique<devices::NatNetSource>(
                                devices::NatNetServer{.version = {4, 1}, .clock_Hz = 1000000},
                                nullptr, std::move(command))},
                           {.axes = axes, .rigid_body = 4});
-    PerchingMemory guidance;
-    EventList events;
+    guidance::PerchingMemory guidance;
+    guidance::EventList events;
     double time_s = 5.0;
     motive.update(0.0);
     std::optional<Sample<PoseReading>> pose;
@@ -230,19 +230,20 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
                            .mechanism = devices::open_pseudo_terminal(folder / "mechanism")},
                           {});
     const auto port = [&](const char* name) {
-        return open_transport({.medium = Medium::serial,
+        return open_transport({.medium = wire::Medium::serial,
                                .device = (folder / name).string(),
                                .baud = devices::kTfminiBaud},
-                              Role::connect);
+                              wire::Role::connect);
     };
     const auto left = port("left");
     const auto mechanism = port("mechanism");
     devices::MechanismBuffer buffer;
     const auto line = devices::encode({.pump_on = true, .valve_open = false}, buffer);
-    ASSERT_EQ(mechanism->send(std::as_bytes(std::span(line)), 1s).status, TransferStatus::done);
+    ASSERT_EQ(mechanism->send(std::as_bytes(std::span(line)), 1s).status,
+              wire::TransferStatus::done);
 
-    PerchingMemory guidance;
-    EventList events;
+    guidance::PerchingMemory guidance;
+    guidance::EventList events;
     double time_s = 5.0;
     const auto end = std::chrono::steady_clock::now() + 5s;
     while (!guidance.setpoint.pump_on && std::chrono::steady_clock::now() < end) {
@@ -266,8 +267,8 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
     devices::MechanismParser lines;
     std::optional<devices::MechanismLine> last;
     while (!last || last->pump_on != true) {
-        const Transfer transfer = mechanism->receive(in, 5s);
-        ASSERT_EQ(transfer.status, TransferStatus::done);
+        const wire::Transfer transfer = mechanism->receive(in, 5s);
+        ASSERT_EQ(transfer.status, wire::TransferStatus::done);
         for (std::size_t i = 0; i < transfer.bytes; ++i) {
             if (const auto next = lines.parse(in[i])) {
                 last = next;
@@ -280,4 +281,4 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

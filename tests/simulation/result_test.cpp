@@ -6,7 +6,7 @@
 #include "flown.hpp"
 #include "limpet/simulation/result_json.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 TEST(ResultJson, HasEveryFieldAndNullForWhatDidNotHappen) {
@@ -38,4 +38,4 @@ TEST(ResultJson, SummaryForRecordingsKnowsNothingOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

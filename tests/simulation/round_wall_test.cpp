@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 // A flight knows of the wall what is under a point of it, so it perches on one that bends.
@@ -44,8 +44,8 @@ TEST(RoundWall, IsMetByTheMountsWhereItIs) {
     for (const char* trial : {"pendulum_concrete", "press_concrete"}) {
         const auto model = model_of(trial, {kRound, "wall.radius_m=2", "wall.lean_deg=3"});
         const Vector3 lip_W_m =
-            touching_p_WB_m(model->scenario) +
-            attitude(model->scenario.start) * lip_p_B_m(model->scenario.airframe);
+            touching_p_WB_m(*model->scenario) + scenario::attitude(model->scenario->start) *
+                                                    vehicle::lip_p_B_m(model->scenario->airframe);
         EXPECT_NEAR(before_wall_m(model->cup.wall, lip_W_m), 0.0, 1e-9);
     }
     EXPECT_EQ(fly(model_of("pendulum_concrete", {kRound, "wall.radius_m=2"})).outcome,
@@ -53,4 +53,4 @@ TEST(RoundWall, IsMetByTheMountsWhereItIs) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

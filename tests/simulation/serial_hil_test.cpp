@@ -8,25 +8,26 @@
 #include "flown.hpp"
 #include "loopback.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
-void print(const char* what, const DurationHistogram& histogram) {
+void print(const char* what, const wire::DurationHistogram& histogram) {
     std::printf("%s: %llu, median %.3f ms, p99 %.3f ms, largest %.3f ms\n", what,
                 static_cast<unsigned long long>(histogram.count()), 1e3 * histogram.quantile_s(0.5),
                 1e3 * histogram.quantile_s(0.99), 1e3 * histogram.largest_s());
-    for (std::size_t bin = 0; bin < DurationHistogram::kBins; ++bin) {
+    for (std::size_t bin = 0; bin < wire::DurationHistogram::kBins; ++bin) {
         if (histogram.bins()[bin] > 0) {
-            std::printf("  up to %9.3f ms  %6llu\n", 1e3 * DurationHistogram::edge_s(bin),
+            std::printf("  up to %9.3f ms  %6llu\n", 1e3 * wire::DurationHistogram::edge_s(bin),
                         static_cast<unsigned long long>(histogram.bins()[bin]));
         }
     }
 }
 
 mavlink::Link simulator_end(const NullModem& cable) {
-    return {open_transport({.medium = Medium::serial, .device = cable.device(0), .baud = 921600},
-                           Role::listen),
-            {.system = 255, .component = mavlink::kCompanionComponent}};
+    return {
+        open_transport({.medium = wire::Medium::serial, .device = cable.device(0), .baud = 921600},
+                       wire::Role::listen),
+        {.system = 255, .component = mavlink::kCompanionComponent}};
 }
 
 /// Simulated and wall time: they are one. LIMPET_SERIAL_S=60 is the long version.
@@ -40,13 +41,13 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
         model_of("hover", {"simulation.hover_s=" + std::to_string(duration_s()),
                            "simulation.time_limit_s=" + std::to_string(duration_s() + 10.0)});
     const NullModem cable;
-    StandInOptions options = Loopback::perching();
-    options.hil = {.medium = Medium::serial, .device = cable.device(1), .baud = 921600};
+    px4::StandInOptions options = Loopback::perching();
+    options.hil = {.medium = wire::Medium::serial, .device = cable.device(1), .baud = 921600};
     StandInThread board(model->autopilot, options);
     mavlink::Link wire = simulator_end(cable);
-    Px4Options px4;
+    px4::Px4Options px4;
     px4.hil.timing = mavlink::HilTiming::real_time;
-    Px4Autopilot autopilot(wire, wire, px4);
+    px4::Px4Autopilot autopilot(wire, wire, px4);
 
     const FlightResult result =
         fly(model, {}, {}, 0, {.outside = {.autopilot = &autopilot}, .speed = 1.0});
@@ -73,4 +74,4 @@ TEST(SerialHil, AtTwoHundredAndFiftyHertzNothingIsLost) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

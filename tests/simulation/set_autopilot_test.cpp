@@ -6,7 +6,7 @@
 #include "flown.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using testing::HasSubstr;
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 std::map<std::string, double> fly_on(Flight& flight, Tick ticks) {
     std::map<std::string, double> told;
     for (Tick i = 0; i < ticks; ++i) {
-        const EventList& events = flight.tick();
+        const guidance::EventList& events = flight.tick();
         for (std::size_t k = 0; k < events.count; ++k) {
             const Event& event = events.events[k];
             if (event.name == EventName::parameter_set) {
@@ -30,7 +30,7 @@ std::map<std::string, double> fly_on(Flight& flight, Tick ticks) {
 TEST(SetAutopilot, FliesAsAScenarioThatHasThemFromTheStart) {
     const auto model = model_of("hover");
     Flight set(model);
-    AutopilotParameters parameters = model->autopilot.parameters;
+    autopilot::AutopilotParameters parameters = model->autopilot.parameters;
     parameters.MC_PITCHRATE_P = 0.11;
     parameters.MPC_XY_P = 0.7;
     set.set_autopilot(parameters);
@@ -50,9 +50,9 @@ TEST(SetAutopilot, FliesAsAScenarioThatHasThemFromTheStart) {
 
 TEST(SetAutopilot, TellsOfMoreThanOneTickCanReport) {
     Flight flight(model_of("hover"));
-    AutopilotParameters parameters = flight.model().autopilot.parameters;
+    autopilot::AutopilotParameters parameters = flight.model().autopilot.parameters;
     int changed = 0;
-    for (const auto& row : autopilot_table()) {
+    for (const auto& row : autopilot::autopilot_table()) {
         if (row.name.starts_with("EKF2_") && row.unit != "count") {  // no jump of control
             const ParameterValue value = row.of(parameters);
             value.set(value.get() < row.maximum ? std::min(row.maximum, 1.01 * value.get() + 1e-6)
@@ -67,7 +67,7 @@ TEST(SetAutopilot, TellsOfMoreThanOneTickCanReport) {
 
 TEST(SetAutopilot, OutOfRangeChangesNothing) {
     Flight flight(model_of("hover"));
-    AutopilotParameters parameters = flight.model().autopilot.parameters;
+    autopilot::AutopilotParameters parameters = flight.model().autopilot.parameters;
     parameters.MC_PITCHRATE_P = 0.11;
     parameters.MPC_XY_P = 2.5;
     try {
@@ -81,4 +81,4 @@ TEST(SetAutopilot, OutOfRangeChangesNothing) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/visit.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 void fly_until(Flight& flight, double time_s) {
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
     Moments, ThroughBytes,
     testing::Values(Cut{"perch_concrete", {}, 4.5}, Cut{"perch_concrete", {}, 5.2},
                     Cut{"perch_concrete", {}, 15.0}, Cut{"perch_concrete", kAirMoves, 11.5},
-                    Cut{"perch_concrete", {"suction.pneumatic=1"}, 5.5},
+                    Cut{"perch_concrete", {"suction.pressure_model=pneumatic"}, 5.5},
                     Cut{"perch_concrete", {"vehicle.rotor.command_delay_s=0.02"}, 3.0},
                     Cut{"pendulum_concrete", {}, 0.7}, Cut{"press_concrete", {}, 2.0}));
 
@@ -79,9 +79,9 @@ TEST(Snapshot, ClassesForgetNoneOfTheirOwn) {
         visit_leaves(value, [&visited](const auto& leaf) { visited += sizeof leaf; });
         return sizeof value - visited;
     };
-    EXPECT_LT(unvisited_bytes(DelayLine<ForceReading>()), 8U);
-    EXPECT_LT(unvisited_bytes(RotorsState()), 8U);
+    EXPECT_LT(unvisited_bytes(sensors::DelayLine<ForceReading>()), 8U);
+    EXPECT_LT(unvisited_bytes(vehicle::RotorsState()), 8U);
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -5,7 +5,7 @@
 #include "limpet/simulation/flight_log.hpp"
 #include "tests/support/allocations.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 TEST(SteadyState, TheLoopAllocatesNothing) {
@@ -47,7 +47,7 @@ TEST(SteadyState, NorDoesTheRecorder) {
     FlightLog log(path, *model);
     Flight flight(model);
     const auto tick = [&] {
-        const EventList& events = flight.tick();
+        const guidance::EventList& events = flight.tick();
         log.tick(*model, flight.state(), events);
     };
     tick();
@@ -62,4 +62,4 @@ TEST(SteadyState, NorDoesTheRecorder) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

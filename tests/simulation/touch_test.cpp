@@ -5,7 +5,7 @@
 
 #include "flown.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 /// A vehicle of two masses on a line that runs into a wall: the closed world against which the
@@ -16,9 +16,9 @@ struct TwoMasses {
     double lip_peak_N = 0.0;
 };
 
-TwoMasses two_masses(const Scenario& scenario, double speed_m_s) {
-    const SliderParameters& slider = scenario.airframe.slider;
-    const LipParameters& lip = scenario.cup.lip;
+TwoMasses two_masses(const scenario::Scenario& scenario, double speed_m_s) {
+    const vehicle::SliderParameters& slider = scenario.airframe.slider;
+    const suction::LipParameters& lip = scenario.cup.lip;
     const double front_kg = slider.mass_kg + scenario.airframe.cup.mass_kg;
     const double back_kg = scenario.airframe.mass_kg - front_kg;
     constexpr double kDt_s = 1e-6;
@@ -96,7 +96,7 @@ TEST(SlowTouch, NoneOfTwoHundredSealsOnConcrete) {
                              seed);
                 Flight flight(model);
                 while (!flight.ended()) {
-                    const EventList& events = flight.tick();
+                    const guidance::EventList& events = flight.tick();
                     for (std::size_t k = 0; k < events.count; ++k) {
                         sealed[worker] += events.events[k].name == EventName::attached ? 1 : 0;
                     }
@@ -119,4 +119,4 @@ TEST(SlowTouch, NoneOfTwoHundredSealsOnConcrete) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

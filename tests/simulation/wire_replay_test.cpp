@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "limpet/mavlink/hil.hpp"
-#include "limpet/record/mcap_reader.hpp"
+#include "limpet/mcap/reader.hpp"
 #include "limpet/simulation/wire_log.hpp"
 
-namespace limpet {
+namespace limpet::simulation {
 namespace {
 
 using mavlink::ByteView;
@@ -37,33 +37,33 @@ const std::vector<Piece>& recorded() {
 }
 
 /// Gives what was received where it was received; a wait for what was not there ends at once.
-class Replay final : public Transport {
+class Replay final : public wire::Transport {
 public:
-    Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
+    wire::Transfer send(std::span<const std::byte> bytes, std::chrono::nanoseconds) override {
         in_order_ = in_order_ && next_ < recorded().size() && recorded()[next_].sent;
         ++next_;
-        return {TransferStatus::done, bytes.size()};
+        return {wire::TransferStatus::done, bytes.size()};
     }
-    Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
+    wire::Transfer receive(std::span<std::byte> into, std::chrono::nanoseconds) override {
         if (next_ >= recorded().size() || recorded()[next_].sent) {
-            return {TransferStatus::timed_out, 0};
+            return {wire::TransferStatus::timed_out, 0};
         }
         const auto& bytes = recorded()[next_++].bytes;
         std::memcpy(into.data(), bytes.data(), bytes.size());
-        return {TransferStatus::done, bytes.size()};
+        return {wire::TransferStatus::done, bytes.size()};
     }
     bool wait_for_peer(std::chrono::nanoseconds) override { return true; }
     void close() override {}
-    TransportAddress address() const override { return {}; }
+    wire::TransportAddress address() const override { return {}; }
     std::string describe() const override { return "replay"; }
-    const TransportStatistics& statistics() const override { return statistics_; }
+    const wire::TransportStatistics& statistics() const override { return statistics_; }
 
     [[nodiscard]] bool in_order() const { return in_order_; }
 
 private:
     std::size_t next_ = 0;
     bool in_order_ = true;
-    TransportStatistics statistics_{.peers = 1};
+    wire::TransportStatistics statistics_{.peers = 1};
 };
 
 template <class Each>
@@ -150,4 +150,4 @@ TEST(Px4Recording, LockstepTakesExactlyOneAnswerToEachOfItsSensors) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::simulation

@@ -7,7 +7,7 @@
 
 #include "surfaces.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 /// A cup that is moved by hand in front of a wall at the origin, facing north.
@@ -117,7 +117,8 @@ TEST_F(CupOnTheWall, OnMetalThePumpRestsAndTheVacuumStays) {
     for (int k = 0; k < 10000; ++k) {
         hold(0.001, 60.0, kStep_s);
         running += state_.status.pump_running ? 1 : 0;
-        ASSERT_LT(state_.mean_pressure_Pa, 27500.0 + model_.parameters.pressure.pump_restart_band_Pa + 10.0);
+        ASSERT_LT(state_.mean_pressure_Pa,
+                  27500.0 + model_.parameters.pressure.pump_restart_band_Pa + 10.0);
     }
     EXPECT_GT(running, 0);
     EXPECT_LT(running, 9000);
@@ -200,4 +201,4 @@ TEST_F(CupOnTheWall, AJointsLoadIsHeldAgainstTheVacuum) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

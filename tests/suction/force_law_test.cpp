@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 constexpr double kMu = 0.8;
@@ -172,4 +172,4 @@ TEST(LipMotion, BesideTheWallItFacesNothing) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,7 +8,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 constexpr double kRadius_m = 0.04;
@@ -253,4 +253,4 @@ TEST_F(TwoCups, LongStepsAreDamped) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

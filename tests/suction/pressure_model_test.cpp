@@ -7,7 +7,7 @@
 
 #include "limpet/suction/cup.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 TEST(PressureModels, AreNamedApartAndThePapersIsTheDefault) {
@@ -58,4 +58,4 @@ TEST(PressureModels, SuckWhilePumpingAndFillAgainFasterThroughTheValve) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

@@ -8,7 +8,7 @@
 #include "limpet/core/frames.hpp"
 #include "surfaces.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 class PressureOnSurface : public testing::TestWithParam<TableTwo> {};
@@ -77,4 +77,4 @@ TEST(Pressure, UnreachablePressureTakesForEver) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

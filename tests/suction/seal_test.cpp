@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::suction {
 namespace {
 
 TEST(Seal, NeedsBothForceAndAlignment) {
@@ -50,4 +50,4 @@ TEST(Seal, WithoutSpreadItIsAStep) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::suction

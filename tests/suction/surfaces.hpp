@@ -6,7 +6,7 @@
 
 #include "limpet/suction/surface.hpp"
 
-namespace limpet {
+namespace limpet::suction {
 
 /// Table II of the paper, written down once more so that a slip in surfaces.yaml cannot hide.
 struct TableTwo {
@@ -34,4 +34,4 @@ inline Surface surface_of(const TableTwo& row) {
     return surface;
 }
 
-}  // namespace limpet
+}  // namespace limpet::suction

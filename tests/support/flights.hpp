@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "limpet/models/model_writer.hpp"
 #include "limpet/record/recorder.hpp"
 #include "limpet/record/recording.hpp"
-#include "limpet/vehicle/model_writer.hpp"
 
 /// Flights that never flew: drawn by formulas, so that a test knows every number.
 namespace limpet::test {
@@ -165,20 +165,20 @@ struct RecordedFlight {
     bool finish = true;
 };
 
-inline RecordingInfo recording_info(const RecordedFlight& what) {
-    RecordingInfo info{.scenario = what.cup ? "perch_concrete" : "hover",
-                       .seed = 7,
-                       .version = "test",
-                       .numbers = {},
-                       .attachments = {},
-                       .range_sensor = {}};
+inline record::RecordingInfo recording_info(const RecordedFlight& what) {
+    record::RecordingInfo info{.scenario = what.cup ? "perch_concrete" : "hover",
+                               .seed = 7,
+                               .version = "test",
+                               .numbers = {},
+                               .attachments = {},
+                               .range_sensor = {}};
     if (what.cup) {
         info.numbers = {{"land_pressure_Pa", "87000"}, {"detach_pressure_Pa", "97000"}};
     }
     if (what.model) {
-        Scene scene;
+        models::Scene scene;
         scene.wall.p_WT_m = {Attempt::kWall_m, 0.0, -Attempt::kHeight_m};
-        Airframe airframe;
+        vehicle::Airframe airframe;
         airframe.has_cup = what.cup;
         info.attachments.push_back({.name = "model.xml",
                                     .media_type = "application/xml",
@@ -194,7 +194,7 @@ inline double ripple(double t) {
 }
 
 /// Everything that is sampled, at one instant.
-inline void record_sample(Recorder& recorder, const Attempt& attempt, double t, bool cup) {
+inline void record_sample(record::Recorder& recorder, const Attempt& attempt, double t, bool cup) {
     const Truth truth = attempt.truth(t);
     const double time_s = truth.time_s;
     recorder.truth(truth);
@@ -213,8 +213,8 @@ inline void record_sample(Recorder& recorder, const Attempt& attempt, double t, 
     }
 }
 
-inline void record_attempt(Recorder& recorder, const Attempt& attempt, const RecordedFlight& what,
-                           double end_s) {
+inline void record_attempt(record::Recorder& recorder, const Attempt& attempt,
+                           const RecordedFlight& what, double end_s) {
     constexpr double kStep_s = 0.004;
     const std::vector<Note> notes = story_of(attempt);
     auto note = notes.begin();
@@ -237,7 +237,7 @@ inline void record_attempt(Recorder& recorder, const Attempt& attempt, const Rec
 /// @return its file: PATH, or PATH.part when it was not finished
 inline std::filesystem::path write_flight(const std::filesystem::path& path,
                                           const RecordedFlight& what = {}) {
-    Recorder recorder(path, recording_info(what));
+    record::Recorder recorder(path, recording_info(what));
     Attempt attempt;
     if (what.failed_first) {
         record_attempt(recorder, {.sealed = false}, what, Attempt::kFailedEnd_s);
@@ -253,18 +253,18 @@ inline std::filesystem::path write_flight(const std::filesystem::path& path,
 }
 
 /// The same, read back.
-inline Recording fly(const RecordedFlight& what = {}) {
+inline record::Recording fly(const RecordedFlight& what = {}) {
     const Folder folder;
-    return read_recording(write_flight(folder.path() / "flight.mcap", what));
+    return record::read_recording(write_flight(folder.path() / "flight.mcap", what));
 }
 
 /// A flight whose file ends in the middle.
-inline Recording fly_and_cut(double share) {
+inline record::Recording fly_and_cut(double share) {
     const Folder folder;
     const auto path = write_flight(folder.path() / "flight.mcap");
     const auto size = static_cast<double>(std::filesystem::file_size(path));
     std::filesystem::resize_file(path, static_cast<std::uintmax_t>(share * size));
-    return read_recording(path);
+    return record::read_recording(path);
 }
 
 }  // namespace limpet::test

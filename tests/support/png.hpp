@@ -14,14 +14,14 @@
 namespace limpet::test {
 
 /// Reads a PNG from the first byte to the last checksum; an empty image when it is none.
-inline Image read_png(const std::filesystem::path& path) {
+inline draw::Image read_png(const std::filesystem::path& path) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (png_image_begin_read_from_file(&png, path.c_str()) == 0) {
         return {};
     }
     png.format = PNG_FORMAT_RGB;
-    Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
+    draw::Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
     image.rgb.resize(PNG_IMAGE_SIZE(png));
     if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) == 0) {
         return {};
@@ -29,7 +29,7 @@ inline Image read_png(const std::filesystem::path& path) {
     return image;
 }
 
-inline std::size_t distinct_colours(const Image& image) {
+inline std::size_t distinct_colours(const draw::Image& image) {
     std::set<std::uint32_t> colours;
     for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
         colours.insert(image.rgb[i] << 16u | image.rgb[i + 1] << 8u | image.rgb[i + 2]);
@@ -38,7 +38,7 @@ inline std::size_t distinct_colours(const Image& image) {
 }
 
 /// Share of pixels that differ by more than `threshold` in some channel.
-inline double difference(const Image& a, const Image& b, int threshold = 12) {
+inline double difference(const draw::Image& a, const draw::Image& b, int threshold = 12) {
     std::size_t differ = 0;
     for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) {
         for (std::size_t c = i; c < i + 3; ++c) {

@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "tests/core/whole_table.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(Tables, RowsAreDistinctAndDefaultsAreAllowed) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

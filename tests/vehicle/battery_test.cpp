@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 constexpr double kHoverShaft_W = 334.0;
@@ -117,4 +117,4 @@ TEST(Battery, EmptyFromTheStartIsWellDefined) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 const double kWeight_N = Airframe{}.mass_kg * kGravity_m_s2;
@@ -92,4 +92,4 @@ TEST(PressRig, ClampCarriesTheWeightAndPullsBackByHand) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 constexpr double kDt_s = 1e-3;
@@ -253,4 +253,4 @@ TEST(Rotor, SpeedEndsAtItsLimitAndSagsWithTheBattery) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

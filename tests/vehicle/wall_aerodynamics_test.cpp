@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 const Vector3 kIntoWall = Vector3::UnitX();
@@ -139,4 +139,4 @@ TEST(Recirculation, FadesWithDistanceThrustAndTilt) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace limpet {
+namespace limpet::vehicle {
 namespace {
 
 constexpr double kSigma_m_s = 0.8;
@@ -161,4 +161,4 @@ TEST(Wind, SameKeySameGustsAnotherRunOthers) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::vehicle

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/mcap/reader.hpp"
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/mcap/records.hpp"
+
+namespace limpet::mcap {
+namespace {
+
+/// A chunk that claims more is not unpacked: a few bytes of zstd can claim terabytes.
+constexpr std::uint64_t kMaxChunk_bytes = 256u << 20;
+
+Bytes read_file(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        throw InputError(name + ": no such recording");
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        throw InputError(name + ": not a recording: not a regular file");
+    }
+    std::ifstream file(path, std::ios::binary);
+    Bytes bytes(file ? std::filesystem::file_size(path, problem) : 0);
+    if (!file.read(reinterpret_cast<char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()))) {
+        throw InputError(name + ": cannot be read");
+    }
+    if (bytes.empty()) {
+        throw InputError(name + ": not a recording: empty file");
+    }
+    const std::size_t compared = std::min(bytes.size(), kMagic.size());
+    if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(compared),
+                    bytes.begin())) {
+        throw InputError(name + ": not a recording: does not begin as an MCAP file does");
+    }
+    return bytes;
+}
+
+/// One pass over a file.
+class Scan {
+public:
+    Scan(ByteView file, const MessageVisitor& visit)
+        : file_(file), visit_(visit), zstd_(ZSTD_createDCtx(), &ZSTD_freeDCtx) {}
+
+    Contents run() {
+        Cursor in(file_.subspan(std::min(file_.size(), kMagic.size())));
+        while (!footer_seen_ && next_record(in)) {
+        }
+        contents_.truncated = !footer_seen_ || !std::equal(in.rest().begin(), in.rest().end(),
+                                                           kMagic.begin(), kMagic.end());
+        contents_.unread_bytes = footer_seen_ ? 0 : in.left();
+        contents_.damage = describe();
+        return std::move(contents_);
+    }
+
+private:
+    /// @return false when no whole record is left
+    bool next_record(Cursor& in) {
+        const Cursor start = in;
+        if (in.left() < kRecordHeader_bytes) {
+            return false;
+        }
+        const auto opcode = static_cast<OpCode>(in.get<std::uint8_t>());
+        const auto length = in.get<std::uint64_t>();
+        const bool blank = opcode == OpCode{0};  // no record: a tail that never reached the disk
+        if (blank || length > in.left()) {
+            if (opcode == OpCode::chunk) {
+                cut_chunk(in.rest());
+            }
+            in = start;
+            return false;
+        }
+        const std::size_t offset = file_.size() - start.left();
+        const ByteView content = in.take(length);
+        read_guarded([&] { record(opcode, content, offset); });
+        return true;
+    }
+
+    template <class Read>
+    void read_guarded(Read&& read) {
+        try {
+            read();
+        } catch (const Malformed& problem) {
+            ++contents_.skipped_records;
+            if (first_problem_.empty()) {
+                first_problem_ = problem.what();
+            }
+        }
+    }
+
+    void record(OpCode opcode, ByteView content, std::size_t offset) {
+        switch (opcode) {
+            case OpCode::header: {
+                Cursor in(content);
+                contents_.profile = in.string();
+                contents_.library = in.string();
+                break;
+            }
+            case OpCode::schema: add(get_schema(content)); break;
+            case OpCode::channel: add(get_channel(content)); break;
+            case OpCode::message: give(get_message(content)); break;
+            case OpCode::chunk: chunk(content); break;
+            case OpCode::attachment:
+                contents_.attachments.push_back(get_attachment(content));
+                break;
+            case OpCode::metadata: contents_.metadata.push_back(get_metadata(content)); break;
+            case OpCode::data_end: check_data(Cursor(content), offset); break;
+            case OpCode::footer:
+                footer_seen_ = true;
+                check_summary(content);
+                if (data_end_ == 0) {
+                    throw Malformed("data section without its end");
+                }
+                break;
+            case OpCode::message_index:
+            case OpCode::chunk_index:
+            case OpCode::attachment_index:
+            case OpCode::statistics:
+            case OpCode::metadata_index:
+            case OpCode::summary_offset: break;  // found by going through, not by looking up
+        }
+    }
+
+    void add(Schema&& schema) {
+        const std::uint16_t id = schema.id;
+        contents_.schemas.emplace(id, std::move(schema));
+    }
+    void add(Channel&& channel) {
+        const std::uint16_t id = channel.id;
+        contents_.channels.emplace(id, std::move(channel));
+    }
+
+    void give(const Message& message) {
+        if (contents_.channels.count(message.channel_id) == 0) {
+            throw Malformed("message on a channel that is not there");
+        }
+        if (visit_) {
+            visit_(contents_, message);
+        }
+        ++contents_.message_count;
+        contents_.last_time_ns = std::max(contents_.last_time_ns, message.log_time_ns);
+    }
+
+    void chunk(ByteView content) {
+        Cursor in(content);
+        const ChunkHeader header = get_chunk_header(in);
+        const ByteView records = unpack(header, in.take(header.stored_size));
+        if (header.crc != 0 && header.crc != crc32(records)) {
+            throw Malformed("chunk with a wrong checksum");
+        }
+        if (records_in_chunk(records) > 0) {
+            throw Malformed("chunk that ends within a record");
+        }
+    }
+
+    void cut_chunk(ByteView content) {
+        Cursor in(content);
+        try {
+            if (get_chunk_header(in).compression.empty()) {
+                records_in_chunk(in.rest());
+            }
+        } catch (const Malformed&) {  // cut within the chunk's own head: counted as unread bytes
+        }
+    }
+
+    /// @return bytes behind the last whole record
+    std::size_t records_in_chunk(ByteView records) {
+        Cursor in(records);
+        while (in.left() >= kRecordHeader_bytes) {
+            const Cursor start = in;
+            const auto opcode = static_cast<OpCode>(in.get<std::uint8_t>());
+            const auto length = in.get<std::uint64_t>();
+            if (length > in.left()) {
+                return start.left();
+            }
+            const ByteView content = in.take(length);
+            if (opcode == OpCode::schema || opcode == OpCode::channel ||
+                opcode == OpCode::message) {
+                read_guarded([&] { record(opcode, content, 0); });
+            }
+        }
+        return in.left();
+    }
+
+    ByteView unpack(const ChunkHeader& header, ByteView stored) {
+        if (header.compression.empty()) {
+            return stored;
+        }
+        if (header.compression != "zstd") {
+            throw Malformed(
+                fmt::format("chunk compressed by {} (zstd is known)", header.compression));
+        }
+        if (header.size > kMaxChunk_bytes) {
+            throw Malformed("chunk larger than 256 MiB");
+        }
+        unpacked_.resize(static_cast<std::size_t>(header.size));
+        const std::size_t size = ZSTD_decompressDCtx(
+            zstd_.get(), unpacked_.data(), unpacked_.size(), stored.data(), stored.size());
+        if (ZSTD_isError(size) || size != unpacked_.size()) {
+            throw Malformed("chunk that does not unpack");
+        }
+        return unpacked_;
+    }
+
+    void check_data(Cursor in, std::size_t offset) {
+        data_end_ = offset + kRecordHeader_bytes + in.left();
+        const auto crc = in.get<std::uint32_t>();
+        // A damaged chunk has been named already; this finds what no other checksum covers.
+        if (crc != 0 && contents_.skipped_records == 0 && crc != crc32(file_.first(offset))) {
+            throw Malformed("data section with a wrong checksum");
+        }
+    }
+
+    void check_summary(ByteView footer) {
+        Cursor in(footer);
+        const auto start = in.get<std::uint64_t>();
+        in.get<std::uint64_t>();  // start of the summary offsets
+        const std::uint8_t* crc_at = in.rest().data();
+        const auto crc = in.get<std::uint32_t>();
+        const auto end = static_cast<std::size_t>(crc_at - file_.data());
+        if (start > end) {
+            throw Malformed("summary that starts behind its end");
+        }
+        const auto first = static_cast<std::size_t>(start);
+        if (crc != 0 && crc != crc32(file_.subspan(first, end - first))) {
+            throw Malformed("summary with a wrong checksum");
+        }
+    }
+
+    [[nodiscard]] std::string describe() const {
+        std::string text;
+        if (contents_.truncated) {
+            text = data_end_ > 0 ? "all data is there, but the index at the end is not whole"
+                   : contents_.unread_bytes > 0
+                       ? fmt::format("cut off: the last {} bytes cannot be read",
+                                     contents_.unread_bytes)
+                       : "not closed: nothing follows the last whole chunk";
+            text += contents_.message_count > 0
+                        ? fmt::format("; messages end at {:.3f} s",
+                                      static_cast<double>(contents_.last_time_ns) * 1e-9)
+                        : std::string("; no message is whole");
+        }
+        if (contents_.skipped_records > 0) {
+            text += fmt::format("{}{} damaged record{} left out, first a {}",
+                                text.empty() ? "" : "; ", contents_.skipped_records,
+                                contents_.skipped_records == 1 ? "" : "s", first_problem_);
+        }
+        return text;
+    }
+
+    ByteView file_;
+    const MessageVisitor& visit_;
+    std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd_;
+    Bytes unpacked_;
+    Contents contents_;
+    bool footer_seen_ = false;
+    std::size_t data_end_ = 0;  ///< 0 until the data section has been read to its end
+    std::string first_problem_;
+};
+
+}  // namespace
+
+Contents read(const std::filesystem::path& path, const MessageVisitor& visit) {
+    const Bytes file = read_file(path);
+    return Scan(file, visit).run();
+}
+
+}  // namespace limpet::mcap

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/models/links.hpp"
+
+#include "limpet/models/cad_model.hpp"
+
+namespace limpet::models {
+
+namespace {
+
+/// Turning it takes nothing noticeable from the cup, whose inertia decides which step is stable.
+constexpr double kYokeShare = 0.02;
+
+vehicle::BodyInertia share_of(vehicle::BodyInertia body, double share) {
+    body.mass_kg *= share;
+    body.inertia_kg_m2 *= share;
+    return body;
+}
+
+Joint cup_hinge(const vehicle::CupMountParameters& mount, std::string_view name,
+                const Vector3& axis) {
+    const double range_rad = radians(mount.range_deg);
+    return {.name = name,
+            .kind = Joint::Kind::revolute,
+            .axis = axis,
+            .lower = -range_rad,
+            .upper = range_rad,
+            .stiffness = mount.centring_stiffness_N_m_rad,
+            .damping = mount.centring_damping_N_m_s_rad};
+}
+
+}  // namespace
+
+Joint slider_joint(const vehicle::Airframe& airframe) {
+    const vehicle::SliderParameters& slider = airframe.slider;
+    return {.name = "slider",
+            .kind = Joint::Kind::prismatic,
+            .axis = Vector3::UnitX(),
+            .lower = -slider.travel_m,
+            .upper = 0.0,
+            .stiffness = slider.stiffness_N_m,
+            .damping = slider.damping_N_s_m,
+            .rest = slider.preload_N / slider.stiffness_N_m};
+}
+
+Joint cup_pitch_joint(const vehicle::Airframe& airframe) {
+    return cup_hinge(airframe.cup, "cup_pitch", Vector3::UnitY());
+}
+
+Joint cup_yaw_joint(const vehicle::Airframe& airframe) {
+    return cup_hinge(airframe.cup, "cup_yaw", Vector3::UnitZ());
+}
+
+std::vector<Link> make_links(const vehicle::Airframe& airframe) {
+    std::vector<Link> links = {{.name = "base",
+                                .p_BF_m = Vector3::Zero(),
+                                .inertia = base_inertia(airframe),
+                                .parent = {},
+                                .joint = std::nullopt}};
+    if (!airframe.has_cup) {
+        return links;
+    }
+    const Vector3 joint_B_m(airframe.cup.joint_x_m, 0.0, airframe.cup.joint_z_m);
+    const vehicle::BodyInertia cup = cup_inertia(airframe);
+    links.push_back({.name = "carriage",
+                     .p_BF_m = joint_B_m,
+                     .inertia = carriage_inertia(airframe),
+                     .parent = "base",
+                     .joint = slider_joint(airframe)});
+    links.push_back({.name = "cup_yoke",
+                     .p_BF_m = joint_B_m,
+                     .inertia = share_of(cup, kYokeShare),
+                     .parent = "carriage",
+                     .joint = cup_pitch_joint(airframe)});
+    links.push_back({.name = "cup",
+                     .p_BF_m = joint_B_m,
+                     .inertia = share_of(cup, 1.0 - kYokeShare),
+                     .parent = "cup_yoke",
+                     .joint = cup_yaw_joint(airframe)});
+    return links;
+}
+
+std::string called(const vehicle::Airframe& airframe, std::string_view part) {
+    return airframe.cad && !part.empty() ? airframe.cad->names.of(part) : std::string(part);
+}
+
+}  // namespace limpet::models

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet::models {
+
+/// A joint with one degree of freedom, a spring and a damper.
+struct Joint {
+    enum class Kind {
+        prismatic,
+        revolute,
+    };
+    std::string_view name;
+    Kind kind = Kind::revolute;
+    Vector3 axis = Vector3::UnitX();  ///< forward-right-down
+    double lower = 0.0;               ///< [m or rad]
+    double upper = 0.0;
+    double stiffness = 0.0;  ///< [N/m or N m/rad]
+    double damping = 0.0;    ///< [N s/m or N m s/rad]
+    double rest = 0.0;       ///< where the spring is slack: force = stiffness (rest - q)
+};
+
+/// +x is forward: extends. The rest beyond the outer stop is the pre-load.
+[[nodiscard]] Joint slider_joint(const vehicle::Airframe& airframe);
+/// Positive as the vehicle's angles are: pitch up, yaw right.
+[[nodiscard]] Joint cup_pitch_joint(const vehicle::Airframe& airframe);
+[[nodiscard]] Joint cup_yaw_joint(const vehicle::Airframe& airframe);
+
+/// A rigid body of a format that allows one degree of freedom a joint.
+struct Link {
+    std::string_view name;
+    Vector3 p_BF_m = Vector3::Zero();  ///< origin of its frame
+    vehicle::BodyInertia inertia;
+    std::string_view parent;
+    std::optional<Joint> joint;  ///< to the parent; the root has none
+};
+
+/// base; with a cup also carriage, cup_yoke and cup, parents first. The yoke between the two hinges
+/// is a fiftieth of the cup: engines with hard joints cannot have a massless one.
+[[nodiscard]] std::vector<Link> make_links(const vehicle::Airframe& airframe);
+
+/// How the vehicle's own URDF calls a link or a joint of ours; without one, as we do.
+[[nodiscard]] std::string called(const vehicle::Airframe& airframe, std::string_view part);
+
+}  // namespace limpet::models

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "limpet/core/wall.hpp"
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet::models {
+
+/// The wall and how it looks.
+struct WallScene : WallGeometry {
+    bool present = true;
+    std::string surface = "porous_concrete";  ///< chooses the material in pictures
+
+    friend bool operator==(const WallScene&, const WallScene&) = default;
+};
+
+struct Scene {
+    WallScene wall;
+    double ground_z_W_m = 2.0;  ///< W's z of the floor, down positive
+    /// Shapes, materials, lights and cameras for pictures. A plant does without: it would carry
+    /// every shape along in every step.
+    bool visuals = true;
+
+    friend bool operator==(const Scene&, const Scene&) = default;
+};
+
+// All writers turn forward-right-down and north-east-down into forward-left-up and a z-up world
+// (x north, y west, z up): x stays, y and z change sign. Names of bodies, joints and geoms, alike
+// in the three formats: base, carriage, cup; joints slider, cup_pitch, cup_yaw; leg_left,
+// leg_right; rotor_0..3; wall, ground.
+
+/// A whole MuJoCo model: vehicle (free joint), wall, floor, lights, materials, cameras.
+/// Bodies base > carriage > cup; contacts only by explicit pairs (each leg tip with the wall).
+[[nodiscard]] std::string write_mjcf(const vehicle::Airframe& airframe, const Scene& scene);
+/// SDF 1.6 model of the vehicle for Gazebo 11.
+[[nodiscard]] std::string write_sdf(const vehicle::Airframe& airframe);
+/// URDF of the vehicle; links and joints named as in the other two.
+[[nodiscard]] std::string write_urdf(const vehicle::Airframe& airframe);
+
+}  // namespace limpet::models

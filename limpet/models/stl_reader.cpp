@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/models/stl_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::models {
+
+namespace {
+
+constexpr std::size_t kHeader = 84;  // 80 bytes of anything, then the number of triangles
+constexpr std::size_t kFacet = 50;   // normal, three points, two bytes
+constexpr std::size_t kMost = 1000000;
+
+/// Gathers points, each once.
+class Joiner {
+public:
+    explicit Joiner(std::string name) : name_(std::move(name)) {}
+
+    void triangle(const std::array<Vector3, 3>& corners) {
+        std::array<int, 3> triangle{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!corners[i].allFinite()) {
+                throw InputError(fmt::format("{}: triangle {}: a corner is not a finite number",
+                                             name_, mesh_.triangles.size() + 1));
+            }
+            triangle[i] = index(corners[i]);
+        }
+        mesh_.triangles.push_back(triangle);
+        if (mesh_.triangles.size() > kMost) {
+            throw InputError(fmt::format("{}: more than {} triangles", name_, kMost));
+        }
+    }
+    [[nodiscard]] Mesh take() {
+        if (mesh_.triangles.empty()) {
+            throw InputError(name_ + ": an STL without a triangle");
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    int index(const Vector3& p) {
+        const auto [at, added] =
+            seen_.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(mesh_.points.size()));
+        if (added) {
+            mesh_.points.push_back(p);
+        }
+        return at->second;
+    }
+
+    std::string name_;
+    Mesh mesh_;
+    std::map<std::array<double, 3>, int> seen_;
+};
+
+std::uint32_t word(const std::string& bytes, std::size_t at) {
+    std::uint32_t value = 0;  // little-endian, as every machine that we run on
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+Mesh read_binary(const std::string& name, const std::string& bytes) {
+    const std::size_t count = word(bytes, kHeader - 4);
+    Joiner joiner(name);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<Vector3, 3> corners;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            std::array<float, 3> p{};
+            std::memcpy(p.data(), bytes.data() + kHeader + i * kFacet + 12 * (corner + 1), 12);
+            corners[corner] = {p[0], p[1], p[2]};
+        }
+        joiner.triangle(corners);
+    }
+    return joiner.take();
+}
+
+Mesh read_ascii(const std::string& name, const std::string& bytes) {
+    Joiner joiner(name);
+    std::istringstream in(bytes);
+    std::array<Vector3, 3> corners;
+    std::size_t found = 0;
+    bool whole = false;
+    int line = 0;
+    for (std::string text; std::getline(in, text);) {
+        ++line;
+        std::istringstream words(text);
+        std::string first;
+        words >> first;
+        if (first == "vertex") {
+            double x = 0.0;
+            double y = 0.0;
+            double z = 0.0;
+            if (found > 2 || !(words >> x >> y >> z)) {
+                throw InputError(
+                    fmt::format("{}:{}: must be one of three corners, as in "
+                                "`vertex 0.1 0 0.2`",
+                                name, line));
+            }
+            corners[found++] = {x, y, z};
+        } else if (first == "endfacet") {
+            if (found != 3) {
+                throw InputError(
+                    fmt::format("{}:{}: a facet of {} corners, must have 3", name, line, found));
+            }
+            joiner.triangle(corners);
+            found = 0;
+        }
+        whole = first == "endsolid" || (whole && first.empty());
+    }
+    if (!whole) {
+        throw InputError(fmt::format("{}:{}: the file ends without `endsolid`", name, line));
+    }
+    return joiner.take();
+}
+
+}  // namespace
+
+Mesh read_stl(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    if (!in.is_open() || bytes.empty()) {
+        throw InputError(name + ": no such mesh, or it is empty");
+    }
+    // Some binary files begin with "solid" too: the length decides.
+    if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * word(bytes, kHeader - 4)) {
+        return read_binary(name, bytes);
+    }
+    if (bytes.rfind("solid", 0) == 0) {
+        return read_ascii(name, bytes);
+    }
+    throw InputError(name +
+                     ": no STL: neither begins with \"solid\" nor is as long as its number "
+                     "of triangles asks");
+}
+
+}  // namespace limpet::models

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/models/urdf_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet::models {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A file being read, which knows on which line a node stands.
+class Reader {
+public:
+    explicit Reader(const fs::path& file) : file_(fs::absolute(file).lexically_normal()) {
+        std::ifstream in(file_, std::ios::binary);
+        text_.assign(std::istreambuf_iterator<char>(in), {});
+        if (!in.is_open() || text_.empty()) {
+            throw InputError(file.string() + ": no such URDF, or it is empty");
+        }
+        robot_.file = file.string();
+    }
+
+    UrdfRobot read() {
+        pugi::xml_document document;
+        const auto parsed = document.load_buffer(text_.data(), text_.size());
+        if (!parsed) {
+            throw InputError(fmt::format("{}: {}", place(parsed.offset), parsed.description()));
+        }
+        const auto robot = document.child("robot");
+        if (!robot) {
+            throw InputError(robot_.file + ": no URDF: there is no <robot>");
+        }
+        robot_.name = robot.attribute("name").value();
+        for (const auto material : robot.children("material")) {
+            if (const auto colour = colour_of(material)) {
+                colours_[material.attribute("name").value()] = *colour;
+            }
+        }
+        for (const auto link : robot.children("link")) {
+            read_link(link);
+        }
+        for (const auto joint : robot.children("joint")) {
+            read_joint(joint);
+        }
+        return std::move(robot_);
+    }
+
+private:
+    [[nodiscard]] std::string place(std::ptrdiff_t offset) const {
+        const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(
+                                             offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+        return fmt::format("{}:{}", robot_.file, 1 + std::count(text_.begin(), end, '\n'));
+    }
+    [[nodiscard]] std::string place(pugi::xml_node node) const {
+        return place(node.offset_debug());
+    }
+    [[noreturn]] void fail(pugi::xml_node node, const std::string& what) const {
+        throw InputError(place(node) + ": " + what);
+    }
+
+    [[nodiscard]] std::vector<double> numbers(pugi::xml_node node, const char* key,
+                                              std::size_t count) const {
+        std::istringstream in(node.attribute(key).value());
+        std::vector<double> values;
+        for (double value = 0.0; in >> value && std::isfinite(value);) {
+            values.push_back(value);
+        }
+        if (values.size() != count || !in.eof()) {
+            fail(node, fmt::format("{} {}=\"{}\": must be {} finite number{}", node.name(), key,
+                                   node.attribute(key).value(), count, count > 1 ? "s" : ""));
+        }
+        return values;
+    }
+    [[nodiscard]] Vector3 vector(pugi::xml_node node, const char* key,
+                                 const Vector3& otherwise) const {
+        if (!node.attribute(key)) {
+            return otherwise;
+        }
+        const auto v = numbers(node, key, 3);
+        return {v[0], v[1], v[2]};
+    }
+    void read_origin(pugi::xml_node parent, Vector3& p_m, Quaternion& q) const {
+        const auto origin = parent.child("origin");
+        p_m = vector(origin, "xyz", Vector3::Zero());
+        const Vector3 rpy = vector(origin, "rpy", Vector3::Zero());
+        q = Eigen::AngleAxisd(rpy.z(), Vector3::UnitZ()) *
+            Eigen::AngleAxisd(rpy.y(), Vector3::UnitY()) *
+            Eigen::AngleAxisd(rpy.x(), Vector3::UnitX());
+    }
+    [[nodiscard]] std::optional<std::array<double, 4>> colour_of(pugi::xml_node material) const {
+        const auto colour = material.child("color");
+        if (!colour) {
+            return std::nullopt;
+        }
+        const auto v = numbers(colour, "rgba", 4);
+        return std::array<double, 4>{v[0], v[1], v[2], v[3]};
+    }
+
+    [[nodiscard]] std::string name_of(pugi::xml_node node, bool taken) const {
+        const std::string name = node.attribute("name").value();
+        if (name.empty()) {
+            fail(node, fmt::format("a {} without a name", node.name()));
+        }
+        if (taken) {
+            fail(node, fmt::format("a second {} \"{}\"", node.name(), name));
+        }
+        return name;
+    }
+
+    void read_inertial(pugi::xml_node inertial, UrdfLink& link) const {
+        Quaternion q;
+        read_origin(inertial, link.centre_m, q);
+        link.mass_kg = numbers(inertial.child("mass"), "value", 1)[0];
+        const auto node = inertial.child("inertia");
+        const auto at = [&](const char* key) { return numbers(node, key, 1)[0]; };
+        Matrix3 own;
+        own << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"),
+            at("iyz"), at("izz");
+        link.inertia_kg_m2 = q.toRotationMatrix() * own * q.toRotationMatrix().transpose();
+        if (link.mass_kg == 0.0 && own.isZero()) {
+            return;  // a frame without a body
+        }
+        try {
+            vehicle::require_physical(fmt::format("link \"{}\"", link.name), link.mass_kg,
+                                      link.inertia_kg_m2);
+        } catch (const InputError& error) {
+            fail(inertial, error.what());
+        }
+    }
+
+    [[nodiscard]] fs::path mesh_path(pugi::xml_node mesh) const {
+        std::string uri = mesh.attribute("filename").value();
+        fs::path path;
+        if (constexpr std::string_view kPackage = "package://"; uri.rfind(kPackage, 0) == 0) {
+            uri.erase(0, kPackage.size());
+            const auto slash = uri.find('/');
+            const std::string package = uri.substr(0, slash);
+            fs::path folder = file_.parent_path().parent_path();
+            for (fs::path above = file_.parent_path(); above.has_relative_path();
+                 above = above.parent_path()) {
+                if (above.filename() == package) {
+                    folder = above;
+                    break;
+                }
+            }
+            path = folder / (slash == std::string::npos ? "" : uri.substr(slash + 1));
+        } else {
+            if (constexpr std::string_view kFile = "file://"; uri.rfind(kFile, 0) == 0) {
+                uri.erase(0, kFile.size());
+            }
+            path = file_.parent_path() / uri;
+        }
+        if (uri.empty() || !fs::is_regular_file(path)) {
+            fail(mesh,
+                 fmt::format("mesh \"{}\": there is no file {}", mesh.attribute("filename").value(),
+                             path.lexically_normal().string()));
+        }
+        return path.lexically_normal();
+    }
+
+    [[nodiscard]] UrdfShape read_shape(pugi::xml_node visual) const {
+        UrdfShape shape;
+        read_origin(visual, shape.p_m, shape.q);
+        const auto geometry = visual.child("geometry");
+        const auto one = [&](pugi::xml_node node, const char* key) {
+            return numbers(node, key, 1)[0];
+        };
+        if (const auto mesh = geometry.child("mesh")) {
+            shape.mesh = mesh_path(mesh);
+            shape.size = vector(mesh, "scale", Vector3::Ones());
+        } else if (const auto box = geometry.child("box")) {
+            const auto v = numbers(box, "size", 3);
+            shape.kind = UrdfShape::Kind::box;
+            shape.size = {v[0], v[1], v[2]};
+        } else if (const auto cylinder = geometry.child("cylinder")) {
+            shape.kind = UrdfShape::Kind::cylinder;
+            const double radius_m = one(cylinder, "radius");
+            shape.size = {radius_m, radius_m, one(cylinder, "length")};
+        } else if (const auto sphere = geometry.child("sphere")) {
+            shape.kind = UrdfShape::Kind::sphere;
+            shape.size = Vector3::Constant(one(sphere, "radius"));
+        } else {
+            fail(visual, "a visual without a mesh, box, cylinder or sphere");
+        }
+        const auto material = visual.child("material");
+        shape.rgba = colour_of(material);
+        const auto known = colours_.find(material.attribute("name").value());
+        if (!shape.rgba && known != colours_.end()) {
+            shape.rgba = known->second;
+        }
+        return shape;
+    }
+
+    void read_link(pugi::xml_node node) {
+        UrdfLink link;
+        link.name = name_of(node, robot_.link(node.attribute("name").value()) != nullptr);
+        link.place = place(node);
+        if (const auto inertial = node.child("inertial")) {
+            read_inertial(inertial, link);
+        }
+        for (const auto visual : node.children("visual")) {
+            link.visuals.push_back(read_shape(visual));
+        }
+        robot_.links.push_back(std::move(link));
+    }
+
+    void read_joint(pugi::xml_node node) {
+        UrdfJoint joint;
+        joint.name = name_of(node, robot_.joint(node.attribute("name").value()) != nullptr);
+        joint.place = place(node);
+        joint.type = node.attribute("type").value();
+        read_origin(node, joint.p_m, joint.q);
+        for (const auto& [key, to] :
+             {std::pair{"parent", &joint.parent}, std::pair{"child", &joint.child}}) {
+            *to = node.child(key).attribute("link").value();
+            if (robot_.link(*to) == nullptr) {
+                fail(node, fmt::format("joint \"{}\": its {} \"{}\" is no link of this file",
+                                       joint.name, key, *to));
+            }
+        }
+        for (const UrdfJoint& other : robot_.joints) {
+            if (other.child == joint.child) {
+                fail(node, fmt::format("link \"{}\" hangs on two joints, \"{}\" and \"{}\"",
+                                       joint.child, other.name, joint.name));
+            }
+        }
+        if (const auto axis = node.child("axis")) {
+            joint.axis = vector(axis, "xyz", Vector3::UnitX());
+            if (!(joint.axis.norm() > 0.0) && joint.type != "fixed") {
+                fail(axis, fmt::format("joint \"{}\": its axis has no direction", joint.name));
+            }
+            joint.axis.normalize();
+        }
+        robot_.joints.push_back(std::move(joint));
+    }
+
+    fs::path file_;
+    std::string text_;
+    std::map<std::string, std::array<double, 4>> colours_;
+    UrdfRobot robot_;
+};
+
+template <class Named>
+const Named* named(const std::vector<Named>& all, const std::string& wanted) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == wanted; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+const UrdfLink* UrdfRobot::link(const std::string& wanted) const {
+    return named(links, wanted);
+}
+
+const UrdfJoint* UrdfRobot::joint(const std::string& wanted) const {
+    return named(joints, wanted);
+}
+
+UrdfRobot read_urdf(const fs::path& file) {
+    return Reader(file).read();
+}
+
+}  // namespace limpet::models

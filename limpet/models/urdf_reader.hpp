@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "limpet/core/frames.hpp"
+
+/// A URDF as a CAD program's exporter writes it (sw_urdf_exporter and the like). Axes are the
+/// file's own: x forward, y left, z up.
+namespace limpet::models {
+
+struct UrdfShape {
+    enum class Kind {
+        box,       ///< size: edge lengths
+        cylinder,  ///< size: radius, radius, length along z
+        sphere,    ///< size: radius three times
+        mesh,      ///< size: scale
+    };
+    Kind kind = Kind::mesh;
+    Vector3 p_m = Vector3::Zero();  ///< in the link's frame
+    Quaternion q = Quaternion::Identity();
+    Vector3 size = Vector3::Ones();
+    std::filesystem::path mesh;  ///< absolute
+    std::optional<std::array<double, 4>> rgba;
+};
+
+struct UrdfLink {
+    std::string name;
+    std::string place;  ///< "vehicle.urdf:12"
+    double mass_kg = 0.0;
+    Vector3 centre_m = Vector3::Zero();
+    Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the centre, axes of the link
+    std::vector<UrdfShape> visuals;
+};
+
+struct UrdfJoint {
+    std::string name;
+    std::string place;
+    std::string type;
+    std::string parent;
+    std::string child;
+    Vector3 p_m = Vector3::Zero();  ///< of the child in the parent
+    Quaternion q = Quaternion::Identity();
+    Vector3 axis = Vector3::UnitX();  ///< in the child's frame
+};
+
+struct UrdfRobot {
+    std::string file;  ///< as in messages
+    std::string name;
+    std::vector<UrdfLink> links;
+    std::vector<UrdfJoint> joints;
+
+    [[nodiscard]] const UrdfLink* link(const std::string& wanted) const;
+    [[nodiscard]] const UrdfJoint* joint(const std::string& wanted) const;
+};
+
+/// Reads links, joints and visuals. `package://NAME/...` is looked up in the folder NAME that the
+/// file lies in, or in the folder above the file's.
+/// @throws InputError "file:line: what": syntax, a number, a name twice, a joint between links that
+///         are not there, no tree, a mass or an inertia that no body has, a mesh that is missing
+[[nodiscard]] UrdfRobot read_urdf(const std::filesystem::path& file);
+
+}  // namespace limpet::models

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/models/drawing.hpp"
+#include "limpet/models/links.hpp"
+#include "limpet/models/model_text.hpp"
+#include "limpet/models/model_writer.hpp"
+
+namespace limpet::models {
+
+namespace {
+
+using namespace model_text;
+
+void write_origin(pugi::xml_node parent, const Vector3& p_m,
+                  const Quaternion& q = Quaternion::Identity()) {
+    add(parent, "origin", "xyz", text(flu(p_m)), "rpy", text_rpy(flu(q)));
+}
+
+void write_inertial(pugi::xml_node link, const Link& spec) {
+    auto inertial = add(link, "inertial");
+    write_origin(inertial, spec.inertia.centre_B_m - spec.p_BF_m);
+    add(inertial, "mass", "value", text(spec.inertia.mass_kg));
+    const Matrix3 own = flu(spec.inertia.inertia_kg_m2);
+    add(inertial, "inertia", "ixx", text(own(0, 0)), "iyy", text(own(1, 1)), "izz", text(own(2, 2)),
+        "ixy", text(own(0, 1)), "ixz", text(own(0, 2)), "iyz", text(own(1, 2)));
+}
+
+void write_geometry(pugi::xml_node parent, const Part& part) {
+    write_origin(parent, part.p_F_m, part.q_F);
+    auto geometry = add(parent, "geometry");
+    switch (part.shape) {
+        case Shape::box: add(geometry, "box", "size", text(part.size_m)); break;
+        case Shape::cylinder:
+            add(geometry, "cylinder", "radius", text(part.size_m.x()), "length",
+                text(part.size_m.z()));
+            break;
+        case Shape::sphere: add(geometry, "sphere", "radius", text(part.size_m.x())); break;
+        case Shape::mesh:
+            add(geometry, "mesh", "filename", "file://" + part.mesh_file, "scale",
+                text(part.size_m));
+            break;
+    }
+}
+
+void write_visual(pugi::xml_node link, const Part& part) {
+    auto visual = add(link, "visual", "name", part.name);
+    write_geometry(visual, part);
+    if (part.rgba) {
+        const auto& c = *part.rgba;
+        add(add(visual, "material", "name", part.name), "color", "rgba",
+            text(c[0], c[1], c[2], c[3]));
+    } else {
+        add(visual, "material", "name", std::string(look(part.paint).name));
+    }
+}
+
+void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const Link& link,
+                 const Vector3& p_parent_B_m) {
+    // The format wants limits of effort and speed; these bind nothing that this vehicle does.
+    constexpr double kUnlimited = 1e4;
+    const Joint& spec = *link.joint;
+    auto joint = add(robot, "joint", "name", called(airframe, spec.name), "type",
+                     spec.kind == Joint::Kind::prismatic ? "prismatic" : "revolute");
+    add(joint, "parent", "link", called(airframe, link.parent));
+    add(joint, "child", "link", called(airframe, link.name));
+    write_origin(joint, link.p_BF_m - p_parent_B_m);
+    add(joint, "axis", "xyz", text(flu(spec.axis)));
+    add(joint, "limit", "lower", text(spec.lower), "upper", text(spec.upper), "effort",
+        text(kUnlimited), "velocity", text(kUnlimited));
+    add(joint, "dynamics", "damping", text(spec.damping), "friction", "0");
+}
+
+}  // namespace
+
+std::string write_urdf(const vehicle::Airframe& airframe) {
+    pugi::xml_document document;
+    auto robot = add(document, "robot", "name", airframe.name);
+    for (const Paint paint : kPaints) {
+        const auto& c = look(paint).rgba;
+        auto material = add(robot, "material", "name", std::string(look(paint).name));
+        add(material, "color", "rgba", text(c[0], c[1], c[2], c[3]));
+    }
+    const auto parts = draw(airframe);
+    Vector3 p_parent_B_m = Vector3::Zero();
+    for (const Link& spec : make_links(airframe)) {
+        auto link = add(robot, "link", "name", called(airframe, spec.name));
+        write_inertial(link, spec);
+        for (const Part& part : parts) {
+            if (part.body == spec.name) {
+                write_visual(link, part);
+            }
+        }
+        if (spec.name == "base") {
+            for (const Part& tip : leg_tips(airframe)) {
+                write_visual(link, tip);
+                write_geometry(add(link, "collision", "name", tip.name), tip);
+            }
+        }
+        if (spec.joint) {
+            write_joint(robot, airframe, spec, p_parent_B_m);
+        }
+        p_parent_B_m = spec.p_BF_m;
+    }
+    return to_string(document);
+}
+
+}  // namespace limpet::models

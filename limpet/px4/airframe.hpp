@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "limpet/autopilot/allocation.hpp"
+#include "limpet/autopilot/parameters.hpp"
+#include "limpet/px4/facts.hpp"
+
+namespace limpet::px4 {
+
+/// Where the PX4 runs that is to be set up.
+enum class Px4Target {
+    sitl,    ///< on this machine, in lockstep with the simulator
+    hitl,    ///< on a board, the simulator on its USB port
+    flight,  ///< on the vehicle itself: its checks, its remote control and its outputs stay
+};
+
+/// Where its position comes from.
+enum class Px4Pose {
+    motion_capture,
+    gps
+};
+
+struct Px4Airframe {
+    std::string name;  ///< of the vehicle; other characters than a-z, A-Z, 0-9, _, - become _
+    int id = 22001;    ///< SYS_AUTOSTART, 22000..22999: PX4 keeps those for models of one's own
+    std::array<autopilot::RotorGeometry, kRotors> rotors;
+    double battery_cells = 6.0;
+    double battery_capacity_Ah = 4.0;
+    bool perches = true;  ///< has a cup
+    autopilot::AutopilotParameters autopilot;
+    Px4Target target = Px4Target::sitl;
+    Px4Pose pose = Px4Pose::motion_capture;
+};
+
+/// One parameter as this vehicle needs it.
+struct Px4Setting {
+    std::string name;
+    Px4Type type = Px4Type::real32;
+    double value = 0.0;
+    std::string reason;
+    bool fixed = false;  ///< `param set`, not `set-default`: a user's own value must not win
+};
+
+/// What PX4 v1.15 must be told, in the order in which a person reads it. Of the built-in
+/// autopilot's parameters only control's (MPC_, MC_, IMU_) go over, where they differ from PX4's
+/// defaults: its estimator has EKF2's names, but is another filter.
+/// @throws InputError naming a parameter that is out of PX4's range, and an id that is not
+///         22000..22999
+[[nodiscard]] std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe);
+
+/// A parameter file for QGroundControl, and for load_px4_params: tab-separated lines
+/// `vehicle component name value type`; each has its reason in a comment above it.
+[[nodiscard]] std::string px4_params_text(const Px4Airframe& airframe,
+                                          const std::vector<Px4Setting>& settings);
+
+/// The start-up script of PX4 that sets the same.
+[[nodiscard]] std::string px4_airframe_script(const Px4Airframe& airframe,
+                                              const std::vector<Px4Setting>& settings);
+
+/// `22001_limpet_NAME`: PX4 finds it by the number, by PX4_SIM_MODEL=limpet_NAME too.
+[[nodiscard]] std::string px4_airframe_file_name(const Px4Airframe& airframe);
+
+/// Where the script belongs in PX4's source tree.
+[[nodiscard]] std::string px4_airframe_folder(Px4Target target);
+
+}  // namespace limpet::px4

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/px4/autopilot.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace limpet::px4 {
+
+using mavlink::HilStatus;
+using mavlink::OffboardState;
+
+Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Options options)
+    : hil_link_(hil),
+      offboard_link_(offboard),
+      options_(std::move(options)),
+      hil_(hil, options_.hil),
+      offboard_(options_.offboard) {}
+
+void Px4Autopilot::hear(const mavlink::Frame& frame) {
+    offboard_.hear(frame, clock_s());
+    if (const auto told = mavlink::decode<mavlink::Odometry>(frame)) {
+        told_usec_ = told->time_usec;
+    }
+    if (offboard_.report().texts != texts_) {
+        texts_ = offboard_.report().texts;
+        if (options_.on_text) {
+            options_.on_text(offboard_.report().text);
+        }
+    }
+}
+
+/// A fresh estimate for guidance costs system calls: at twice its rate, not at the IMU's. On a busy
+/// machine PX4's telemetry may lag behind its own lockstep; then it is given a moment, so that
+/// guidance never flies on an estimate that is old by accident.
+void Px4Autopilot::listen() {
+    constexpr double kInterval_s = 0.01;
+    constexpr double kLag_s = 0.05;
+    constexpr std::chrono::milliseconds kMoment{50};
+    if (&offboard_link_ == &hil_link_ || clock_s() - listened_s_ < kInterval_s) {
+        return;
+    }
+    listened_s_ = clock_s();
+    for (int k = 0; k < mavlink::kFramesAtOnce; ++k) {
+        const auto frame = offboard_link_.receive();
+        if (!frame) {
+            break;
+        }
+        hear(*frame);
+    }
+    const bool follows = options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
+    if (follows && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+        const auto begin = std::chrono::steady_clock::now();
+        if (const auto frame = offboard_link_.receive(kMoment)) {
+            hear(*frame);
+        }
+        listening_s_ +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+}
+
+Estimate Px4Autopilot::estimate(double time_s) {
+    listen();
+    Estimate estimate = offboard_.estimate(clock_s());
+    estimate.time_s = time_s;
+    return estimate;
+}
+
+RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint, double) {
+    clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
+    if (options_.flies) {
+        offboard_.update(offboard_link_, setpoint, clock_s());
+    }
+    status_ = hil_.exchange(readings, clock_usec_, [this](const mavlink::Frame& frame) {
+        // Until the clocks are in step, when something is heard is a matter of the machine: its
+        // greetings are left alone.
+        if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
+            hear(frame);
+        }
+    });
+    switch (status_) {
+        case mavlink::HilStatus::waiting:
+        case mavlink::HilStatus::answered: break;
+        case mavlink::HilStatus::silent:
+            failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
+                                                : "the autopilot has never answered HIL_SENSOR";
+            break;
+        case mavlink::HilStatus::gone: failure_ = "the autopilot closed the link"; break;
+        case mavlink::HilStatus::interrupted: break;  // who set the stop ends the flight
+    }
+    if (options_.flies && !failure_) {
+        if (offboard_.state(clock_s()) == mavlink::OffboardState::taken_away) {
+            failure_ = "the autopilot left the mode OFFBOARD";
+        }
+    }
+    return hil_.command();
+}
+
+std::string Px4Autopilot::obstacle() const {
+    if (failure_) {
+        return std::string(*failure_);
+    }
+    if (status_ == mavlink::HilStatus::waiting) {
+        return "the autopilot boots: it has not answered HIL_SENSOR yet";
+    }
+    return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
+}
+
+}  // namespace limpet::px4

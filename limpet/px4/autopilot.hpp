@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "limpet/autopilot/external.hpp"
+#include "limpet/mavlink/hil.hpp"
+#include "limpet/mavlink/offboard.hpp"
+
+namespace limpet::px4 {
+
+struct Px4Options {
+    mavlink::HilOptions hil;
+    mavlink::OffboardOptions offboard;
+    double control_rate_Hz = 250.0;  ///< of HIL_SENSOR
+    /// Guidance is ours and flies it by offboard set-points; false: it is somebody else's.
+    bool flies = true;
+    std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
+};
+
+/// PX4, in simulation or on a board, in the place of the built-in autopilot: sensors and motors
+/// over HIL, set-points and estimate over offboard control. It has a clock of its own, which starts
+/// with it and goes on when a flight begins.
+class Px4Autopilot final : public autopilot::ExternalAutopilot {
+public:
+    /// @param hil       outlives it
+    /// @param offboard  outlives it; the same link as `hil` when all goes over one wire
+    Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Options options);
+
+    [[nodiscard]] Estimate estimate(double time_s) override;
+    [[nodiscard]] RotorCommand control(const Readings& readings, const Setpoint& setpoint,
+                                       double time_s) override;
+    [[nodiscard]] std::optional<std::string_view> failure() const override { return failure_; }
+    [[nodiscard]] double waited_s() const override { return hil_.count().waited_s + listening_s_; }
+    [[nodiscard]] std::string obstacle() const override;
+
+    [[nodiscard]] const mavlink::HilCount& count() const { return hil_.count(); }
+
+private:
+    void hear(const mavlink::Frame& frame);
+    void listen();
+    [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
+
+    mavlink::Link& hil_link_;
+    mavlink::Link& offboard_link_;
+    Px4Options options_;
+    mavlink::Hil hil_;
+    mavlink::Offboard offboard_;
+    mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
+    std::uint64_t clock_usec_ = 0;
+    double listened_s_ = -1.0;
+    double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time
+    std::uint64_t told_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
+    std::uint64_t texts_ = 0;
+    std::optional<std::string_view> failure_;
+};
+
+}  // namespace limpet::px4

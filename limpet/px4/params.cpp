@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/px4/params.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::px4 {
+namespace {
+
+constexpr const char* kAutopilotComponent = "1";
+
+struct Line {
+    std::string component;
+    std::string name;
+    std::string value;
+};
+
+/// @return nullopt when the line does not have its five columns
+std::optional<Line> split(const std::string& text) {
+    std::istringstream words(text);
+    std::string vehicle;
+    std::string type;
+    std::string excess;
+    Line line;
+    if (!(words >> vehicle >> line.component >> line.name >> line.value >> type) ||
+        words >> excess) {
+        return std::nullopt;
+    }
+    return line;
+}
+
+/// std::from_chars for doubles came with GCC 11; a stream of the classic locale reads the same.
+std::optional<double> number(const std::string& text) {
+    std::istringstream stream(text);
+    stream.imbue(std::locale::classic());
+    double value = 0.0;
+    if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+void set(const Parameter<autopilot::AutopilotParameters>& row, const Line& line,
+         const std::string& where, autopilot::AutopilotParameters& parameters) {
+    const std::optional<double> value = number(line.value);
+    if (!value) {
+        throw InputError(
+            fmt::format("{}: {} = '{}' is not a number", where, line.name, line.value));
+    }
+    if (*value < row.minimum || *value > row.maximum) {
+        throw InputError(fmt::format("{}: {} = {} is outside of {} to {} {}", where, line.name,
+                                     *value, row.minimum, row.maximum, row.unit));
+    }
+    const ParameterValue place = row.of(parameters);
+    if (place.is_whole() && std::trunc(*value) != *value) {
+        throw InputError(
+            fmt::format("{}: {} = {} is not a whole number", where, line.name, line.value));
+    }
+    place.set(*value);
+}
+
+}  // namespace
+
+std::vector<std::string> load_px4_params(const std::string& path,
+                                         autopilot::AutopilotParameters& parameters) {
+    std::ifstream file(path);
+    if (!file) {
+        throw InputError(fmt::format("{}: cannot be read", path));
+    }
+    autopilot::AutopilotParameters loaded = parameters;
+    std::vector<std::string> ignored;
+    std::string text;
+    for (int line_number = 1; std::getline(file, text); ++line_number) {
+        const std::size_t first = text.find_first_not_of(" \t\r");
+        if (first == std::string::npos || text[first] == '#') {
+            continue;
+        }
+        const std::string where = fmt::format("{}:{}", path, line_number);
+        const std::optional<Line> line = split(text);
+        if (!line) {
+            throw InputError(fmt::format(
+                "{}: expected five columns: vehicle, component, name, value, type", where));
+        }
+        const auto& table = autopilot::autopilot_table();
+        const auto row = std::find_if(table.begin(), table.end(), [&line](const auto& candidate) {
+            return candidate.name == line->name;
+        });
+        if (row == table.end() || line->component != kAutopilotComponent) {
+            ignored.push_back(line->name);
+            continue;
+        }
+        set(*row, *line, where, loaded);
+    }
+    if (file.bad()) {  // a folder opens, but does not read
+        throw InputError(fmt::format("{}: cannot be read", path));
+    }
+    parameters = loaded;
+    return ignored;
+}
+
+}  // namespace limpet::px4

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "limpet/mavlink/link.hpp"
+#include "limpet/px4/stand_in_flight.hpp"
+#include "limpet/px4/stand_in_streams.hpp"
+
+namespace limpet::px4 {
+
+struct StandInOptions {
+    /// tcp: PX4 in simulation, which connects to the simulator, in lockstep. serial: a board in
+    /// HIL, all over the one wire, in real time.
+    wire::TransportAddress hil = {.medium = wire::Medium::tcp, .port = 4560};
+    /// The onboard link of a simulation; port 0: the kernel chooses.
+    wire::TransportAddress onboard = {.medium = wire::Medium::udp, .port = 14580};
+    /// Whom it speaks to until somebody speaks to it.
+    wire::TransportAddress onboard_peer = {.medium = wire::Medium::udp, .port = 14540};
+    std::uint8_t system = 1;
+    /// HIL_SENSORs that go unanswered while it boots. Source: px4.md, 22 to 34
+    int boot_sensors = 25;
+    /// Its telemetry begins so many later, in simulated time well after the lockstep: who sees when
+    /// must not depend on the machine. Source: assumed
+    int quiet_sensors = 100;
+    StandInParameters parameters;
+};
+
+struct StandInCount {
+    std::uint64_t sensors = 0;  ///< HIL_SENSORs used
+    std::uint64_t refused = 0;  ///< HIL_SENSORs whose time did not rise
+    std::uint64_t answers = 0;  ///< HIL_ACTUATOR_CONTROLS
+    std::uint64_t boots = 0;    ///< simulators that it has served
+};
+
+/// The built-in autopilot behind PX4's wire, with the manners of PX4 v1.15 (px4.md), so that what
+/// flies a PX4 can be tried and tested without one.
+///
+///                      TCP 4560 (connects)             UDP 14580 -> 14540
+///   simulator  ◄───── HIL_ACTUATOR_CONTROLS ── stand-in ── telemetry ─────► companion
+///              ─HIL_SENSOR, HIL_GPS, ODOMETRY─►         ◄── set-points, commands ──
+///
+/// At each HIL_SENSOR it first hears all that has come over UDP, then computes, sends telemetry and
+/// answers last: in lockstep everything happens in one order, and a flight gives the same bytes
+/// again. All decisions are of simulated time. A simulator that comes anew finds it freshly
+/// booted, its parameters kept; PX4 itself would have to be started again.
+class StandIn {
+public:
+    /// @throws InputError when an address cannot be used
+    StandIn(autopilot::AutopilotModel model, const StandInOptions& options);
+
+    /// Serves what comes within `slice` of wall time.
+    /// @return whether a simulator is there
+    bool serve(std::chrono::nanoseconds slice);
+
+    /// Where its onboard link is; nothing over a serial wire.
+    [[nodiscard]] std::optional<wire::TransportAddress> onboard_address() const;
+    [[nodiscard]] const mavlink::Link& hil() const { return hil_; }
+    [[nodiscard]] const StandInFlight& flight() const { return flight_; }
+    [[nodiscard]] const StandInCount& count() const { return count_; }
+
+private:
+    [[nodiscard]] bool lockstep() const { return onboard_.has_value(); }
+    [[nodiscard]] WireParameters parameters() {
+        return {.commander = options_.parameters, .autopilot = model_.parameters};
+    }
+    void boot();
+    void hear_simulator(const mavlink::Frame& frame);
+    void hear_sensor(const mavlink::HilSensor& sensor);
+    void hear_companion(const mavlink::Frame& frame, mavlink::Link& link);
+    void hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
+                      mavlink::Link& link);
+    void hear_parameters(const mavlink::Frame& frame, mavlink::Link& link);
+    void hear_setting(const mavlink::ParamSet& set, mavlink::Link& link);
+    void tell(const WireParameter& parameter, mavlink::Link& link);
+    [[nodiscard]] bool for_us(std::uint8_t system, std::uint8_t component) const;
+
+    StandInOptions options_;
+    autopilot::AutopilotModel model_;
+    mavlink::Link hil_;
+    std::optional<mavlink::Link> onboard_;
+    StandInFlight flight_;
+    TelemetryStreams streams_;
+    bool ground_station_ = false;  ///< the peer calls itself one
+    int sensors_ = 0;              ///< since it booted
+    std::uint64_t generation_ = 0;
+    StandInCount count_;
+};
+
+}  // namespace limpet::px4

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "limpet/autopilot/builtin.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+#include "limpet/mavlink/messages.hpp"
+#include "limpet/mavlink/translate.hpp"
+#include "limpet/px4/stand_in_manners.hpp"
+
+/// The stand-in flight controller without its wires: messages in, motors out. The built-in
+/// autopilot flies; what may be flown and when is a matter of manners. Its clock is HIL_SENSOR's.
+namespace limpet::px4 {
+
+struct StandInFlight {
+    double time_s = 0.0;  ///< of the last HIL_SENSOR; 0: none yet
+    Readings readings;
+    bool aligned = false;  ///< the estimator has been started
+    autopilot::AutopilotState autopilot;
+    Manners manners;
+    Setpoint heard;  ///< the last set-point
+    double heard_s = -std::numeric_limits<double>::infinity();
+    PositionSetpoint hold;    ///< where to be in the mode hold
+    bool has_origin = false;  ///< latitude and longitude of W are known
+    double thrust = 0.0;      ///< collective asked for in the last step
+    RotorCommand command;
+
+    [[nodiscard]] bool valid() const { return aligned && autopilot.estimate.valid; }
+};
+
+/// A step: clock and IMU go on, the estimator runs, what is due happens, the vehicle is flown.
+/// @return whether it was one: the time rises
+bool step(const autopilot::AutopilotModel& model, const StandInParameters& parameters,
+          StandInFlight& flight, const mavlink::HilSensor& message);
+
+void hear(StandInFlight& flight, const mavlink::HilGps& message);
+/// A pose for the estimator; others than EKF2 uses are passed over. A stamp that is not of this
+/// clock, or older than half a second, counts as now: so does PX4 until its clock is in step.
+void hear(StandInFlight& flight, const mavlink::Odometry& message);
+void hear(StandInFlight& flight, const mavlink::SetPositionTargetLocalNed& message);
+void hear(StandInFlight& flight, const mavlink::SetAttitudeTarget& message);
+/// Commands of flight: mode and arming.
+/// @return nothing when it is another
+[[nodiscard]] std::optional<CommandResult> obey(const StandInParameters& parameters,
+                                                StandInFlight& flight,
+                                                const mavlink::CommandLong& message);
+
+}  // namespace limpet::px4

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "limpet/px4/stand_in_parameters.hpp"
+
+/// PX4's commander and land detector as far as perching meets them: who may arm, what is in flight,
+/// what disarms by itself, when offboard control is over. Measured with PX4 v1.15.1, px4.md; only
+/// simulated time counts.
+///
+///                 arm                     thrust
+///    disarmed ───────────► waiting ───────────────────► flying ◄────────┐
+///      ▲  ▲                   │                            │ no thrust  │ thrust
+///      │  │ no thrust for     │                            │ for 1.05 s │
+///      │  └─COM_DISARM_PRFLT──┘                            ▼            │
+///      └───────────COM_DISARM_LAND + 0.45 s───────────── landed ────────┘
+///
+/// By command: to disarmed from waiting and landed; by force from everywhere.
+namespace limpet::px4 {
+
+enum class ArmingState {
+    disarmed,
+    waiting,  ///< armed, no thrust yet
+    flying,
+    landed,  ///< armed, no thrust any more; hanging on a wall looks the same
+};
+
+enum class FlightMode {
+    hold,  ///< PX4's AUTO.LOITER
+    offboard,
+};
+
+/// MAV_RESULT
+enum class CommandResult : std::uint8_t {
+    accepted = 0,
+    temporarily_rejected = 1,
+    denied = 2,
+    unsupported = 3,
+    failed = 4,
+};
+
+/// What is said aloud in a step, for STATUSTEXT; literals.
+struct SpokenTexts {
+    static constexpr std::size_t kMost = 8;
+    std::array<std::string_view, kMost> texts;
+    std::size_t count = 0;
+
+    void say(std::string_view text) {
+        if (count < kMost) {
+            texts[count++] = text;
+        }
+    }
+};
+
+/// What the rules look at.
+struct Situation {
+    double time_s = 0.0;
+    double thrust = 0.0;       ///< collective asked for, 0..1
+    double set_point_s = 0.0;  ///< when the last set-point came
+    double roll_rad = 0.0;
+    double pitch_rad = 0.0;
+    bool estimate_valid = false;
+};
+
+struct Manners {
+    ArmingState state = ArmingState::disarmed;
+    double since_s = 0.0;   ///< in this state
+    double thrust_s = 0.0;  ///< when there was thrust last
+    FlightMode mode = FlightMode::hold;
+    SpokenTexts texts;  ///< to be sent and cleared
+
+    [[nodiscard]] bool armed() const { return state != ArmingState::disarmed; }
+    [[nodiscard]] bool in_air() const { return state == ArmingState::flying; }
+};
+
+/// MAV_CMD_COMPONENT_ARM_DISARM. Being tilted beyond FD_FAIL_* forbids arming even by force.
+[[nodiscard]] CommandResult arm(const StandInParameters& parameters, Manners& manners,
+                                const Situation& now, bool by_force);
+[[nodiscard]] CommandResult disarm(Manners& manners, const Situation& now, bool by_force);
+/// Offboard needs a stream of set-points.
+[[nodiscard]] CommandResult set_mode(const StandInParameters& parameters, Manners& manners,
+                                     const Situation& now, FlightMode mode);
+/// What happens by itself; at each step.
+void mind(const StandInParameters& parameters, Manners& manners, const Situation& now);
+
+}  // namespace limpet::px4

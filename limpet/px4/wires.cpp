@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/px4/wires.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
+
+namespace limpet::px4 {
+namespace {
+
+/// A ground station's address on the network, as QGroundControl has it: PX4 tells it texts.
+constexpr std::uint8_t kSystem = 255;
+
+std::unique_ptr<mavlink::Link> open(std::unique_ptr<wire::Transport> wire) {
+    return std::make_unique<mavlink::Link>(
+        std::move(wire),
+        mavlink::Sender{.system = kSystem, .component = mavlink::kCompanionComponent});
+}
+
+void wait_for_peer(mavlink::Link& link, double wait_s, const Px4WireWatch& watch,
+                   const std::atomic<bool>* stop) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    while (!link.wait_for_peer(std::chrono::milliseconds(100))) {
+        const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
+        if (watch.on_wait) {
+            watch.on_wait(waited_s);
+        }
+        if (stop != nullptr && *stop) {
+            throw Interrupted("interrupted while waiting for PX4");
+        }
+        if (waited_s > wait_s) {
+            throw InputError(fmt::format("no PX4 came to {} within {:g} s ({})",
+                                         link.transport().describe(), wait_s, watch.wait_key));
+        }
+    }
+}
+
+}  // namespace
+
+Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool flies,
+                   const Px4WireWatch& watch, const std::atomic<bool>* stop) {
+    if (!addresses.serial() && flies) {
+        offboard_ = open(open_transport(addresses.offboard, wire::Role::listen));
+    }
+    auto wire = open_transport(addresses.hil, wire::Role::listen);
+    hil_ = open(watch.tap ? watch.tap(std::move(wire)) : std::move(wire));
+    if (watch.on_open) {
+        watch.on_open(hil_->transport().describe());
+    }
+    wait_for_peer(*hil_, addresses.wait_s, watch, stop);
+    Px4Options px4;
+    px4.hil.timing =
+        addresses.serial() ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
+    px4.hil.motion_capture = flies;
+    px4.hil.stop = stop;
+    px4.control_rate_Hz = control_rate_Hz;
+    px4.flies = flies;
+    px4.on_text = watch.on_text;
+    autopilot_ =
+        std::make_unique<Px4Autopilot>(*hil_, offboard_ ? *offboard_ : *hil_, std::move(px4));
+}
+
+}  // namespace limpet::px4

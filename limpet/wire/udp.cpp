@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/wire/udp.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/multicast.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <chrono>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/wire/readiness.hpp"
+#include "limpet/wire/socket_errors.hpp"
+#include "limpet/wire/stream_transfer.hpp"
+
+namespace limpet::wire {
+namespace {
+
+using boost::asio::ip::address_v4;
+using boost::asio::ip::udp;
+using boost::system::error_code;
+using std::chrono::nanoseconds;
+namespace multicast = boost::asio::ip::multicast;
+
+/// So long after its last word a peer keeps its place, and others are not heard. Source: assumed,
+/// PX4's slowest stream is its heartbeat at 1 Hz
+constexpr std::chrono::seconds kFaithful{2};
+/// Datagrams of others, dropped after the time is up: a flood must not stop who listens.
+constexpr int kMostStrangers = 256;
+constexpr std::size_t kLongestDatagram = 65507;  // 65535 less the headers of IPv4 and UDP
+
+class UdpTransport final : public Transport {
+public:
+    UdpTransport(const TransportAddress& address, Role role)
+        : address_(address),
+          role_(role),
+          there_(boost::asio::ip::make_address_v4(address.host), address.port),
+          io_(1),
+          socket_(io_, udp::v4()) {
+        close_on_exec(socket_.native_handle());
+        socket_.non_blocking(true);
+        error_code error;
+        if (address.medium == Medium::udp_broadcast) {
+            socket_.set_option(boost::asio::socket_base::broadcast(true));
+        }
+        if (role == Role::listen) {
+            listen(error);
+        } else {
+            connect(error);
+        }
+        if (error) {
+            refuse_address(address_, error);
+        }
+    }
+
+    /// Of a listening end: whom it speaks to at first; the first one that speaks is kept.
+    void call(const TransportAddress& first) {
+        peer_ = udp::endpoint(boost::asio::ip::make_address_v4(first.host), first.port);
+        peer_known_ = true;
+        keeps_first_ = true;
+    }
+
+    Transfer send(std::span<const std::byte> bytes, nanoseconds timeout) override {
+        require(bytes.size() <= kLongestDatagram, "a datagram has at most 65507 bytes");
+        if (closed_) {
+            return {TransferStatus::closed, 0};
+        }
+        if (!peer_known_) {
+            ++statistics_.void_sends;
+            return {TransferStatus::no_peer, 0};
+        }
+        const Deadline deadline(timeout);
+        for (;;) {
+            const error_code error = send_once(bytes);
+            if (!error) {
+                statistics_.bytes_sent += bytes.size();
+                ++statistics_.sends;
+                return {TransferStatus::done, bytes.size()};
+            }
+            if (!try_again(error)) {  // nobody has the port, the cable is out: it may come back
+                statistics_.last_error = error.value();
+                ++statistics_.void_sends;
+                return {TransferStatus::no_peer, 0};
+            }
+            if (error != boost::asio::error::interrupted && !wait(POLLOUT, deadline)) {
+                ++statistics_.cut_sends;
+                return {TransferStatus::timed_out, 0};
+            }
+        }
+    }
+
+    Transfer receive(std::span<std::byte> into, nanoseconds timeout) override {
+        require(!into.empty(), "receive is given room");
+        if (closed_) {
+            return {TransferStatus::closed, 0};
+        }
+        const Deadline deadline(timeout);
+        int strangers = 0;
+        do {
+            const std::size_t length = take(into, MSG_TRUNC);
+            if (length == 0) {  // nothing there yet, an empty datagram, or a stranger's
+                if (++strangers >= kMostStrangers && deadline.passed()) {
+                    break;
+                }
+                continue;
+            }
+            const std::size_t bytes = std::min(length, into.size());
+            statistics_.datagrams_truncated += length > bytes ? 1 : 0;
+            statistics_.bytes_received += bytes;
+            ++statistics_.receives;
+            return {TransferStatus::done, bytes};
+        } while (wait(POLLIN, deadline));
+        return {TransferStatus::timed_out, 0};
+    }
+
+    bool wait_for_peer(nanoseconds timeout) override {
+        const Deadline deadline(timeout);
+        while (!closed_ && !peer_known_ && wait(POLLIN, deadline)) {
+            std::byte one{};
+            if (take({&one, 1}, MSG_PEEK | MSG_TRUNC) == 0) {
+                (void)take({&one, 1}, 0);  // an empty datagram: nobody's message
+            }
+        }
+        return !closed_ && peer_known_;
+    }
+
+    void close() override {
+        closed_ = true;
+        error_code ignored;
+        socket_.close(ignored);
+    }
+
+    TransportAddress address() const override { return address_; }
+
+    std::string describe() const override {
+        const std::string peer =
+            closed_        ? "closed"
+            : !peer_known_ ? "nobody there"
+                           : fmt::format("peer {}:{}", peer_.address().to_string(), peer_.port());
+        return fmt::format("{} ({}, {})", to_text(address_),
+                           role_ == Role::listen ? "listens" : "speaks", peer);
+    }
+
+    const TransportStatistics& statistics() const override { return statistics_; }
+
+private:
+    /// Of a listening end on a single host: commands must not go to whoever sends rubbish.
+    bool one_at_a_time() const { return role_ == Role::listen && address_.medium == Medium::udp; }
+    bool peer_speaks() const { return std::chrono::steady_clock::now() - spoke_ < kFaithful; }
+    bool group() const { return address_.medium == Medium::udp_multicast; }
+
+    address_v4 interface() const {
+        return address_.interface.empty() ? address_v4::any()
+                                          : boost::asio::ip::make_address_v4(address_.interface);
+    }
+
+    void listen(error_code& error) {
+        if (group()) {  // Motive's clients on one machine share the port
+            socket_.set_option(udp::socket::reuse_address(true));
+        }
+        // A group's own address, not any: no other traffic to the port comes in.
+        socket_.bind(there_, error);
+        if (!error && group()) {
+            socket_.set_option(multicast::join_group(there_.address().to_v4(), interface()), error);
+        }
+        if (!error) {
+            address_.port = socket_.local_endpoint().port();
+        }
+    }
+
+    void connect(error_code& error) {
+        peer_ = there_;
+        peer_known_ = true;
+        if (address_.medium == Medium::udp) {
+            socket_.connect(there_, error);  // the kernel drops what others send
+            if (error.value() == EACCES) {
+                throw InputError(
+                    fmt::format("address '{}': {} is a broadcast; ask for it with udp-broadcast:",
+                                to_text(address_), address_.host));
+            }
+            connected_ = true;
+            return;
+        }
+        if (group() && !address_.interface.empty()) {
+            socket_.set_option(multicast::outbound_interface(interface()), error);
+        }
+        if (!error) {
+            socket_.bind(udp::endpoint(group() ? interface() : address_v4::any(), 0), error);
+        }
+    }
+
+    error_code send_once(std::span<const std::byte> bytes) {
+        error_code error;
+        const auto buffer = boost::asio::buffer(bytes.data(), bytes.size());
+        if (connected_) {
+            socket_.send(buffer, 0, error);
+        } else {
+            socket_.send_to(buffer, peer_, 0, error);
+        }
+        return error;
+    }
+
+    /// @return length of the datagram, which may be longer than `into`; 0 if there was none
+    std::size_t take(std::span<std::byte> into, int flags) {
+        udp::endpoint from;
+        error_code error;
+        const std::size_t length =
+            socket_.receive_from(boost::asio::buffer(into.data(), into.size()), from, flags, error);
+        if (error) {
+            if (!try_again(error)) {  // "refused" by the host of an earlier datagram
+                statistics_.last_error = error.value();
+            }
+            return 0;
+        }
+        if (heard_ && from != peer_ && (keeps_first_ || (one_at_a_time() && peer_speaks()))) {
+            if ((flags & MSG_PEEK) == 0) {
+                ++statistics_.peers_refused;
+            }
+            return 0;
+        }
+        if (length > 0 && one_at_a_time()) {
+            spoke_ = std::chrono::steady_clock::now();
+        }
+        if (length > 0 && (!heard_ || from != peer_)) {
+            ++statistics_.peers;
+            heard_ = true;
+            peer_ = from;
+            peer_known_ = true;
+        }
+        return length;
+    }
+
+    bool wait(short events, const Deadline& deadline) {
+        pollfd fd{socket_.native_handle(), events, 0};
+        return wait_ready({&fd, 1}, deadline);
+    }
+
+    TransportAddress address_;
+    Role role_;
+    udp::endpoint there_;
+    udp::endpoint peer_;
+    boost::asio::io_context io_;
+    udp::socket socket_;
+    TransportStatistics statistics_;
+    std::chrono::steady_clock::time_point spoke_;  ///< when the peer did last
+    bool peer_known_ = false;
+    bool connected_ = false;
+    bool heard_ = false;
+    bool keeps_first_ = false;
+    bool closed_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role) {
+    return std::make_unique<UdpTransport>(address, role);
+}
+
+std::unique_ptr<Transport> open_udp_between(const TransportAddress& local,
+                                            const TransportAddress& first) {
+    auto transport = std::make_unique<UdpTransport>(local, Role::listen);
+    transport->call(first);
+    return transport;
+}
+
+}  // namespace limpet::wire

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/px4/airframe.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/px4/params.hpp"
+
+namespace limpet::px4 {
+namespace {
+
+using testing::HasSubstr;
+
+/// The paper's vehicle, by hand.
+Px4Airframe perching_uav() {
+    Px4Airframe airframe;
+    airframe.name = "perching_uav";
+    airframe.rotors = {autopilot::RotorGeometry{{0.205, 0.205, -0.04}, +1.0, 0.019},
+                       autopilot::RotorGeometry{{-0.205, -0.205, -0.04}, +1.0, 0.019},
+                       autopilot::RotorGeometry{{0.205, -0.205, -0.04}, -1.0, 0.019},
+                       autopilot::RotorGeometry{{-0.205, 0.205, -0.04}, -1.0, 0.019}};
+    return airframe;
+}
+
+std::optional<double> value_of(const Px4Airframe& airframe, const std::string& name) {
+    for (const Px4Setting& setting : px4_settings(airframe)) {
+        if (setting.name == name) {
+            return setting.value;
+        }
+    }
+    return std::nullopt;
+}
+
+Px4Airframe for_target(Px4Target target) {
+    Px4Airframe airframe = perching_uav();
+    airframe.target = target;
+    return airframe;
+}
+
+TEST(Px4Airframe, HasPx4sQuadXWithItsSigns) {
+    const Px4Airframe airframe = perching_uav();
+    // PX4's numbering: 0 front right and 1 rear left turn counter-clockwise, KM > 0.
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR0_PX"), 0.205);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR0_PY"), 0.205);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR0_KM"), 0.019);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR3_PX"), -0.205);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR3_PY"), 0.205);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR3_KM"), -0.019);
+    EXPECT_EQ(value_of(airframe, "PWM_MAIN_FUNC4"), 104);
+}
+
+TEST(Px4Airframe, EveryLineHasAReasonAndStandsOnce) {
+    for (const Px4Target target : {Px4Target::sitl, Px4Target::hitl, Px4Target::flight}) {
+        for (const Px4Pose pose : {Px4Pose::motion_capture, Px4Pose::gps}) {
+            Px4Airframe airframe = for_target(target);
+            airframe.pose = pose;
+            std::set<std::string> names;
+            for (const Px4Setting& setting : px4_settings(airframe)) {
+                EXPECT_FALSE(setting.reason.empty()) << setting.name;
+                EXPECT_EQ(setting.reason.find('\n'), std::string::npos) << setting.name;
+                EXPECT_LE(setting.name.size(), 16U) << setting.name;
+                EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+                if (setting.type == Px4Type::int32) {
+                    EXPECT_EQ(setting.value, std::round(setting.value)) << setting.name;
+                }
+            }
+        }
+    }
+}
+
+TEST(Px4Airframe, OnlyAVehicleThatPerchesGivesUpItsFailureDetector) {
+    Px4Airframe airframe = perching_uav();
+    EXPECT_EQ(value_of(airframe, "FD_FAIL_P"), 0.0);
+    EXPECT_EQ(value_of(airframe, "COM_DISARM_LAND"), -1.0);
+    airframe.perches = false;
+    EXPECT_EQ(value_of(airframe, "FD_FAIL_P"), std::nullopt);
+    EXPECT_EQ(value_of(airframe, "COM_DISARM_LAND"), std::nullopt);
+}
+
+TEST(Px4Airframe, AFlightKeepsItsChecksItsRemoteControlAndItsOutputs) {
+    const std::set<std::string> kSimulatedOnly = {"CBRK_SUPPLY_CHK", "COM_RC_IN_MODE",
+                                                  "COM_LOW_BAT_ACT", "COM_ARM_SDCARD", "SYS_HITL"};
+    for (const Px4Setting& setting : px4_settings(for_target(Px4Target::flight))) {
+        EXPECT_EQ(kSimulatedOnly.count(setting.name), 0U) << setting.name;
+        EXPECT_EQ(setting.name.find("_FUNC"), std::string::npos) << setting.name;
+    }
+    EXPECT_EQ(value_of(for_target(Px4Target::flight), "MAV_1_CONFIG"), 102.0);
+    EXPECT_EQ(value_of(for_target(Px4Target::sitl), "CBRK_SUPPLY_CHK"), 894281.0);
+    EXPECT_EQ(value_of(for_target(Px4Target::sitl), "MAV_1_CONFIG"), std::nullopt);
+    EXPECT_EQ(value_of(for_target(Px4Target::hitl), "SYS_HITL"), 1.0);
+    EXPECT_EQ(value_of(for_target(Px4Target::hitl), "HIL_ACT_FUNC1"), 101.0);
+}
+
+TEST(Px4Airframe, GpsTakesThePlaceOfMotionCapture) {
+    Px4Airframe airframe = perching_uav();
+    EXPECT_EQ(value_of(airframe, "EKF2_EV_CTRL"), 15.0);
+    EXPECT_EQ(value_of(airframe, "EKF2_GPS_CTRL"), 0.0);
+    airframe.pose = Px4Pose::gps;
+    EXPECT_EQ(value_of(airframe, "EKF2_EV_CTRL"), 0.0);
+    EXPECT_EQ(value_of(airframe, "EKF2_GPS_CTRL"), 7.0);
+    EXPECT_EQ(value_of(airframe, "SYS_HAS_MAG"), 1.0);
+}
+
+/// A file of its own, gone with the test.
+class WrittenParams : public testing::Test {
+protected:
+    void TearDown() override { std::filesystem::remove(path_); }
+    std::string path_ = testing::TempDir() +
+                        testing::UnitTest::GetInstance()->current_test_info()->name() + ".params";
+};
+
+TEST_F(WrittenParams, LoadBackAsTheyWere) {
+    Px4Airframe airframe = perching_uav();
+    // Away from every default, to PX4's precision of 32 bits.
+    for (const auto& row : autopilot::autopilot_table()) {
+        const Px4Fact* fact = find_px4_fact(row.name);
+        if (fact != nullptr && fact->type == Px4Type::real32 && !row.name.starts_with("EKF2_")) {
+            const double low = std::max(row.minimum, fact->minimum);
+            const double high = std::min(row.maximum, fact->maximum);
+            row.of(airframe.autopilot).set(low + (high - low) / 3.0);
+        }
+    }
+    std::ofstream(path_) << px4_params_text(airframe, px4_settings(airframe));
+    autopilot::AutopilotParameters loaded;
+    const std::vector<std::string> ignored = load_px4_params(path_, loaded);
+    EXPECT_THAT(ignored, testing::Contains("FD_FAIL_P"));
+    int compared = 0;
+    for (const auto& row : autopilot::autopilot_table()) {
+        if (row.name.starts_with("MPC_") || row.name.starts_with("MC_") ||
+            row.name.starts_with("IMU_")) {
+            EXPECT_EQ(static_cast<float>(row.get(loaded)),
+                      static_cast<float>(row.get(airframe.autopilot)))
+                << row.name;
+            ++compared;
+        }
+    }
+    EXPECT_EQ(compared, 44);  // 17 of position, 7 of attitude, 20 of rates
+}
+
+TEST(Px4Files, SayTheSame) {
+    Px4Airframe airframe = perching_uav();
+    airframe.autopilot.MC_PITCHRATE_P = 0.1234;
+    const auto settings = px4_settings(airframe);
+    std::istringstream params(px4_params_text(airframe, settings));
+    const std::string script = px4_airframe_script(airframe, settings);
+    std::string line;
+    std::size_t lines = 0;
+    while (std::getline(params, line)) {
+        if (line.front() == '#') {
+            continue;
+        }
+        std::istringstream words(line);
+        std::string vehicle, component, name, value, type;
+        words >> vehicle >> component >> name >> value >> type;
+        EXPECT_EQ(vehicle + component, "11");
+        EXPECT_EQ(type, find_px4_fact(name)->type == Px4Type::int32 ? "6" : "9");
+        EXPECT_THAT(script, HasSubstr("\nparam set-default " + name + " " + value + "\n"));
+        ++lines;
+    }
+    EXPECT_EQ(lines, settings.size());
+    EXPECT_THAT(script, HasSubstr("param set-default MC_PITCHRATE_P 0.1234\n"));
+    EXPECT_THAT(script, HasSubstr("\n. ${R}etc/init.d/rc.mc_defaults\n"));
+    EXPECT_THAT(script, testing::StartsWith("#!/bin/sh\n"));
+}
+
+TEST(Px4Files, AreNamedSoThatPx4FindsThem) {
+    Px4Airframe airframe = perching_uav();
+    EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_perching_uav");
+    airframe.name = "my uav v1.5; rm";  // PX4 skips names with a dot
+    EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_my_uav_v1_5__rm");
+}
+
+std::string refusal(const Px4Airframe& airframe) {
+    try {
+        static_cast<void>(px4_settings(airframe));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Px4Airframe, RefusesWhatPx4WouldNotTake) {
+    Px4Airframe airframe = perching_uav();
+    airframe.autopilot.MPC_THR_HOVER = 0.9;
+    EXPECT_EQ(refusal(airframe), "MPC_THR_HOVER = 0.9: PX4 allows 0.1 .. 0.8");
+    airframe = perching_uav();
+    airframe.id = 4001;
+    EXPECT_THAT(refusal(airframe), HasSubstr("22000 .. 22999"));
+    EXPECT_EQ(refusal(perching_uav()), "");
+}
+
+}  // namespace
+}  // namespace limpet::px4

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/px4/wires.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/interrupted.hpp"
+
+namespace limpet::px4 {
+namespace {
+
+using testing::HasSubstr;
+
+/// On ports that the kernel chooses.
+px4::Px4Addresses nobody(double wait_s) {
+    return {.hil = {.medium = wire::Medium::tcp},
+            .offboard = {.medium = wire::Medium::udp},
+            .wait_s = wait_s};
+}
+
+TEST(Px4Wires, WhereNobodyComesSaysWhereAndWhatToTurn) {
+    std::string where;
+    int waits = 0;
+    const px4::Px4WireWatch watch{.on_open = [&](const std::string& text) { where = text; },
+                                  .on_wait = [&](double) { ++waits; },
+                                  .wait_key = "--wait SECONDS"};
+    try {
+        const px4::Px4Wires wires(nobody(0.15), 250.0, true, watch);
+        FAIL() << "nobody was there";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("no PX4 came to " + where));
+        EXPECT_THAT(error.what(), HasSubstr("(--wait SECONDS)"));
+    }
+    EXPECT_FALSE(where.empty());
+    EXPECT_GE(waits, 1);
+}
+
+TEST(Px4Wires, CtrlCEndsTheWait) {
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW(const px4::Px4Wires wires(nobody(60.0), 250.0, true, {}, &stop), Interrupted);
+}
+
+}  // namespace
+}  // namespace limpet::px4
