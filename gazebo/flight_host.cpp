@@ -17,11 +17,12 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
     const vehicle::Airframe& airframe = flight_.scenario.airframe;
-    const GazeboNames names{.base = models::called(airframe, "base"),
-                            .carriage = models::called(airframe, "carriage"),
-                            .cup = called(airframe, "cup"),
-                            .slider = called(airframe, "slider"),
-                            .hinges = {called(airframe, "cup_pitch"), called(airframe, "cup_yaw")}};
+    const GazeboNames names{
+        .base = models::called(airframe, "base"),
+        .carriage = models::called(airframe, "carriage"),
+        .cup = models::called(airframe, "cup"),
+        .slider = models::called(airframe, "slider"),
+        .hinges = {models::called(airframe, "cup_pitch"), models::called(airframe, "cup_yaw")}};
     const auto plant = std::make_shared<const GazeboModel>(
         std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
     flight_.conduct.stop = &interrupted_;

@@ -22,8 +22,8 @@ protected:
     FlightHostTest() { count_solver_complaints(); }
 
     void open(const std::string& name, const std::vector<std::string>& overrides = {}) {
-        flight.scenario = load_scenario(name, {.overrides = overrides});
-        models::GazeboWorld text = world_of(flight.scenario, name, {});
+        flight.scenario = scenario::load_scenario(name, {.overrides = overrides});
+        models::GazeboWorld text = scenario::world_of(flight.scenario, name, {});
         text.vehicles.front().plugin.reset();
         server.emplace(write_world(flight.scenario.airframe, text));
         world = server->world();
@@ -68,7 +68,7 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     EXPECT_EQ(first->outcome, Outcome::released) << first->reason;
     const double lasted_s = first->performance.simulated_s;
     const double energy_Wh = first->metrics.energy_flying_Wh;
-    EXPECT_EQ(read_recording(flight.recording).damage, "");
+    EXPECT_EQ(record::read_recording(flight.recording).damage, "");
 
     world->Reset();
     host->restart();
@@ -95,7 +95,7 @@ TEST_F(FlightHostTest, AnInterruptedFlightLeavesAWholeRecording) {
     EXPECT_FALSE(host->under_way());
     ASSERT_NE(host->result(), nullptr);
     EXPECT_EQ(host->result()->reason, "interrupted");
-    EXPECT_EQ(read_recording(flight.recording).damage, "");
+    EXPECT_EQ(record::read_recording(flight.recording).damage, "");
     std::filesystem::remove(flight.recording);
 }
 

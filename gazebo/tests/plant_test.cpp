@@ -20,10 +20,11 @@ using ::testing::HasSubstr;
 class GazeboPlantTest : public ::testing::Test {
 protected:
     explicit GazeboPlantTest(std::vector<std::string> overrides = {})
-        : scenario(load_scenario("perch_concrete", {.overrides = std::move(overrides)})) {}
+        : scenario(scenario::load_scenario("perch_concrete", {.overrides = std::move(overrides)})) {
+    }
 
     void open() {
-        models::GazeboWorld text = world_of(scenario, scenario.name, {});
+        models::GazeboWorld text = scenario::world_of(scenario, scenario.name, {});
         text.vehicles.front().plugin.reset();
         open(write_world(scenario.airframe, text));
     }
@@ -205,7 +206,7 @@ TEST_F(GazeboPlantTest, TheWorldsClockFollowsChangingSteps) {
 class WorldsThatDiffer : public GazeboPlantTest {
 protected:
     void expect_refused(const std::string& from, const std::string& to, const std::string& why) {
-        models::GazeboWorld text = world_of(scenario, scenario.name, {});
+        models::GazeboWorld text = scenario::world_of(scenario, scenario.name, {});
         text.vehicles.front().plugin.reset();
         std::string sdf = write_world(scenario.airframe, text);
         const std::size_t at = sdf.find(from);
@@ -234,7 +235,8 @@ TEST_F(WorldsThatDiffer, InTheEngineAreRefused) {
 
 TEST_F(WorldsThatDiffer, InTheWallsPlaceAreRefused) {
     scenario.wall.geometry.p_WT_m.x() += 0.01;
-    models::GazeboWorld text = world_of(load_scenario("perch_concrete"), scenario.name, {});
+    models::GazeboWorld text =
+        scenario::world_of(scenario::load_scenario("perch_concrete"), scenario.name, {});
     text.vehicles.front().plugin.reset();
     try {
         open(write_world(scenario.airframe, text));

@@ -51,10 +51,10 @@ struct Off {
 class GazeboSensorsTest : public ::testing::Test {
 protected:
     GazeboSensorsTest() {
-        flight.scenario = load_scenario("perch_concrete", {});
-        models::GazeboWorld text = world_of(flight.scenario, "perch_concrete", {});
+        flight.scenario = scenario::load_scenario("perch_concrete", {});
+        models::GazeboWorld text = scenario::world_of(flight.scenario, "perch_concrete", {});
         text.vehicles.front().plugin.reset();
-        text.sensors = gazebo_sensors(flight.scenario.sensors);
+        text.sensors = scenario::gazebo_sensors(flight.scenario.sensors);
         server.emplace(write_world(flight.scenario.airframe, text));
         world = server->world();
         vehicle = world->ModelByName(flight.scenario.airframe.name);

@@ -50,7 +50,7 @@ Snapshot snapshot_from(std::span<const std::byte> bytes) {
     if (bytes.size() < sizeof header) {
         throw InputError("a saved flight is cut short");
     }
-    std::memcpy(&header, bytes.data(), sizeof header);
+    std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof header);
     bytes = bytes.subspan(sizeof header);
     if (header.layout != layout()) {
         throw InputError("a saved flight is of another Limpet: its state has other numbers");

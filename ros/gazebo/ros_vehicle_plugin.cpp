@@ -50,7 +50,7 @@ protected:
                 row.value.set(read_number(*node, row));
             }
         }
-        auto limits = bind(simulation_table(), flight.scenario.simulation);
+        auto limits = bind(scenario::simulation_table(), flight.scenario.simulation);
         for (const BoundParameter& row : limits) {
             const scenario::YamlNode* node =
                 row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;

@@ -84,7 +84,7 @@ std::optional<Event> ApartLip::obey(suction::CupState& state, double time_s) {
     const CupPhase before = state.status.phase;
     state.status.seal_threshold_N = answer_.seal_threshold_N;
     state.status.phase = suction::is_sealed(answer_.phase) ? answer_.phase : CupPhase::touching;
-    if (is_sealed(state.status.phase) && !is_sealed(before)) {
+    if (suction::is_sealed(state.status.phase) && !suction::is_sealed(before)) {
         state.let_go_said = false;
     }
     if (state.status.phase == CupPhase::attached && before != CupPhase::attached) {

@@ -30,7 +30,7 @@ Vector3 triple(const Vector& message) {
 }
 
 geometry_msgs::Quaternion attitude_message(const Quaternion& q_WB) {
-    const Quaternion q = enu_flu_from_ned_frd(q_WB);
+    const Quaternion q = record::ros::enu_flu_from_ned_frd(q_WB);
     geometry_msgs::Quaternion message;
     message.w = q.w();
     message.x = q.x();
@@ -44,7 +44,7 @@ std::optional<Quaternion> attitude(const geometry_msgs::Quaternion& message) {
     if (!(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
         return std::nullopt;
     }
-    return enu_flu_from_ned_frd(q.normalized());
+    return record::ros::enu_flu_from_ned_frd(q.normalized());
 }
 
 /// Yaw from north, clockwise, and from east, counter-clockwise: its own inverse.
@@ -78,14 +78,15 @@ Target target_of(int type_mask, double yaw_rad) {
 geometry_msgs::PoseStamped pose_message(const Estimate& estimate) {
     geometry_msgs::PoseStamped message;
     message.header.frame_id = kWorld;
-    message.pose.position = vector_message<geometry_msgs::Point>(enu_from_ned(estimate.p_WB_m));
+    message.pose.position =
+        vector_message<geometry_msgs::Point>(record::ros::enu_from_ned(estimate.p_WB_m));
     message.pose.orientation = attitude_message(estimate.q_WB);
     return message;
 }
 
 std::optional<PoseReading> pose_reading(const geometry_msgs::PoseStamped& message) {
     const auto q_WB = attitude(message.pose.orientation);
-    const Vector3 p_WB_m = enu_from_ned(triple(message.pose.position));
+    const Vector3 p_WB_m = record::ros::enu_from_ned(triple(message.pose.position));
     if (!q_WB || !p_WB_m.allFinite()) {
         return std::nullopt;
     }
@@ -95,14 +96,15 @@ std::optional<PoseReading> pose_reading(const geometry_msgs::PoseStamped& messag
 geometry_msgs::TwistStamped velocity_message(const Estimate& estimate) {
     geometry_msgs::TwistStamped message;
     message.header.frame_id = kWorld;
-    message.twist.linear = vector_message<geometry_msgs::Vector3>(enu_from_ned(estimate.v_WB_m_s));
-    message.twist.angular =
-        vector_message<geometry_msgs::Vector3>(enu_from_ned(estimate.q_WB * estimate.w_WB_B_rad_s));
+    message.twist.linear =
+        vector_message<geometry_msgs::Vector3>(record::ros::enu_from_ned(estimate.v_WB_m_s));
+    message.twist.angular = vector_message<geometry_msgs::Vector3>(
+        record::ros::enu_from_ned(estimate.q_WB * estimate.w_WB_B_rad_s));
     return message;
 }
 
 std::optional<Vector3> velocity_W(const geometry_msgs::TwistStamped& message) {
-    const Vector3 v_WB_m_s = enu_from_ned(triple(message.twist.linear));
+    const Vector3 v_WB_m_s = record::ros::enu_from_ned(triple(message.twist.linear));
     return v_WB_m_s.allFinite() ? std::optional(v_WB_m_s) : std::nullopt;
 }
 
@@ -111,14 +113,14 @@ sensor_msgs::Imu imu_message(const Estimate& estimate) {
     message.header.frame_id = kBody;
     message.orientation = attitude_message(estimate.q_WB);
     message.angular_velocity =
-        vector_message<geometry_msgs::Vector3>(flu_from_frd(estimate.w_WB_B_rad_s));
-    message.linear_acceleration =
-        vector_message<geometry_msgs::Vector3>(flu_from_frd(estimate.specific_force_B_m_s2));
+        vector_message<geometry_msgs::Vector3>(record::ros::flu_from_frd(estimate.w_WB_B_rad_s));
+    message.linear_acceleration = vector_message<geometry_msgs::Vector3>(
+        record::ros::flu_from_frd(estimate.specific_force_B_m_s2));
     return message;
 }
 
 std::optional<Vector3> rate_B(const sensor_msgs::Imu& message) {
-    const Vector3 w_WB_B_rad_s = flu_from_frd(triple(message.angular_velocity));
+    const Vector3 w_WB_B_rad_s = record::ros::flu_from_frd(triple(message.angular_velocity));
     return w_WB_B_rad_s.allFinite() ? std::optional(w_WB_B_rad_s) : std::nullopt;
 }
 
@@ -194,9 +196,10 @@ std::optional<BatteryReading> battery_reading(const sensor_msgs::BatteryState& m
 limpet_ros::PositionTarget target_message(const PositionSetpoint& target) {
     const bool with_velocity = !target.feedforward_v_W_m_s.isZero(0.0);
     Target message = target_of(kNoAcceleration | (with_velocity ? 0 : kNoVelocity), target.yaw_rad);
-    message.position = vector_message<geometry_msgs::Point>(enu_from_ned(target.p_W_m));
-    message.velocity =
-        vector_message<geometry_msgs::Vector3>(enu_from_ned(target.feedforward_v_W_m_s));
+    message.position =
+        vector_message<geometry_msgs::Point>(record::ros::enu_from_ned(target.p_W_m));
+    message.velocity = vector_message<geometry_msgs::Vector3>(
+        record::ros::enu_from_ned(target.feedforward_v_W_m_s));
     return message;
 }
 
@@ -204,9 +207,10 @@ limpet_ros::PositionTarget target_message(const VelocitySetpoint& target) {
     const bool with_acceleration = !target.feedforward_a_W_m_s2.isZero(0.0);
     Target message =
         target_of(kNoPosition | (with_acceleration ? 0 : kNoAcceleration), target.yaw_rad);
-    message.velocity = vector_message<geometry_msgs::Vector3>(enu_from_ned(target.v_W_m_s));
-    message.acceleration_or_force =
-        vector_message<geometry_msgs::Vector3>(enu_from_ned(target.feedforward_a_W_m_s2));
+    message.velocity =
+        vector_message<geometry_msgs::Vector3>(record::ros::enu_from_ned(target.v_W_m_s));
+    message.acceleration_or_force = vector_message<geometry_msgs::Vector3>(
+        record::ros::enu_from_ned(target.feedforward_a_W_m_s2));
     return message;
 }
 
@@ -221,9 +225,9 @@ limpet_ros::AttitudeTarget target_message(const AttitudeSetpoint& target) {
 
 std::optional<Motion> motion_from(const limpet_ros::PositionTarget& message) {
     const int mask = message.type_mask & ~Target::IGNORE_YAW_RATE;
-    const Vector3 p_W_m = enu_from_ned(triple(message.position));
-    const Vector3 v_W_m_s = enu_from_ned(triple(message.velocity));
-    const Vector3 a_W_m_s2 = enu_from_ned(triple(message.acceleration_or_force));
+    const Vector3 p_W_m = record::ros::enu_from_ned(triple(message.position));
+    const Vector3 v_W_m_s = record::ros::enu_from_ned(triple(message.velocity));
+    const Vector3 a_W_m_s2 = record::ros::enu_from_ned(triple(message.acceleration_or_force));
     const double yaw_rad = turned_yaw_rad(message.yaw);
     if (message.coordinate_frame != Target::FRAME_LOCAL_NED ||
         (message.type_mask & Target::IGNORE_YAW_RATE) == 0 || !std::isfinite(message.yaw)) {
@@ -308,7 +312,7 @@ limpet_ros::CupState cup_message(const suction::CupState& state) {
     message.header.frame_id = "cup";
     message.touches = static_cast<std::uint32_t>(state.touches);
     message.phase = static_cast<std::uint8_t>(state.status.phase);
-    message.sealed = is_sealed(state.status.phase) ? 1 : 0;
+    message.sealed = suction::is_sealed(state.status.phase) ? 1 : 0;
     message.attached = state.status.phase == CupPhase::attached ? 1 : 0;
     message.pump_running = state.status.pump_running ? 1 : 0;
     message.valve_open = state.status.valve_open ? 1 : 0;

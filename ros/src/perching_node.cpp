@@ -192,9 +192,9 @@ private:
         const guidance::PerchingState state =
             flies ? memory.state : guidance::PerchingState::hovering;
         status.state = static_cast<std::uint8_t>(state);
-        status.state_name = std::string(limpet::to_string(state));
+        status.state_name = std::string(guidance::to_string(state));
         status.state_s = flies ? now.toSec() - memory.since_s : 0.0;
-        status.place = std::string(limpet::to_string(session_.place()));
+        status.place = std::string(companion::to_string(session_.place()));
         status.attempt = static_cast<std::uint8_t>(std::min(memory.attempt, 255));
         status.armed = session_.setpoint().armed ? 1 : 0;
         status.pump_on = session_.setpoint().pump_on ? 1 : 0;

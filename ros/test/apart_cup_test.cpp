@@ -109,7 +109,7 @@ Happened in_one_piece(const scenario::Scenario& scenario) {
         const suction::CupInput input{
             .time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
         const suction::CupOutput output =
-            limpet::step(model, state, scenario.wall.surface, cup_at(t_s), input, kStep_s);
+            suction::step(model, state, scenario.wall.surface, cup_at(t_s), input, kStep_s);
         if (output.event) {
             happened.events.push_back(*output.event);
         }

@@ -26,7 +26,7 @@ TEST(NodeSetup, GuidanceIsThatOfTheScenario) {
                                         .mission = "",
                                         .set = {"guidance.hold_s=0.7", "limits.late_limit_s=0.8"},
                                         .seed = {}});
-    const scenario::Scenario scenario = load_scenario("perch_metal_valve");
+    const scenario::Scenario scenario = scenario::load_scenario("perch_metal_valve");
     EXPECT_EQ(setup.scenario.guidance.hover_thrust, scenario.guidance.hover_thrust);
     EXPECT_EQ(setup.scenario.guidance.valve_fitted, true);
     EXPECT_EQ(setup.scenario.guidance.hold_s, 0.7);
