@@ -95,6 +95,7 @@ ExitCode compare_flights(const CompareOptions& options) {
     const compare::FlightTrace reference = std::move(others.front());
     others.erase(others.begin());
     std::vector<compare::FlightComparison> comparisons;
+    comparisons.reserve(others.size());
     for (const compare::FlightTrace& other : others) {
         comparisons.push_back(compare::compare(reference, other, alignment_of(options.align)));
     }
