@@ -15,8 +15,9 @@ namespace limpet::mcap {
 struct ChunkHeader;
 
 struct WriterOptions {
-    std::size_t chunk_bytes = std::size_t{256} * 1024;  ///< a chunk is closed at this size, before compression
-    bool compress = true;                  ///< zstd
+    std::size_t chunk_bytes =
+        std::size_t{256} * 1024;  ///< a chunk is closed at this size, before compression
+    bool compress = true;         ///< zstd
     /// 1 is zstd's fastest ordinary level; higher ones cost more than the simulation itself.
     int compression_level = 1;
 };
