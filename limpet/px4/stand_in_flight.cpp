@@ -110,9 +110,9 @@ bool step(const autopilot::AutopilotModel& model, const StandInParameters& param
     flight.time_s = time_s;
     mavlink::take(message, time_s, flight.readings);
     if (flight.aligned) {
-        estimate(model, flight.autopilot, flight.readings);
+        autopilot::estimate(model, flight.autopilot, flight.readings);
     } else if (const auto initial = first_estimate(model.parameters, flight)) {
-        flight.autopilot = start(model, *initial);
+        flight.autopilot = autopilot::start(model, *initial);
         flight.aligned = true;
     }
     const FlightMode before = flight.manners.mode;
@@ -124,7 +124,7 @@ bool step(const autopilot::AutopilotModel& model, const StandInParameters& param
         return true;
     }
     const Setpoint setpoint = wanted(flight);
-    flight.command = control(model, flight.autopilot, setpoint, time_s);
+    flight.command = autopilot::control(model, flight.autopilot, setpoint, time_s);
     const bool flies = setpoint.armed && !std::holds_alternative<IdleSetpoint>(setpoint.motion);
     flight.thrust = flies ? flight.autopilot.attitude_target.thrust : 0.0;
     return true;

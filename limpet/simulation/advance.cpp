@@ -23,7 +23,7 @@ bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
 SliderStatus apply_slider_stops(const FlightModel& model, plant::Plant& plant) {
     const plant::SliderMotion motion = plant.slider();
     const vehicle::SliderForce force =
-        slider_force(model.airframe.slider, motion.position_m, motion.velocity_m_s);
+        vehicle::slider_force(model.airframe.slider, motion.position_m, motion.velocity_m_s);
     plant.apply_slider(force.stop_N);
     return {.position_m = motion.position_m,
             .velocity_m_s = motion.velocity_m_s,
@@ -63,7 +63,7 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
         .valve_open = state.guidance.setpoint.valve_open};
     const suction::CupOutput output =
         external != nullptr ? external->step(model.cup, state.cup, surface, cup, input, dt_s)
-                            : step(model.cup, state.cup, surface, cup, input, dt_s);
+                            : suction::step(model.cup, state.cup, surface, cup, input, dt_s);
     if (state.cup.status.phase != CupPhase::free) {
         plant.apply(plant::Body::cup, output.wrench_W, cup.p_WF_m);
     }
@@ -95,12 +95,12 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const Wrench rotors_B =
-        rotor_wrench_B(airframe, state.rotors, base, wind_W_m_s(model.wind, state.wind));
+        vehicle::rotor_wrench_B(airframe, state.rotors, base, vehicle::wind_W_m_s(model.wind, state.wind));
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
-    if (acts(model.wall_air) && model.has_wall) {
-        const Wrench wall_W = wall_air_wrench_W(
+    if (vehicle::acts(model.wall_air) && model.has_wall) {
+        const Wrench wall_W = vehicle::wall_air_wrench_W(
             model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N, base.q_WF,
             closest_hub_m(model, base), tangent_frame(model.cup.wall, base.p_WF_m).into_W());
         air.wrench_W.force_N += wall_W.force_N;

@@ -49,7 +49,7 @@ Snapshot first_state(const FlightModel& model, const FlightState& now, const pla
     state.autopilot.estimate = now.autopilot.estimate;
     state.autopilot.estimate.time_s = 0.0;
     state.guidance = start_perching(model.task, state.autopilot.estimate, 0.0);
-    state.sensors = start(model.sensors, state.truth, model.seed, run);
+    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run);
     return {.state = state, .plant = plant.save(), .seen = {}};
 }
 
@@ -83,7 +83,7 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
     state.rotors = {};
     state.command = {};
     rest_on_stand(model, stand_W_m, plant, state.truth);
-    state.sensors = start(model.sensors, state.truth, model.seed, options.run);
+    state.sensors = sensors::start(model.sensors, state.truth, model.seed, options.run);
 
     TickReport report;
     Pace pace(options.speed);

@@ -34,7 +34,7 @@ autopilot::AutopilotModel autopilot_model(const scenario::Scenario& scenario) {
     autopilot::AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
     model.vehicle = {.mass_kg = scenario.airframe.mass_kg,
                      .inertia_kg_m2 = scenario.airframe.inertia_kg_m2,
-                     .hover_thrust = hover_command(scenario.airframe),
+                     .hover_thrust = vehicle::hover_command(scenario.airframe),
                      .rotor_p_B_m = scenario.airframe.rotor_p_B_m};
     model.own = scenario.autopilot_kind->make(model.parameters, model.vehicle);
     return model;
@@ -94,27 +94,27 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.truth.base = base;
     state.truth.cup = cup;
     if (model.mount == vehicle::Mount::free) {
-        const double hover = hover_command(airframe);
+        const double hover = vehicle::hover_command(airframe);
         state.rotors = spinning(airframe.rotor, hover);
         state.command = {.command = {hover, hover, hover, hover}, .armed = true};
     }
     state.battery = charged(airframe.battery);
     state.truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
-    state.truth.battery = status(airframe.battery, state.battery);
+    state.truth.battery = vehicle::status(airframe.battery, state.battery);
 
     Estimate estimate;
     estimate.p_WB_m = model.start.p_WB_m;
     estimate.q_WB = attitude(model.start);
     estimate.valid = true;
-    state.autopilot = start(model.autopilot, estimate);
+    state.autopilot = autopilot::start(model.autopilot, estimate);
     state.guidance = start_perching(model.task, estimate, 0.0);
     if (model.mount != vehicle::Mount::free) {
         state.guidance.state = guidance::PerchingState::approaching;
         state.guidance.setpoint = {.pump_on = model.mount == vehicle::Mount::pendulum};
     }
-    state.sensors = start(model.sensors, state.truth, model.seed, run);
-    state.wind = start(model.wind, RandomStream(model.seed, run, Stream::wind));
-    state.wall_air = start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
+    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run);
+    state.wind = vehicle::start(model.wind, RandomStream(model.seed, run, Stream::wind));
+    state.wall_air = vehicle::start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
     state.cup.random = RandomStream(model.seed, run, Stream::seal);
     return state;
 }

@@ -19,7 +19,7 @@ void see_truth(const FlightModel& model, FlightState& state, const plant::Plant&
     see_motion(model, truth, plant);
     truth.cup_status = state.cup.status;
     truth.rotor_speed_rad_s = state.rotors.speed_rad_s;
-    truth.battery = status(model.airframe.battery, state.battery);
+    truth.battery = vehicle::status(model.airframe.battery, state.battery);
     truth.legs_force_W_N = plant.contact_force_W();
 }
 
@@ -29,7 +29,7 @@ void estimate(const FlightModel& model, FlightState& state,
     if (external != nullptr) {
         state.autopilot.estimate = external->estimate(seconds(state.tick));
     } else {
-        estimate(model.autopilot, state.autopilot, state.sensors.readings);
+        autopilot::estimate(model.autopilot, state.autopilot, state.sensors.readings);
     }
 }
 
@@ -38,7 +38,7 @@ RotorCommand control(const FlightModel& model, FlightState& state,
     const double time_s = seconds(state.tick);
     return external != nullptr
                ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
-               : control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
+               : autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
 }
 
 }  // namespace
@@ -65,18 +65,18 @@ void step(const FlightModel& model, FlightState& state, plant::Plant& plant, Tic
             state.guidance.setpoint.armed = state.command.armed;
         }
     } else if (due(state.tick, model.guidance_rate_Hz)) {
-        update(model.guidance, model.task, state.guidance, readings, state.autopilot.estimate,
+        guidance::update(model.guidance, model.task, state.guidance, readings, state.autopilot.estimate,
                time_s, events);
     }
     if (controls) {
         state.command = control(model, state, outside.autopilot);
     }
-    step(airframe.rotor, state.rotors, state.command, kTick_s,
-         voltage_share(airframe.battery, state.battery.voltage_V));
-    step(airframe.battery, state.battery, mechanical_power_W(airframe.rotor, state.rotors),
+    vehicle::step(airframe.rotor, state.rotors, state.command, kTick_s,
+         vehicle::voltage_share(airframe.battery, state.battery.voltage_V));
+    vehicle::step(airframe.battery, state.battery, vehicle::mechanical_power_W(airframe.rotor, state.rotors),
          state.cup.status.pump_running, state.command.armed, kTick_s);
-    step(model.wind, state.wind);
-    step(model.wall_air, state.wall_air);
+    vehicle::step(model.wind, state.wind);
+    vehicle::step(model.wall_air, state.wall_air);
     advance(model, state, plant, report, outside.cup);
 
     ++state.tick;

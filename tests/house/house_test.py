@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the house promises of its rooms (docs/design.md): a page each, a size, arrows that run down."""
+
+import pathlib
+import re
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOMS = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
+MOST_LINES = 4000
+PAGE_LINES = 20
+# A header of core's kind that lies with the bodies it speaks of: plant.hpp needs core alone.
+GRANTED = {("sensors", "plant/plant.hpp")}
+
+
+def sources(folder):
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".cpp", ".hpp"))
+
+
+def links(room):
+    """The rooms that its CMakeLists.txt names."""
+    text = re.sub(r"#.*", "", (ROOMS[room] / "CMakeLists.txt").read_text())
+    return set(re.findall(r"limpet::(\w+)", text)) & set(ROOMS) - {room}
+
+
+def below(room, seen=None):
+    seen = set() if seen is None else seen
+    for other in links(room) - seen:
+        seen.add(other)
+        below(other, seen)
+    return seen
+
+
+class House(unittest.TestCase):
+    def test_every_room_opens_with_a_page(self):
+        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "gazebo", ROOT / "ros"]:
+            with self.subTest(folder.name):
+                page = (folder / "README.md").read_text()
+                if folder.parent.name == "limpet":
+                    self.assertLess(page.count("\n"), PAGE_LINES)
+                    self.assertIn("**Uses:**", page)
+                    self.assertIn("**Start reading:**", page)
+                for name in re.findall(r"`([\w/]+\.[ch]pp)`", page) + re.findall(r"\]\(([^)#:]+)\)", page):
+                    self.assertTrue((folder / name).exists(), f"{name} is not there")
+
+    def test_no_room_is_two(self):
+        for name, folder in ROOMS.items():
+            with self.subTest(name):
+                lines = sum(len(path.read_text().splitlines()) for path in sources(folder))
+                self.assertLess(lines, MOST_LINES)
+
+    def test_every_arrow_runs_down(self):
+        for room, folder in ROOMS.items():
+            self.assertNotIn(room, below(room), "a circle")
+            may = below(room) | {room}
+            for path in sources(folder):
+                for header in re.findall(r'#include "limpet/(\w+/[\w/]+\.hpp)"', path.read_text()):
+                    if (room, header) not in GRANTED:
+                        with self.subTest(path.relative_to(ROOT)):
+                            self.assertIn(header.split("/")[0], may, f"{header}: its room is not in LINKS")
+
+    def test_a_room_is_its_namespace(self):
+        for room, folder in ROOMS.items():
+            name = "limpet" if room in ("core", "face") else f"limpet::{room}"
+            for path in sources(folder):
+                for opened in re.findall(r"^namespace (limpet\S*) \{", path.read_text(), re.M):
+                    if (room, opened) == ("sensors", "limpet::plant"):
+                        continue  # what it is granted above
+                    with self.subTest(path.relative_to(ROOT)):
+                        self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
+
+    def test_documents_name_sources_that_are_there(self):
+        tops = ("limpet", "apps", "gazebo", "ros", "tests", "bench", "examples")
+        there = [f"/{path.relative_to(ROOT)}" for top in tops for path in sources(ROOT / top)]
+        pages = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md"),
+                 ROOT / "ros/README.md"]
+        for page in pages:
+            for name in set(re.findall(r"`([\w/]+\.[ch]pp)`", page.read_text())):
+                if "NAME" not in name:
+                    with self.subTest(f"{page.relative_to(ROOT)}: {name}"):
+                        self.assertTrue(any(path.endswith(f"/{name}") for path in there), "no such file")
+
+    def test_the_models_page_names_tests_that_are_there(self):
+        there = set()
+        for top in ("tests", "gazebo/tests", "ros/test"):
+            for path in (ROOT / top).rglob("*.cpp"):
+                there |= set(re.findall(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", path.read_text(), re.M))
+        suites = {suite for suite, _ in there}
+        page = (ROOT / "docs/models.md").read_text()
+        for suite, name in set(re.findall(r"`([A-Z]\w+)\.(\w+|\*)`", page)) - {("Suite", "Name")}:
+            with self.subTest(f"{suite}.{name}"):
+                self.assertTrue((suite, name) in there if name != "*" else suite in suites, "no such test")
+
+    def test_the_examples_of_growth_still_apply(self):
+        diffs = sorted((ROOT / "docs/extending").glob("*.diff"))
+        self.assertEqual([diff.stem for diff in diffs],
+                         ["autopilot", "engine", "pressure_model", "sensor", "verb"])
+        for diff in diffs:
+            with self.subTest(diff.name):
+                tried = subprocess.run(["git", "apply", "--check", diff], cwd=ROOT, capture_output=True, text=True)
+                self.assertEqual(tried.returncode, 0, tried.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
