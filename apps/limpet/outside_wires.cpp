@@ -3,7 +3,7 @@
 
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/devices/pseudo_terminal.hpp"
+#include "limpet/wire/transport.hpp"
 #include "options.hpp"
 
 namespace limpet::app {
@@ -22,7 +22,7 @@ std::unique_ptr<wire::Transport> open_device(const std::string& option, const st
         return nullptr;
     }
     if (begins(text, kPseudoTerminal)) {
-        return devices::open_pseudo_terminal(text.substr(kPseudoTerminal.size()));
+        return wire::open_pseudo_terminal(text.substr(kPseudoTerminal.size()));
     }
     if (begins(text, "serial:")) {
         return open_transport(wire::parse_address(text), wire::Role::connect);

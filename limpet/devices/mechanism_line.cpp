@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace limpet::devices {
 namespace {
 
-constexpr std::string_view kDigits = "0123456789ABCDEF";
 constexpr double kLargest = 1e6;  // N and Pa: beyond any sensor, and within the line's length
 
 /// Decimal digits with sign and point, no exponent; std::from_chars for doubles came with GCC 11.
@@ -49,10 +49,7 @@ bool set(std::optional<bool>& field, double value) {
 }
 
 bool take_field(std::string_view field, MechanismLine& line) {
-    if (field.size() < 2) {
-        return false;
-    }
-    const std::optional<double> value = number(field.substr(1));
+    const std::optional<double> value = field.empty() ? std::nullopt : number(field.substr(1));
     if (!value) {
         return false;
     }
@@ -96,10 +93,11 @@ std::string_view encode(const MechanismLine& line, MechanismBuffer& into) {
     if (line.pressure_Pa && std::abs(*line.pressure_Pa) <= kLargest) {
         put('A', *line.pressure_Pa, 0);
     }
-    const std::uint8_t checksum =
-        line_checksum({into.data(), static_cast<std::size_t>(end - into.data())});
-    end = fmt::format_to(end, "*{:02X}\n", checksum);
-    return {into.data(), static_cast<std::size_t>(end - into.data())};
+    const auto text = [&] {
+        return std::string_view(into.data(), static_cast<std::size_t>(end - into.data()));
+    };
+    end = fmt::format_to(end, "*{:02X}\n", line_checksum(text()));
+    return text();
 }
 
 std::optional<MechanismLine> decode_line(std::string_view text) {
@@ -109,11 +107,9 @@ std::optional<MechanismLine> decode_line(std::string_view text) {
     if (text.size() < 5 || text[text.size() - 3] != '*') {
         return std::nullopt;
     }
-    const std::size_t high = kDigits.find(text[text.size() - 2]);
-    const std::size_t low = kDigits.find(text[text.size() - 1]);
+    const std::string_view checksum = text.substr(text.size() - 2);
     text.remove_suffix(3);
-    if (high == std::string_view::npos || low == std::string_view::npos ||
-        16 * high + low != line_checksum(text)) {
+    if (checksum != fmt::format("{:02X}", line_checksum(text))) {
         return std::nullopt;
     }
     MechanismLine line;
@@ -138,13 +134,9 @@ std::optional<MechanismLine> MechanismParser::parse(std::byte byte) {
         }
         return std::nullopt;
     }
-    const bool whole = !too_long_;
-    const std::string_view text(text_.data(), length_);
-    length_ = 0;
-    too_long_ = false;
-    const std::optional<MechanismLine> line = whole ? decode_line(text) : std::nullopt;
-    ++(line ? lines_ : damaged_);
-    return line;
+    const bool whole = !std::exchange(too_long_, false);
+    const std::string_view text(text_.data(), std::exchange(length_, 0));
+    return whole ? decode_line(text) : std::nullopt;
 }
 
 }  // namespace limpet::devices

@@ -10,10 +10,10 @@
 /// The perching mechanism's own wire: a microcontroller that switches pump and valve and reads load
 /// cell and pressure sensor. Text over a serial port, 8N1, 115200 baud unless agreed otherwise.
 ///
-///   line     = field *(" " field) "*" checksum LF      at most 80 characters; CR before LF is let
-///   go field    = letter number                           each letter once; unknown ones are
-///   skipped number   = ["-"] digits ["." digits]               up to a million checksum = two
-///   hexadecimal digits, upper case: CRC-8 (polynomial 0x07, start 0) of all before
+///   line     = field *(" " field) "*" checksum LF  at most 80 characters; CR before LF is let go
+///   field    = letter number                       each letter once; unknown ones are skipped
+///   number   = ["-"] digits ["." digits]           up to a million
+///   checksum = two hexadecimal digits, upper case: CRC-8 (polynomial 0x07, start 0) of all before
 ///              the asterisk
 ///
 ///   P  pump   1 on, 0 off                 F  axial force [N], tension positive
@@ -30,8 +30,6 @@
 namespace limpet::devices {
 
 inline constexpr std::size_t kMechanismLongestLine = 80;
-inline constexpr double kMechanismRepeat_Hz = 10.0;
-inline constexpr unsigned kMechanismBaud = 115200;
 
 /// One line, either way.
 struct MechanismLine {
@@ -53,21 +51,16 @@ using MechanismBuffer = std::array<char, kMechanismLongestLine + 2>;
 ///         it must be
 [[nodiscard]] std::optional<MechanismLine> decode_line(std::string_view text);
 
-/// Bytes to lines; a line that is too long or damaged is dropped up to its LF and counted.
+/// Bytes to lines; a line that is too long or damaged is dropped up to its LF.
 class MechanismParser {
 public:
     /// @return a line when this byte ends a right one
     [[nodiscard]] std::optional<MechanismLine> parse(std::byte byte);
 
-    [[nodiscard]] std::uint64_t lines() const { return lines_; }
-    [[nodiscard]] std::uint64_t damaged() const { return damaged_; }
-
 private:
     std::array<char, kMechanismLongestLine + 1> text_ = {};
     std::size_t length_ = 0;
     bool too_long_ = false;
-    std::uint64_t lines_ = 0;
-    std::uint64_t damaged_ = 0;
 };
 
 }  // namespace limpet::devices

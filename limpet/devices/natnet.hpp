@@ -24,10 +24,7 @@ struct NatNetVersion {
     friend bool operator==(const NatNetVersion&, const NatNetVersion&) = default;
 };
 [[nodiscard]] bool understood(NatNetVersion version);
-/// From 4.1 on every section of a frame says how long it is.
-[[nodiscard]] bool has_section_sizes(NatNetVersion version);
 
-inline constexpr std::uint16_t kNatNetCommandPort = 1510;
 inline constexpr std::uint16_t kNatNetDataPort = 1511;
 inline constexpr std::string_view kNatNetGroup = "239.255.42.99";
 /// Longest datagram that Motive sends: UDP's own limit.
@@ -47,7 +44,6 @@ enum class NatNetMessage : std::uint16_t {
 struct NatNetBody {
     std::int32_t id = 1;  ///< the streaming id in Motive
     MocapPose pose = {};
-    double mean_error_m = 0.0;    ///< of its markers
     bool tracking_valid = false;  ///< false: not seen in this frame, the pose is an old one
 };
 
@@ -57,7 +53,6 @@ struct NatNetFrame {
     double motive_time_s = 0.0;            ///< since Motive's start of streaming
     std::uint64_t mid_exposure_ticks = 0;  ///< of the server's clock, see NatNetServer
     std::uint64_t transmit_ticks = 0;
-    bool models_changed = false;          ///< the list of assets has changed
     std::optional<NatNetBody> body = {};  ///< the one asked for; nothing: it is not streamed
 };
 
@@ -77,8 +72,7 @@ struct NatNetServer {
 [[nodiscard]] std::optional<NatNetServer> decode_server(std::span<const std::byte> packet);
 
 /// Room for every packet that Limpet makes.
-inline constexpr std::size_t kNatNetRoom_bytes = 512;
-using NatNetBuffer = std::array<std::byte, kNatNetRoom_bytes>;
+using NatNetBuffer = std::array<std::byte, 512>;
 
 // Each returns the part of `into` that is the packet.
 

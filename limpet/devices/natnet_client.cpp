@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/devices/natnet_client.hpp"
 
-#include <algorithm>
-
 #include "limpet/core/errors.hpp"
 
 namespace limpet::devices {
@@ -11,6 +9,8 @@ namespace {
 /// Beyond it the server's clocks are not what they seem. Motive takes 3 to 20 ms.
 /// Source: assumed: five times the longest latency that Motive's own display shows for our rates
 constexpr double kLongestDelay_s = 0.1;
+/// Connect is said again so often; while unicast frames come it keeps them coming.
+constexpr double kConnectEvery_s = 1.0;
 /// Motive counts from 0 again when it streams anew: so far back is no late datagram.
 constexpr std::int64_t kRestart_frames = 1000;
 
@@ -26,7 +26,7 @@ NatNetClient::NatNetClient(const NatNetOptions& options, std::unique_ptr<wire::T
 }
 
 void NatNetClient::update(double time_s) {
-    if (command_ == nullptr || time_s - said_s_ < options_.connect_every_s) {
+    if (command_ == nullptr || time_s - said_s_ < kConnectEvery_s) {
         return;
     }
     said_s_ = time_s;
@@ -39,59 +39,35 @@ void NatNetClient::update(double time_s) {
 }
 
 std::optional<Sample<PoseReading>> NatNetClient::receive(double time_s) {
+    constexpr int kBurst = 1000;  // more than a socket holds
     newest_.reset();
-    if (command_ != nullptr) {
-        hear_all(*command_, time_s);
-    }
-    if (data_ != nullptr) {
-        hear_all(*data_, time_s);
+    for (wire::Transport* wire : {command_.get(), data_.get()}) {
+        if (wire != nullptr) {
+            drain(*wire, in_, kBurst, [&](auto packet) { hear(packet, time_s); });
+        }
     }
     return newest_;
 }
 
-void NatNetClient::hear_all(wire::Transport& wire, double time_s) {
-    constexpr int kBurst = 1000;  // more than a socket holds: a flood does not stop the loop
-    for (int i = 0; i < kBurst; ++i) {
-        const wire::Transfer transfer = wire.receive(in_, {});
-        if (transfer.status != wire::TransferStatus::done) {
-            return;
-        }
-        hear(std::span(in_).first(transfer.bytes), time_s);
-    }
-}
-
 void NatNetClient::hear(std::span<const std::byte> packet, double time_s) {
-    const std::optional<NatNetMessage> kind = natnet_message(packet);
-    if (kind == NatNetMessage::server_info) {
-        const std::optional<NatNetServer> server = decode_server(packet);
-        if (server && understood(server->version)) {
+    if (const std::optional<NatNetServer> server = decode_server(packet)) {
+        if (understood(server->version)) {
             server_ = server;
-        } else {
-            ++count_.damaged;
         }
         return;
     }
     const NatNetVersion version = server_ ? server_->version : options_.version;
     const std::optional<NatNetFrame> frame = decode_frame(packet, version, options_.body_id);
     if (!frame) {
-        ++count_.damaged;
         return;
     }
-    ++count_.frames;
     const std::int64_t ahead =
         last_number_ ? std::int64_t{frame->number} - std::int64_t{*last_number_} : 1;
-    if (ahead <= 0 && ahead > -kRestart_frames) {
-        ++count_.out_of_order;
+    if (ahead <= 0 && ahead > -kRestart_frames) {  // older than one before
         return;
     }
-    count_.lost += static_cast<std::uint64_t>(std::clamp<std::int64_t>(ahead - 1, 0, 1000000));
     last_number_ = frame->number;
-    if (!frame->body) {
-        ++count_.without_body;
-    } else if (!frame->body->tracking_valid) {
-        ++count_.not_tracked;
-    } else {
-        mean_error_m_ = frame->body->mean_error_m;
+    if (frame->body && frame->body->tracking_valid) {
         newest_ = Sample<PoseReading>{.time_s = time_s - delay_s(*frame),
                                       .value = pose_in_world(options_.axes, frame->body->pose)};
     }

@@ -18,19 +18,15 @@ void NatNetSource::answer() {
     if (command_ == nullptr) {
         return;
     }
-    constexpr int kBurst = 100;  // a flood does not stop the simulator
+    constexpr int kBurst = 100;
     std::array<std::byte, 2048> in;
-    for (int i = 0; i < kBurst; ++i) {
-        const wire::Transfer transfer = command_->receive(in, {});
-        if (transfer.status != wire::TransferStatus::done) {
-            return;
-        }
-        if (natnet_message(std::span(in).first(transfer.bytes)) == NatNetMessage::connect) {
+    drain(*command_, in, kBurst, [this](auto packet) {
+        if (natnet_message(packet) == NatNetMessage::connect) {
             connected_ = true;
-            NatNetBuffer packet;
-            (void)command_->send(encode_server(server_, packet), std::chrono::nanoseconds(0));
+            NatNetBuffer answer;
+            (void)command_->send(encode_server(server_, answer), std::chrono::nanoseconds(0));
         }
-    }
+    });
 }
 
 void NatNetSource::stream(const NatNetFrame& frame) {

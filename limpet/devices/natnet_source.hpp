@@ -23,16 +23,13 @@ public:
     /// Waits for no one: a frame that nobody can take is gone.
     void stream(const NatNetFrame& frame);
 
-    /// Unicast: somebody has said connect. Multicast: nobody knows, false.
-    [[nodiscard]] bool connected() const { return connected_; }
-    [[nodiscard]] const NatNetServer& server() const { return server_; }
     [[nodiscard]] std::string describe() const;
 
 private:
     NatNetServer server_;
     std::unique_ptr<wire::Transport> group_;
     std::unique_ptr<wire::Transport> command_;
-    bool connected_ = false;
+    bool connected_ = false;  ///< unicast: somebody has said connect
 };
 
 }  // namespace limpet::devices

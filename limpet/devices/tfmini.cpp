@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -22,15 +23,7 @@ std::byte sum(std::span<const std::byte> bytes) {
     return static_cast<std::byte>(total & 0xFFU);
 }
 
-std::uint16_t word(std::byte low, std::byte high) {
-    return static_cast<std::uint16_t>(std::to_integer<unsigned>(low) |
-                                      (std::to_integer<unsigned>(high) << 8U));
-}
-
-void put(std::uint16_t value, std::byte* into) {
-    into[0] = static_cast<std::byte>(value & 0xFFU);
-    into[1] = static_cast<std::byte>(value >> 8U);
-}
+using Words = std::array<std::uint16_t, 3>;  // little-endian, as every host we build for
 
 }  // namespace
 
@@ -51,40 +44,26 @@ TfminiFrame tfmini_frame(const RangeReading& reading) {
 }
 
 std::array<std::byte, kTfminiFrame_bytes> encode(const TfminiFrame& frame) {
-    std::array<std::byte, kTfminiFrame_bytes> bytes = {kStart, kStart};
-    put(frame.distance_cm, &bytes[2]);
-    put(frame.strength, &bytes[4]);
     const double raw = std::clamp(8.0 * (frame.temperature_degC + 256.0), 0.0, 65535.0);
-    put(static_cast<std::uint16_t>(std::lround(raw)), &bytes[6]);
+    const Words words = {frame.distance_cm, frame.strength,
+                         static_cast<std::uint16_t>(std::lround(raw))};
+    std::array<std::byte, kTfminiFrame_bytes> bytes = {kStart, kStart};
+    std::memcpy(&bytes[2], words.data(), sizeof(words));
     bytes[8] = sum(std::span(bytes).first(8));
     return bytes;
 }
 
-void TfminiParser::drop_first() {
-    ++discarded_;
-    std::copy(frame_.begin() + 1, frame_.begin() + static_cast<std::ptrdiff_t>(count_),
-              frame_.begin());
-    --count_;
-}
-
 std::optional<TfminiFrame> TfminiParser::parse(std::byte byte) {
-    frame_[count_++] = byte;
-    if (count_ == kTfminiFrame_bytes && sum(std::span(frame_).first(8)) == frame_[8] &&
-        frame_[0] == kStart && frame_[1] == kStart) {
-        count_ = 0;
-        ++frames_;
-        return TfminiFrame{.distance_cm = word(frame_[2], frame_[3]),
-                           .strength = word(frame_[4], frame_[5]),
-                           .temperature_degC = word(frame_[6], frame_[7]) / 8.0 - 256.0};
+    std::copy(last_.begin() + 1, last_.end(), last_.begin());
+    last_.back() = byte;
+    if (last_[0] != kStart || last_[1] != kStart || sum(std::span(last_).first(8)) != byte) {
+        return std::nullopt;
     }
-    if (count_ == kTfminiFrame_bytes) {
-        ++damaged_;
-        drop_first();  // a frame may have begun within it
-    }
-    while (count_ > 0 && (frame_[0] != kStart || (count_ > 1 && frame_[1] != kStart))) {
-        drop_first();
-    }
-    return std::nullopt;
+    Words words = {};
+    std::memcpy(words.data(), &last_[2], sizeof(words));
+    last_ = {};  // no byte belongs to two frames
+    return TfminiFrame{
+        .distance_cm = words[0], .strength = words[1], .temperature_degC = words[2] / 8.0 - 256.0};
 }
 
 }  // namespace limpet::devices

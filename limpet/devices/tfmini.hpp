@@ -17,7 +17,6 @@
 /// bytes before. Source: manual SJ-PM-TFmini Plus-T-01 A04, sections 5.2 to 5.4
 namespace limpet::devices {
 
-inline constexpr unsigned kTfminiBaud = 115200;
 inline constexpr std::size_t kTfminiFrame_bytes = 9;
 /// Below it, or at 65535 (saturated), the distance is unreliable. Source: manual, section 5.4
 inline constexpr std::uint16_t kTfminiWeakest = 100;
@@ -44,18 +43,8 @@ public:
     /// @return a frame when this byte ends one
     [[nodiscard]] std::optional<TfminiFrame> parse(std::byte byte);
 
-    [[nodiscard]] std::uint64_t frames() const { return frames_; }
-    [[nodiscard]] std::uint64_t damaged() const { return damaged_; }  ///< wrong checksum
-    [[nodiscard]] std::uint64_t discarded_bytes() const { return discarded_; }
-
 private:
-    void drop_first();
-
-    std::array<std::byte, kTfminiFrame_bytes> frame_ = {};
-    std::size_t count_ = 0;
-    std::uint64_t frames_ = 0;
-    std::uint64_t damaged_ = 0;
-    std::uint64_t discarded_ = 0;
+    std::array<std::byte, kTfminiFrame_bytes> last_ = {};  ///< bytes that came
 };
 
 }  // namespace limpet::devices

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "limpet/wire/udp.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::px4 {
 namespace {

@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/wire/address.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <boost/asio/ip/address_v4.hpp>
 #include <charconv>
-#include <optional>
 
 #include "limpet/core/errors.hpp"
 
 namespace limpet::wire {
 namespace {
 
+using boost::asio::ip::make_address_v4;
+
 // Autopilots' telemetry runs from 57600 on; 3 Mbaud is what USB bridges (FT232R) still do.
 constexpr unsigned kLowestBaud = 57600;
 constexpr unsigned kHighestBaud = 3000000;
 
-struct Scheme {
-    std::string_view name;
-    Medium medium;
-};
-constexpr std::array kSchemes = {Scheme{"tcp", Medium::tcp}, Scheme{"udp", Medium::udp},
-                                 Scheme{"udp-broadcast", Medium::udp_broadcast},
-                                 Scheme{"udp-multicast", Medium::udp_multicast},
-                                 Scheme{"serial", Medium::serial}};
+constexpr std::array<std::string_view, 5> kSchemes = {  // by Medium
+    "tcp", "udp", "udp-broadcast", "udp-multicast", "serial"};
 
 constexpr const char* kForms =
     "tcp:127.0.0.1:4560, udp:127.0.0.1:14550, udp-broadcast:HOST:PORT, "
@@ -50,20 +46,14 @@ struct Parsed {
     }
     [[nodiscard]] std::string host(std::string_view name, const char* what) const {
         std::string digits(name == "localhost" ? "127.0.0.1" : name);
-        in_addr ignored{};
-        if (digits.find('\0') != std::string::npos ||
-            inet_pton(AF_INET, digits.c_str(), &ignored) != 1) {
+        boost::system::error_code error;
+        (void)make_address_v4(digits, error);
+        if (error || digits.find('\0') != std::string::npos) {
             refuse(fmt::format("{} '{}' is not an IPv4 address in digits", what, name));
         }
         return digits;
     }
 };
-
-bool is_multicast(const std::string& host) {
-    in_addr address{};
-    inet_pton(AF_INET, host.c_str(), &address);
-    return (ntohl(address.s_addr) >> 28) == 0xE;  // 224.0.0.0/4, RFC 5771
-}
 
 void read_serial(const Parsed& parsed, std::string_view rest, TransportAddress& address) {
     const std::size_t colon = rest.rfind(':');
@@ -90,11 +80,12 @@ void read_network(const Parsed& parsed, std::string_view rest, TransportAddress&
         parsed.refuse("allowed is HOST:PORT after the scheme");
     }
     address.port = static_cast<std::uint16_t>(parsed.number(rest, "port", 1, 65535));
-    if (group && !is_multicast(address.host)) {
+    const bool is_group = make_address_v4(address.host).is_multicast();
+    if (group && !is_group) {
         parsed.refuse(
             fmt::format("group '{}' is not in 224.0.0.0 to 239.255.255.255", address.host));
     }
-    if (!group && is_multicast(address.host)) {
+    if (!group && is_group) {
         parsed.refuse(
             fmt::format("'{}' is a multicast group; ask for it with udp-multicast:", address.host));
     }
@@ -103,41 +94,24 @@ void read_network(const Parsed& parsed, std::string_view rest, TransportAddress&
     }
 }
 
-std::optional<Medium> medium_of(std::string_view name) {
-    for (const Scheme& scheme : kSchemes) {
-        if (scheme.name == name) {
-            return scheme.medium;
-        }
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 TransportAddress parse_address(std::string_view text) {
     const Parsed parsed{text};
     const std::size_t colon = text.find(':');
-    const std::optional<Medium> medium = medium_of(text.substr(0, colon));
-    if (colon == std::string_view::npos || !medium) {
+    const auto scheme = std::find(kSchemes.begin(), kSchemes.end(), text.substr(0, colon));
+    if (colon == std::string_view::npos || scheme == kSchemes.end()) {
         parsed.refuse(fmt::format("allowed are {}", kForms));
     }
     TransportAddress address;
-    address.medium = *medium;
-    if (*medium == Medium::serial) {
-        read_serial(parsed, text.substr(colon + 1), address);
-    } else {
-        read_network(parsed, text.substr(colon + 1), address);
-    }
+    address.medium = static_cast<Medium>(scheme - kSchemes.begin());
+    const auto read = address.medium == Medium::serial ? read_serial : read_network;
+    read(parsed, text.substr(colon + 1), address);
     return address;
 }
 
 std::string to_text(const TransportAddress& address) {
-    std::string_view scheme;
-    for (const Scheme& each : kSchemes) {
-        if (each.medium == address.medium) {
-            scheme = each.name;
-        }
-    }
+    const std::string_view scheme = kSchemes.at(static_cast<std::size_t>(address.medium));
     if (address.medium == Medium::serial) {
         return fmt::format("{}:{}:{}", scheme, address.device, address.baud);
     }

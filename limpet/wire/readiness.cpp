@@ -25,12 +25,6 @@ nanoseconds Deadline::remaining() const {
     return std::max(nanoseconds(0), nanoseconds(end_ - steady_clock::now()));
 }
 
-Deadline Deadline::sooner(nanoseconds timeout) const {
-    Deadline other(timeout);
-    other.end_ = std::min(other.end_, end_);
-    return other;
-}
-
 bool wait_ready(std::span<pollfd> descriptors, const Deadline& deadline) {
     for (;;) {
         const nanoseconds left = deadline.remaining();

@@ -16,8 +16,6 @@ public:
 
     [[nodiscard]] std::chrono::nanoseconds remaining() const;  ///< never negative
     [[nodiscard]] bool passed() const { return remaining().count() == 0; }
-    /// @return the earlier of this one and `timeout` from now
-    [[nodiscard]] Deadline sooner(std::chrono::nanoseconds timeout) const;
 
 private:
     std::chrono::steady_clock::time_point end_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,17 +28,9 @@ struct Transfer {
 
 /// Counts since the transport was opened.
 struct TransportStatistics {
-    std::uint64_t bytes_sent = 0;
-    std::uint64_t bytes_received = 0;
-    std::uint64_t sends = 0;       ///< that went whole
-    std::uint64_t receives = 0;    ///< that gave bytes
-    std::uint64_t cut_sends = 0;   ///< timed out or lost the peer on the way
-    std::uint64_t void_sends = 0;  ///< nobody was there
-    std::uint64_t peers = 0;       ///< that came; a change tells that a parser must start anew
+    std::uint64_t peers = 0;  ///< that came; a change tells that a parser must start anew
     std::uint64_t peers_lost = 0;
-    std::uint64_t peers_refused = 0;        ///< second TCP clients, datagrams of others
-    std::uint64_t datagrams_truncated = 0;  ///< UDP: longer than the buffer of receive
-    int last_error = 0;                     ///< errno of the last loss, 0: went in good order
+    std::uint64_t peers_refused = 0;  ///< second TCP clients, datagrams of others
 };
 
 /// A wire: bytes to and from one peer. Streams (TCP, serial) deliver in any pieces, UDP whole
@@ -57,7 +50,7 @@ public:
                                         std::chrono::nanoseconds timeout) = 0;
 
     /// Waits for a peer and bytes and returns what there is, never bytes of two peers in one call.
-    /// @param into     not empty
+    /// @param into     not empty; what is left of a longer datagram is gone
     /// @param timeout  longest wait, >= 0 (negative counts as 0: what is there already)
     [[nodiscard]] virtual Transfer receive(std::span<std::byte> into,
                                            std::chrono::nanoseconds timeout) = 0;
@@ -86,5 +79,62 @@ enum class Role {
 /// @throws InputError, one line that names the address: port in use, no such device, not allowed,
 /// ...
 [[nodiscard]] std::unique_ptr<Transport> open_transport(const TransportAddress& address, Role role);
+
+// What open_transport opens, medium by medium.
+
+/// A server with one client at a time. A second one is accepted and closed at once, as soon as
+/// receive, wait_for_peer or a waiting send runs; when the first is gone the next may come.
+/// @throws InputError when the port is in use, is privileged, or the address is not of this machine
+[[nodiscard]] std::unique_ptr<Transport> listen_tcp(const TransportAddress& address);
+
+/// A client that keeps trying for as long as receive or wait_for_peer wait, and comes back after a
+/// loss.
+[[nodiscard]] std::unique_ptr<Transport> connect_tcp(const TransportAddress& address);
+
+/// listen: bound to the address, hears and answers one at a time: another is heard, and then
+/// answered, only once the former has been silent for 2 s (for a group: joined, hears all, answers
+/// who spoke last). connect: sends to the address; hears a single host's port alone, and for
+/// broadcast and multicast answers who spoke last.
+/// @throws InputError when the port is in use, the address not of this machine, or the group not
+/// joined
+[[nodiscard]] std::unique_ptr<Transport> open_udp(const TransportAddress& address, Role role);
+
+/// A serial port: raw, 8N1, no flow control, any baud that the driver takes, for us alone
+/// (TIOCEXCL, and a lock that also keeps out root). What had arrived before is dropped. An
+/// unplugged port is lost for good: open it again.
+/// @throws InputError when it is missing, no serial port, not allowed, in use, or refuses the baud
+[[nodiscard]] std::unique_ptr<Transport> open_serial(const TransportAddress& address);
+
+// And what no address names.
+
+/// As PX4's links: bound to a port of its own, speaks to `first` until somebody speaks to it, and
+/// from then on to that one alone; what others send is dropped.
+/// @param local  port 0: the kernel chooses
+/// @throws InputError when the port is in use or the address not of this machine
+[[nodiscard]] std::unique_ptr<Transport> open_udp_between(const TransportAddress& local,
+                                                          const TransportAddress& first);
+
+/// A serial cable within this machine: other programs open `link` as they open a serial port, at
+/// any baud (nobody keeps to it), and this end plays the device. What nobody reads is dropped when
+/// the kernel's buffer is full, as on a real cable.
+/// @param link  made as a symbolic link to the terminal, removed at the end; it must not exist, or
+///              be such a link
+/// @throws InputError when the link cannot be made or no terminal is to be had
+[[nodiscard]] std::unique_ptr<Transport> open_pseudo_terminal(const std::filesystem::path& link);
+
+/// Hands over what is there, without waiting.
+/// @param room  for one piece
+/// @param most  so many pieces: a flood must not stop who listens
+/// @param take  called with the bytes of each
+template <class Take>
+void drain(Transport& wire, std::span<std::byte> room, int most, Take&& take) {
+    for (; most > 0; --most) {
+        const Transfer transfer = wire.receive(room, {});
+        if (transfer.status != TransferStatus::done) {
+            return;
+        }
+        take(std::span<const std::byte>(room.first(transfer.bytes)));
+    }
+}
 
 }  // namespace limpet::wire

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/wire/udp.hpp"
-
 #include <fmt/format.h>
 #include <sys/socket.h>
 
-#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/multicast.hpp>
 #include <boost/asio/ip/udp.hpp>
-#include <chrono>
 
-#include "limpet/core/errors.hpp"
-#include "limpet/wire/readiness.hpp"
-#include "limpet/wire/socket_errors.hpp"
-#include "limpet/wire/stream_transfer.hpp"
+#include "limpet/wire/stream_transport.hpp"
 
 namespace limpet::wire {
 namespace {
@@ -40,17 +33,11 @@ public:
           socket_(io_, udp::v4()) {
         close_on_exec(socket_.native_handle());
         socket_.non_blocking(true);
-        error_code error;
-        if (address.medium == Medium::udp_broadcast) {
-            socket_.set_option(boost::asio::socket_base::broadcast(true));
-        }
-        if (role == Role::listen) {
-            listen(error);
-        } else {
-            connect(error);
-        }
-        if (error) {
-            refuse_address(address_, error);
+        socket_.set_option(udp::socket::broadcast(address.medium == Medium::udp_broadcast));
+        try {
+            role == Role::listen ? listen() : connect();
+        } catch (const boost::system::system_error& error) {
+            refuse_address(address_, error.code().value());
         }
     }
 
@@ -66,28 +53,23 @@ public:
         if (closed_) {
             return {TransferStatus::closed, 0};
         }
-        if (!peer_known_) {
-            ++statistics_.void_sends;
-            return {TransferStatus::no_peer, 0};
-        }
         const Deadline deadline(timeout);
-        for (;;) {
-            const error_code error = send_once(bytes);
+        const auto buffer = boost::asio::buffer(bytes.data(), bytes.size());
+        while (peer_known_) {
+            error_code error;
+            (void)(connected_ ? socket_.send(buffer, 0, error)
+                              : socket_.send_to(buffer, peer_, 0, error));
             if (!error) {
-                statistics_.bytes_sent += bytes.size();
-                ++statistics_.sends;
                 return {TransferStatus::done, bytes.size()};
             }
             if (!try_again(error)) {  // nobody has the port, the cable is out: it may come back
-                statistics_.last_error = error.value();
-                ++statistics_.void_sends;
-                return {TransferStatus::no_peer, 0};
+                break;
             }
             if (error != boost::asio::error::interrupted && !wait(POLLOUT, deadline)) {
-                ++statistics_.cut_sends;
                 return {TransferStatus::timed_out, 0};
             }
         }
+        return {TransferStatus::no_peer, 0};
     }
 
     Transfer receive(std::span<std::byte> into, nanoseconds timeout) override {
@@ -105,11 +87,7 @@ public:
                 }
                 continue;
             }
-            const std::size_t bytes = std::min(length, into.size());
-            statistics_.datagrams_truncated += length > bytes ? 1 : 0;
-            statistics_.bytes_received += bytes;
-            ++statistics_.receives;
-            return {TransferStatus::done, bytes};
+            return {TransferStatus::done, std::min(length, into.size())};
         } while (wait(POLLIN, deadline));
         return {TransferStatus::timed_out, 0};
     }
@@ -155,50 +133,39 @@ private:
                                           : boost::asio::ip::make_address_v4(address_.interface);
     }
 
-    void listen(error_code& error) {
+    void listen() {
         if (group()) {  // Motive's clients on one machine share the port
             socket_.set_option(udp::socket::reuse_address(true));
         }
         // A group's own address, not any: no other traffic to the port comes in.
-        socket_.bind(there_, error);
-        if (!error && group()) {
-            socket_.set_option(multicast::join_group(there_.address().to_v4(), interface()), error);
+        socket_.bind(there_);
+        if (group()) {
+            socket_.set_option(multicast::join_group(there_.address().to_v4(), interface()));
         }
-        if (!error) {
-            address_.port = socket_.local_endpoint().port();
-        }
+        address_.port = socket_.local_endpoint().port();
     }
 
-    void connect(error_code& error) {
+    void connect() {
         peer_ = there_;
         peer_known_ = true;
         if (address_.medium == Medium::udp) {
+            error_code error;
             socket_.connect(there_, error);  // the kernel drops what others send
             if (error.value() == EACCES) {
                 throw InputError(
                     fmt::format("address '{}': {} is a broadcast; ask for it with udp-broadcast:",
                                 to_text(address_), address_.host));
             }
+            if (error) {
+                refuse_address(address_, error.value());
+            }
             connected_ = true;
             return;
         }
         if (group() && !address_.interface.empty()) {
-            socket_.set_option(multicast::outbound_interface(interface()), error);
+            socket_.set_option(multicast::outbound_interface(interface()));
         }
-        if (!error) {
-            socket_.bind(udp::endpoint(group() ? interface() : address_v4::any(), 0), error);
-        }
-    }
-
-    error_code send_once(std::span<const std::byte> bytes) {
-        error_code error;
-        const auto buffer = boost::asio::buffer(bytes.data(), bytes.size());
-        if (connected_) {
-            socket_.send(buffer, 0, error);
-        } else {
-            socket_.send_to(buffer, peer_, 0, error);
-        }
-        return error;
+        socket_.bind(udp::endpoint(group() ? interface() : address_v4::any(), 0));
     }
 
     /// @return length of the datagram, which may be longer than `into`; 0 if there was none
@@ -207,10 +174,7 @@ private:
         error_code error;
         const std::size_t length =
             socket_.receive_from(boost::asio::buffer(into.data(), into.size()), from, flags, error);
-        if (error) {
-            if (!try_again(error)) {  // "refused" by the host of an earlier datagram
-                statistics_.last_error = error.value();
-            }
+        if (error) {  // also "refused" by the host of an earlier datagram
             return 0;
         }
         if (heard_ && from != peer_ && (keeps_first_ || (one_at_a_time() && peer_speaks()))) {

@@ -53,22 +53,8 @@ struct NatNetUnicast : testing::Test {
                         nullptr,
                         open_transport(server.wire->address(), wire::Role::connect)};
 
-    /// Receives until something came or five seconds are over: loopback, but another process's.
-    std::optional<Sample<PoseReading>> pose(double time_s) {
-        const auto end = std::chrono::steady_clock::now() + 5s;
-        const NatNetCount before = client.count();
-        while (std::chrono::steady_clock::now() < end) {
-            if (auto sample = client.receive(time_s)) {
-                return sample;
-            }
-            const NatNetCount& now = client.count();
-            if (now.frames + now.damaged != before.frames + before.damaged) {
-                return std::nullopt;
-            }
-        }
-        ADD_FAILURE() << "nothing came";
-        return std::nullopt;
-    }
+    /// What has been sent on loopback is there.
+    std::optional<Sample<PoseReading>> pose(double time_s) { return client.receive(time_s); }
 
     void shake_hands(std::uint64_t clock_Hz = 1000) {
         client.update(0.0);
@@ -90,8 +76,6 @@ TEST_F(NatNetUnicast, ConnectsLearnsTheVersionAndHearsPoses) {
     ASSERT_TRUE(sample);
     EXPECT_EQ(sample->value.p_WB_m.x(), 2.5);
     EXPECT_EQ(sample->time_s, 10.0);
-    EXPECT_EQ(client.count().frames, 1U);
-    EXPECT_EQ(client.count().damaged, 0U);
 }
 
 TEST_F(NatNetUnicast, SaysConnectUntilAnsweredThenThatItIsAlive) {
@@ -117,26 +101,24 @@ TEST_F(NatNetUnicast, APoseIsAsOldAsMotiveTookForIt) {
     EXPECT_EQ(pose(11.0)->time_s, 11.0);
 }
 
-TEST_F(NatNetUnicast, CountsWhatItCannotUse) {
+TEST_F(NatNetUnicast, LeavesAloneWhatItCannotUse) {
     shake_hands();
     server.stream(1.0, 9);
-    EXPECT_FALSE(pose(1.0));
-    EXPECT_EQ(client.count().without_body, 1U);
+    EXPECT_FALSE(pose(1.0)) << "another body";
     server.stream(1.0, 1, false);
-    EXPECT_FALSE(pose(1.0));
-    EXPECT_EQ(client.count().not_tracked, 1U);
+    EXPECT_FALSE(pose(1.0)) << "not tracked";
     server.number += 3;
     server.stream(1.0);
-    EXPECT_TRUE(pose(1.0));
-    EXPECT_EQ(client.count().lost, 3U);
+    EXPECT_TRUE(pose(1.0)) << "some were lost";
     server.number -= 2;
     server.stream(7.0);
-    EXPECT_FALSE(pose(1.0));
-    EXPECT_EQ(client.count().out_of_order, 1U);
+    EXPECT_FALSE(pose(1.0)) << "late";
     const std::array<std::byte, 5> garbage = {std::byte{7}, std::byte{0}, std::byte{200}};
     say(*server.wire, garbage);
     EXPECT_FALSE(pose(1.0));
-    EXPECT_EQ(client.count().damaged, 1U);
+    server.number += 2;
+    server.stream(8.0);
+    EXPECT_TRUE(pose(1.0)) << "goes on behind it";
 }
 
 TEST_F(NatNetUnicast, AStreamThatBeginsAnewIsFollowed) {
@@ -147,7 +129,6 @@ TEST_F(NatNetUnicast, AStreamThatBeginsAnewIsFollowed) {
     server.number = 0;
     server.stream(2.0);
     EXPECT_TRUE(pose(2.0));
-    EXPECT_EQ(client.count().out_of_order, 0U);
 }
 
 TEST(NatNetMulticast, JoinsTheGroupAndNeedsNoServer) {

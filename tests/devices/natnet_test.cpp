@@ -80,13 +80,11 @@ void expect_full_frame(const Bytes& packet, NatNetVersion version) {
     EXPECT_EQ(frame->motive_time_s, 12.25);
     EXPECT_EQ(frame->mid_exposure_ticks, 1000U);
     EXPECT_EQ(frame->transmit_ticks, 1200U);
-    EXPECT_TRUE(frame->models_changed);
     ASSERT_TRUE(frame->body);
     EXPECT_EQ(frame->body->id, 12);
     EXPECT_EQ(frame->body->pose.p_MP_m, Vector3(1.5, 2.0, 3.0));
     EXPECT_NEAR(frame->body->pose.q_MP.w(), 0.8, 1e-7);
     EXPECT_NEAR(frame->body->pose.q_MP.y(), 0.6, 1e-7);
-    EXPECT_NEAR(frame->body->mean_error_m, 0.0005, 1e-9);
     EXPECT_TRUE(frame->body->tracking_valid);
 }
 
@@ -160,7 +158,6 @@ TEST(NatNet, WhatIsEncodedDecodes) {
     frame.transmit_ticks = 30;
     frame.body = NatNetBody{.id = 4,
                             .pose = {.p_MP_m = {1.0, 2.0, 3.0}, .q_MP = {0.5, -0.5, 0.5, -0.5}},
-                            .mean_error_m = 0.25,
                             .tracking_valid = true};
     for (const NatNetVersion version : {kOld, NatNetVersion{3, 1}, NatNetVersion{4, 0}, kNew}) {
         NatNetBuffer buffer;

@@ -8,10 +8,10 @@
 #include <map>
 
 #include "limpet/devices/natnet_client.hpp"
-#include "limpet/devices/pseudo_terminal.hpp"
 #include "limpet/devices/tfmini.hpp"
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
+#include "limpet/wire/transport.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -225,15 +225,14 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
         std::filesystem::temp_directory_path() / ("limpet_outside_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
     RemoteGuidance remote({.sensors = companion.outside(),
-                           .lidar_left = devices::open_pseudo_terminal(folder / "left"),
-                           .lidar_right = devices::open_pseudo_terminal(folder / "right"),
-                           .mechanism = devices::open_pseudo_terminal(folder / "mechanism")},
+                           .lidar_left = wire::open_pseudo_terminal(folder / "left"),
+                           .lidar_right = wire::open_pseudo_terminal(folder / "right"),
+                           .mechanism = wire::open_pseudo_terminal(folder / "mechanism")},
                           {});
     const auto port = [&](const char* name) {
-        return open_transport({.medium = wire::Medium::serial,
-                               .device = (folder / name).string(),
-                               .baud = devices::kTfminiBaud},
-                              wire::Role::connect);
+        return open_transport(
+            {.medium = wire::Medium::serial, .device = (folder / name).string(), .baud = 115200},
+            wire::Role::connect);
     };
     const auto left = port("left");
     const auto mechanism = port("mechanism");

@@ -205,7 +205,6 @@ TEST_F(SerialCable, SendTimesOutWhenNobodyReads) {
     EXPECT_LT(transfer.bytes, much.size());
     EXPECT_GE(took, 60ms);
     EXPECT_LT(took, 1s);
-    EXPECT_EQ(port->statistics().cut_sends, 1U);
 }
 
 TEST_F(SerialCable, WaitsEndOnTimeThroughSignals) {

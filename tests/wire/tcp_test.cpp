@@ -56,8 +56,6 @@ TEST_F(TcpServed, EchoesToASocketThatIsNotOurs) {
     EXPECT_EQ(heard(*server), "hello");
     EXPECT_EQ(say(*server, "hello yourself"), wire::TransferStatus::done);
     EXPECT_EQ(client.heard(), "hello yourself");
-    EXPECT_EQ(server->statistics().bytes_received, 5U);
-    EXPECT_EQ(server->statistics().bytes_sent, 14U);
     EXPECT_EQ(server->statistics().peers, 1U);
 }
 
@@ -112,7 +110,6 @@ TEST_F(TcpServed, ClientGoneAndBackAgain) {
     EXPECT_EQ(heard(*server), "two");
     EXPECT_EQ(server->statistics().peers, 2U);
     EXPECT_EQ(server->statistics().peers_lost, 1U);
-    EXPECT_EQ(server->statistics().void_sends, 1U);
 }
 
 TEST_F(TcpServed, OneThatIsBackBeforeItsEndWasSeenIsNotRefused) {
@@ -144,8 +141,6 @@ TEST_F(TcpServed, PeerGoneInTheMiddleOfASendIsLostAndKillsNobody) {
     EXPECT_EQ(transfer.status, wire::TransferStatus::peer_lost);
     EXPECT_GT(transfer.bytes, 0U);
     EXPECT_LT(transfer.bytes, 5 * kMany);
-    EXPECT_EQ(server->statistics().cut_sends, 1U);
-    EXPECT_EQ(server->statistics().bytes_sent, transfer.bytes);
     EXPECT_EQ(say(*server, "x"), wire::TransferStatus::no_peer);
 }
 
@@ -288,7 +283,6 @@ TEST_F(TcpPair, TheClientComesBackToANewServer) {
     server->close();
     EXPECT_EQ(heard(*client), "<peer lost>");
     EXPECT_EQ(heard(*client, 20ms), "<timed out>");
-    EXPECT_EQ(client->statistics().last_error, ECONNREFUSED);
     const auto next = server_at("127.0.0.1", port);
     ASSERT_TRUE(client->wait_for_peer(kLong));
     EXPECT_EQ(say(*client, "again"), wire::TransferStatus::done);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/devices/natnet.hpp"
+
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
-#include "limpet/devices/natnet.hpp"
+#include "limpet/core/errors.hpp"
 
 // Frame of data, in the order of the wire; "n" is a count (4 bytes), from 4.1 on followed by the
 // section's length in bytes (4):
@@ -19,13 +24,18 @@ namespace {
 
 constexpr std::size_t kHeader_bytes = 4;
 constexpr std::size_t kVector_bytes = 12;
-constexpr std::size_t kRigidBody_bytes = 38;
+constexpr std::uint32_t kRigidBody_bytes = 38;
 constexpr std::size_t kMarker_bytes = 26;
 constexpr std::size_t kSuffix_bytes = 42;  // without precision time and end
 constexpr std::size_t kPrecisionTime_bytes = 8;
-constexpr std::size_t kServerName_bytes = 256;
-constexpr std::uint16_t kModelsChanged = 2;
+constexpr std::string_view kName = "Limpet";
+constexpr std::size_t kName_bytes = 256;
 constexpr double kQuaternionTolerance = 0.1;  // float noise is 1e-6; garbage is anywhere
+
+/// From 4.1 on every section of a frame says how long it is.
+bool has_section_sizes(NatNetVersion version) {
+    return version.major == 4 && version.minor >= 1;
+}
 
 /// Reads on; once something is missing, all that follows is zero and `whole` false.
 class Reader {
@@ -49,9 +59,6 @@ public:
     }
 
     void skip(std::size_t bytes) { (void)take_bytes(bytes); }
-
-    /// `count` things of `size` bytes each; no overflow, since both fit in 32 bits.
-    void skip_many(std::size_t count, std::size_t size) { skip(count * size); }
 
     void skip_text() {
         const auto end = std::find(left_.begin(), left_.end(), std::byte{0});
@@ -113,7 +120,7 @@ NatNetBody take_body(Reader& reader) {
     body.pose.p_MP_m = reader.take_vector();
     const Vector3 xyz = reader.take_vector();
     body.pose.q_MP = Quaternion(reader.take<float>(), xyz.x(), xyz.y(), xyz.z());
-    body.mean_error_m = reader.take<float>();
+    reader.skip(4);  // mean error of its markers
     body.tracking_valid = (reader.take<std::uint16_t>() & 1U) != 0;
     return body;
 }
@@ -143,12 +150,12 @@ void skip_to_suffix(Reader& reader, NatNetVersion version) {
         reader.skip(4);
         const std::size_t count = reader.take_count(4);
         for (std::size_t i = 0; i < count && reader.whole(); ++i) {
-            reader.skip_many(reader.take_count(4), 4);
+            reader.skip(4 * reader.take_count(4));
         }
     };
     skip_section(reader, version, 8, [&reader] {  // skeletons
         reader.skip(4);
-        reader.skip_many(reader.take_count(kRigidBody_bytes), kRigidBody_bytes);
+        reader.skip(kRigidBody_bytes * reader.take_count(kRigidBody_bytes));
     });
     if (has_section_sizes(version)) {  // assets
         skip_section(reader, version, 1, [] {});
@@ -166,8 +173,7 @@ void take_suffix(Reader& reader, NatNetVersion version, NatNetFrame& frame) {
     frame.mid_exposure_ticks = reader.take<std::uint64_t>();
     reader.skip(8);
     frame.transmit_ticks = reader.take<std::uint64_t>();
-    reader.skip(precise ? kPrecisionTime_bytes : 0);
-    frame.models_changed = (reader.take<std::uint16_t>() & kModelsChanged) != 0;
+    reader.skip((precise ? kPrecisionTime_bytes : 0) + 2);  // and flags
 }
 
 /// @return the payload of a packet of this kind
@@ -181,14 +187,74 @@ std::optional<Reader> payload(std::span<const std::byte> packet, NatNetMessage k
     return Reader(packet.subspan(kHeader_bytes, length));
 }
 
+class Writer {
+public:
+    Writer(NatNetMessage kind, NatNetBuffer& into) : into_(into) {
+        put(static_cast<std::uint16_t>(kind));
+        put(std::uint16_t{0});  // the length, at the end
+    }
+
+    template <class T>
+    void put(const T& value) {
+        require(length_ + sizeof(T) <= into_.size(), "a NatNet packet of ours fits its buffer");
+        std::memcpy(into_.data() + length_, &value, sizeof(T));
+        length_ += sizeof(T);
+    }
+    void put_vector(const Vector3& v) {
+        put(static_cast<float>(v.x()));
+        put(static_cast<float>(v.y()));
+        put(static_cast<float>(v.z()));
+    }
+    /// Name and version of the program, version of the bit stream.
+    void put_sender(NatNetVersion version) {
+        std::array<char, kName_bytes> name = {};
+        kName.copy(name.data(), name.size());
+        put(name);
+        for (int i = 0; i < 2; ++i) {
+            put(version.major);
+            put(version.minor);
+            put(std::uint16_t{0});
+        }
+    }
+
+    std::span<const std::byte> packet() {
+        const auto payload = static_cast<std::uint16_t>(length_ - 4);
+        std::memcpy(into_.data() + 2, &payload, sizeof(payload));
+        return std::span(into_).first(length_);
+    }
+
+private:
+    NatNetBuffer& into_;
+    std::size_t length_ = 0;
+};
+
+/// Head of a section; by itself an empty one.
+void put_section(Writer& writer, NatNetVersion version, std::int32_t count = 0,
+                 std::uint32_t bytes = 0) {
+    writer.put(count);
+    if (has_section_sizes(version)) {
+        writer.put(bytes);
+    }
+}
+
+void put_bodies(Writer& writer, NatNetVersion version, const std::optional<NatNetBody>& body) {
+    if (!body) {
+        put_section(writer, version);
+        return;
+    }
+    put_section(writer, version, 1, kRigidBody_bytes);
+    writer.put(body->id);
+    writer.put_vector(body->pose.p_MP_m);
+    writer.put_vector(body->pose.q_MP.vec());
+    writer.put(static_cast<float>(body->pose.q_MP.w()));
+    writer.put(0.0F);  // mean error of its markers
+    writer.put(static_cast<std::uint16_t>(body->tracking_valid ? 1 : 0));
+}
+
 }  // namespace
 
 bool understood(NatNetVersion version) {
     return version.major == 3 || version.major == 4;
-}
-
-bool has_section_sizes(NatNetVersion version) {
-    return version.major == 4 && version.minor >= 1;
 }
 
 std::optional<NatNetMessage> natnet_message(std::span<const std::byte> packet) {
@@ -217,7 +283,7 @@ std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet, NatNe
     frame.number = reader->take<std::int32_t>();
     skip_section(*reader, version, 5, [&reader] {  // marker sets
         reader->skip_text();
-        reader->skip_many(reader->take_count(kVector_bytes), kVector_bytes);
+        reader->skip(kVector_bytes * reader->take_count(kVector_bytes));
     });
     skip_section(*reader, version, kVector_bytes, [&reader] { reader->skip(kVector_bytes); });
     frame.body = take_bodies(*reader, version, body_id);
@@ -241,7 +307,7 @@ std::optional<NatNetServer> decode_server(std::span<const std::byte> packet) {
         return std::nullopt;
     }
     NatNetServer server;
-    reader->skip(kServerName_bytes + 4);  // name and version of the program
+    reader->skip(kName_bytes + 4);  // name and version of the program
     server.version.major = reader->take<std::uint8_t>();
     server.version.minor = reader->take<std::uint8_t>();
     reader->skip(2);
@@ -254,6 +320,50 @@ std::optional<NatNetServer> decode_server(std::span<const std::byte> packet) {
         server.multicast = reader->take<std::uint8_t>() != 0;
     }
     return server;
+}
+
+std::span<const std::byte> encode_connect(NatNetVersion version, NatNetBuffer& into) {
+    Writer writer(NatNetMessage::connect, into);
+    writer.put_sender(version);
+    return writer.packet();
+}
+
+std::span<const std::byte> encode_keep_alive(NatNetBuffer& into) {
+    return Writer(NatNetMessage::keep_alive, into).packet();
+}
+
+std::span<const std::byte> encode_server(const NatNetServer& server, NatNetBuffer& into) {
+    Writer writer(NatNetMessage::server_info, into);
+    writer.put_sender(server.version);
+    writer.put(server.clock_Hz);
+    writer.put(server.data_port);
+    writer.put(static_cast<std::uint8_t>(server.multicast ? 1 : 0));
+    writer.put(inet_addr(std::string(kNatNetGroup).c_str()));  // in network order
+    return writer.packet();
+}
+
+std::span<const std::byte> encode_frame(const NatNetFrame& frame, NatNetVersion version,
+                                        NatNetBuffer& into) {
+    Writer writer(NatNetMessage::frame_of_data, into);
+    writer.put(frame.number);
+    put_section(writer, version);  // marker sets
+    put_section(writer, version);  // unlabelled markers
+    put_bodies(writer, version, frame.body);
+    const int others = has_section_sizes(version) ? 5 : 4;  // skeletons, assets (4.1), labelled
+    for (int i = 0; i < others; ++i) {                      // markers, force plates, devices
+        put_section(writer, version);
+    }
+    writer.put(std::uint64_t{0});  // time code
+    writer.put(frame.motive_time_s);
+    writer.put(frame.mid_exposure_ticks);
+    writer.put(frame.mid_exposure_ticks);  // received by the server
+    writer.put(frame.transmit_ticks);
+    if (has_section_sizes(version)) {
+        writer.put(std::uint64_t{0});  // precision time
+    }
+    writer.put(std::uint16_t{0});  // flags
+    writer.put(std::uint32_t{0});  // end of data
+    return writer.packet();
 }
 
 }  // namespace limpet::devices
