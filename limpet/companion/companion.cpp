@@ -42,34 +42,33 @@ SessionSetup setup_of(const CompanionConfig& config, bool dry_run) {
 
 }  // namespace
 
-Companion::Companion(const CompanionConfig& config, Wires& wires, CompanionLog* log, bool dry_run,
-                     CompanionWatch watch)
+Companion::Companion(const CompanionConfig& config, Wires& wires, record::Recorder* recorder,
+                     bool dry_run, CompanionWatch watch)
     : config_(config),
       wires_(wires),
-      log_(log),
+      recorder_(recorder),
       dry_run_(dry_run),
       watch_(std::move(watch)),
       offboard_(options_of(config)),
       inputs_(config),
-      mechanism_(config),
-      dry_([this](double time_s, const std::string& text) { say(time_s, text); }),
-      session_(setup_of(config, dry_run),
-               {.on_event = [this](const Event& event) { report(event); },
-                .on_line = [this](double time_s, const std::string& text) { say(time_s, text); }}) {
+      dry_(watch_),
+      session_(
+          setup_of(config, dry_run),
+          {.on_event = [this](const Event& event) { report(event); }, .on_line = watch_.on_line}) {
     result_.events.reserve(256);
 }
 
 /// A disk that is full must not end a flight: what has been written stays, the rest is not.
 template <class Write>
-void Companion::log(double time_s, Write&& write) {
-    if (log_ == nullptr) {
+void Companion::write(double time_s, const Write& writes) {
+    if (recorder_ == nullptr) {
         return;
     }
     try {
-        write(*log_);
+        writes(*recorder_);
     } catch (const InputError& error) {
-        log_ = nullptr;
-        say(time_s, fmt::format("nothing is recorded any more: {}", error.what()));
+        recorder_ = nullptr;
+        watch_.line(time_s, fmt::format("nothing is recorded any more: {}", error.what()));
     }
 }
 
@@ -135,7 +134,7 @@ void Companion::feed(double time_s) {
     const bool flies = phase() == SessionPhase::flying;
     SessionInputs& in = session_.inputs();
     in.readings = inputs_.readings();
-    const Estimate estimate = dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s);
+    const Estimate estimate = dry_run_ ? carried_.estimate() : offboard_.estimate(time_s);
     if (estimate.valid) {
         in.pose = {estimate.time_s, {.p_WB_m = estimate.p_WB_m, .q_WB = estimate.q_WB}};
         in.velocity_W_m_s = {estimate.time_s, estimate.v_WB_m_s};
@@ -186,10 +185,11 @@ void Companion::steer(double time_s) {
 }
 
 void Companion::actuate(double time_s) {
-    const Setpoint& setpoint = session_.setpoint();
-    if (session_.drives_mechanism() && !over_) {
-        mechanism_.update(wires_, {.pump_on = setpoint.pump_on, .valve_open = setpoint.valve_open},
-                          time_s);
+    const mavlink::MechanismCommand wanted{.pump_on = session_.setpoint().pump_on,
+                                           .valve_open = session_.setpoint().valve_open};
+    if (session_.drives_mechanism() && !over_ &&
+        mechanism_.due(wanted, config_.limits.mechanism_rate_Hz, time_s)) {
+        tell_mechanism(config_, wires_, wanted, mechanism_.repeats());
     }
 }
 
@@ -207,12 +207,10 @@ void Companion::tell(double time_s) {
         constexpr std::uint8_t kOnboardController = 18;
         constexpr std::uint8_t kNoAutopilot = 8;
         send_sensors(last_word());
-        mavlink::Heartbeat beat;
-        beat.type = kOnboardController;
-        beat.autopilot = kNoAutopilot;
-        beat.system_status = mavlink::kStatePowerOff;
-        beat.mavlink_version = 3;
-        send_sensors(beat);
+        send_sensors(mavlink::Heartbeat{.type = kOnboardController,
+                                        .autopilot = kNoAutopilot,
+                                        .system_status = mavlink::kStatePowerOff,
+                                        .mavlink_version = 3});
     }
 }
 
@@ -221,50 +219,46 @@ mavlink::StatusText Companion::last_word() const {
         return mavlink::outcome_text(*result_.outcome, result_.reason);
     }
     constexpr std::uint8_t kWarning = 4;
-    mavlink::StatusText text;
-    text.severity = kWarning;
+    mavlink::StatusText text{.severity = kWarning};
     mavlink::set_text(text.text, "handed back: " + result_.reason);
     return text;
 }
 
 void Companion::record(double time_s) {
-    log(time_s, [&](CompanionLog& to) {
-        to.readings(inputs_.readings());
-        to.estimate(dry_run_ ? carried_.estimate(true) : offboard_.estimate(time_s));
+    write(time_s, [&](record::Recorder& to) {
+        to.new_readings(inputs_.readings(), recorded_);
+        const Estimate estimate = dry_run_ ? carried_.estimate() : offboard_.estimate(time_s);
+        if (estimate.time_s > recorded_estimate_s_) {
+            to.estimate(estimate);
+            recorded_estimate_s_ = estimate.time_s;
+        }
         if (!over_ && (phase() == SessionPhase::flying || phase() == SessionPhase::handed_back)) {
-            to.guidance(time_s, session_.setpoint(), memory());
+            to.setpoint(time_s, session_.setpoint());
+            to.guidance(time_s, to_string(memory().state), memory().attempt);
         }
     });
 }
 
 void Companion::report(const Event& event) {
     result_.events.push_back(event);
-    log(event.time_s, [&](CompanionLog& to) { to.event(event); });
+    write(event.time_s, [&](record::Recorder& to) { to.event(event); });
     if (wires_.sensors && !dry_run_) {
         send_sensors(mavlink::event_text(event));
     }
-    if (watch_.on_event) {
-        watch_.on_event(event);
-    }
-}
-
-void Companion::say(double time_s, const std::string& text) const {
-    if (watch_.on_line) {
-        watch_.on_line(time_s, text);
-    }
+    watch_.event(event);
 }
 
 void Companion::say_changes(double time_s) {
     constexpr double kAnswer_s = 0.5;
     if (offboard_.report().texts != told_texts_) {
         told_texts_ = offboard_.report().texts;
-        say(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
+        watch_.line(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
     }
     const bool deaf = session_.drives_mechanism() && phase() == SessionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&
                       inputs_.mechanism_s() < mechanism_.asked_s();
     if (deaf && !told_deaf_) {
-        say(time_s, "pump and valve do not answer");
+        watch_.line(time_s, "pump and valve do not answer");
     }
     told_deaf_ = deaf;
 }

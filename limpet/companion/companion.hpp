@@ -10,11 +10,11 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/companion/dry_run.hpp"
 #include "limpet/companion/inputs.hpp"
-#include "limpet/companion/log.hpp"
 #include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
 #include "limpet/companion/wires.hpp"
 #include "limpet/mavlink/offboard.hpp"
+#include "limpet/record/recorder.hpp"
 
 namespace limpet::companion {
 
@@ -39,8 +39,10 @@ class Companion {
 public:
     /// @param dry_run  hears all, sends nothing to autopilot and mechanism, says what it would do;
     ///                 the pose is motion capture's and no autopilot is needed
-    /// @param log      nullptr: no recording. Config, wires and log outlive the companion.
-    Companion(const CompanionConfig& config, Wires& wires, CompanionLog* log, bool dry_run,
+    /// @param recorder  nullptr: no recording; else of readings as they come, the autopilot's pose,
+    ///                  set-points, guidance, events, no truth; times are seconds since the start.
+    ///                  Config, wires and recorder outlive the companion.
+    Companion(const CompanionConfig& config, Wires& wires, record::Recorder* recorder, bool dry_run,
               CompanionWatch watch);
 
     /// Takes in what has arrived; often, between ticks.
@@ -70,19 +72,18 @@ private:
     [[nodiscard]] mavlink::StatusText last_word() const;
     void record(double time_s);
     template <class Write>
-    void log(double time_s, Write&& write);
+    void write(double time_s, const Write& writes);
     void report(const Event& event);
-    void say(double time_s, const std::string& text) const;
     void say_changes(double time_s);
 
     const CompanionConfig& config_;
     Wires& wires_;
-    CompanionLog* log_;
+    record::Recorder* recorder_;
     bool dry_run_;
     CompanionWatch watch_;
     mavlink::Offboard offboard_;
     Inputs inputs_;
-    MechanismOut mechanism_;
+    MechanismPace mechanism_;
     PoseEstimate carried_;
     DryRun dry_;
     PerchingSession session_;
@@ -90,6 +91,8 @@ private:
     double forwarded_s_ = -1e9;  ///< when a pose was due to go on
     double forwarded_pose_s_ = -1.0;
     double told_s_ = -1e9;  ///< to the sensors' wire
+    Readings recorded_;
+    double recorded_estimate_s_ = 0.0;
     std::uint64_t told_texts_ = 0;
     bool told_deaf_ = false;  ///< that the mechanism does not answer
     CompanionResult result_;

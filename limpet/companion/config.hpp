@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpet/companion/parameters.hpp"
@@ -64,6 +65,14 @@ struct CompanionConfig {
 
     std::filesystem::path signing_key_file;  ///< empty: unsigned
 };
+
+/// Numbers of section `motion_capture`: how it lies in W and the rigid body on the vehicle.
+[[nodiscard]] const ParameterTable<CompanionConfig>& motion_capture_table();
+/// Numbers of section `autopilot`.
+[[nodiscard]] const ParameterTable<CompanionConfig>& autopilot_wire_table();
+
+/// @return whether any wire is a serial port: its clock cannot be turned faster
+[[nodiscard]] bool has_serial(const CompanionConfig& config);
 
 /// Reads and checks one companion. Keys: companions/*.yaml, which name them all.
 /// @param wanted     path of a file, or a name in companions/ of the data

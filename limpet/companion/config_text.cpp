@@ -16,23 +16,14 @@ std::string_view words(ReadingSource source) {
     throw InternalError("source of readings out of range");
 }
 
-std::string autopilot_text(const CompanionConfig& config) {
-    return fmt::format(
-        "autopilot   {}, system {}; {}", to_text(config.autopilot), config.system,
-        config.asks_for_mode
-            ? "arms it and asks for OFFBOARD"
-            : "waits until an operator flies it to before the wall and chooses OFFBOARD");
-}
-
 std::string pose_text(const CompanionConfig& config) {
     if (config.pose_source == PoseSource::mavlink) {
         return "poses       ODOMETRY over the sensors' wire, north-east-down";
     }
     const devices::MocapAxes& axes = config.axes;
     return fmt::format(
-        "poses       NatNet on {}{}, rigid body {}; {} up, x axis at {:g} deg from north, origin "
-        "at "
-        "({:g}, {:g}, {:g}) m; nose at {:g} deg, pivot at ({:g}, {:g}, {:g}) m",
+        "poses       NatNet on {}{}, rigid body {}; {} up, x axis at {:g} deg from north, "
+        "origin at ({:g}, {:g}, {:g}) m; nose at {:g} deg, pivot at ({:g}, {:g}, {:g}) m",
         to_text(config.pose_address),
         config.pose_command ? ", Motive at " + to_text(*config.pose_command) : "",
         config.rigid_body, axes.up == devices::UpAxis::y ? "y" : "z", axes.x_axis_yaw_deg,
@@ -40,45 +31,43 @@ std::string pose_text(const CompanionConfig& config) {
         axes.p_BP_m.y(), axes.p_BP_m.z());
 }
 
-std::string lidar_text(const CompanionConfig& config) {
-    return config.lidar_source == ReadingSource::serial
-               ? fmt::format("LiDARs      TFmini Plus, left {}, right {}",
-                             to_text(config.lidar_left), to_text(config.lidar_right))
-               : fmt::format("LiDARs      DISTANCE_SENSOR 0 left, 1 right {}",
-                             words(config.lidar_source));
-}
-
-std::string mechanism_text(const CompanionConfig& config) {
-    return fmt::format(
-        "mechanism   {}; {} valve; force and pressure {}",
-        config.mechanism == MechanismWire::line
-            ? "lines over " + to_text(config.mechanism_address)
-            : std::string("DO_SET_ACTUATOR over the sensors' wire"),
-        config.guidance.valve_fitted ? "with a" : "no",
-        config.load_source == ReadingSource::serial ? "in its lines" : words(config.load_source));
-}
-
 }  // namespace
 
 std::vector<std::string> describe(const CompanionConfig& config) {
     const CompanionLimits& limits = config.limits;
+    const guidance::PerchingParameters& guidance = config.guidance;
+    const bool tfmini = config.lidar_source == ReadingSource::serial;
+    const bool line = config.mechanism == MechanismWire::line;
+    const bool in_lines = config.load_source == ReadingSource::serial;
     std::vector<std::string> lines = {
         fmt::format("mission     {} with {}", config.mission, config.vehicle),
-        autopilot_text(config), pose_text(config), lidar_text(config), mechanism_text(config)};
+        fmt::format("autopilot   {}, system {}; {}", to_text(config.autopilot), config.system,
+                    config.asks_for_mode ? "arms it and asks for OFFBOARD"
+                                         : "waits until an operator flies it to before the wall "
+                                           "and chooses OFFBOARD"),
+        pose_text(config),
+        tfmini ? fmt::format("LiDARs      TFmini Plus, left {}, right {}",
+                             to_text(config.lidar_left), to_text(config.lidar_right))
+               : fmt::format("LiDARs      DISTANCE_SENSOR 0 left, 1 right {}",
+                             words(config.lidar_source)),
+        fmt::format("mechanism   {}; {} valve; force and pressure {}",
+                    line ? "lines over " + to_text(config.mechanism_address)
+                         : "DO_SET_ACTUATOR over the sensors' wire",
+                    guidance.valve_fitted ? "with a" : "no",
+                    in_lines ? "in its lines" : words(config.load_source))};
     if (config.sensors) {
         lines.push_back("sensors     " + to_text(*config.sensors));
     }
-    lines.push_back(config.signing_key_file.empty()
-                        ? std::string("signing     none: who reaches the wires may command")
-                        : "signing     key of " + config.signing_key_file.string());
+    lines.push_back("signing     " + (config.signing_key_file.empty()
+                                          ? "none: who reaches the wires may command"
+                                          : "key of " + config.signing_key_file.string()));
     lines.push_back(
         fmt::format("speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
-                    config.guidance.dock_speed_m_s, config.guidance.pre_distance_m,
-                    config.guidance.attempts, config.guidance.retreat_speed_m_s));
+                    guidance.dock_speed_m_s, guidance.pre_distance_m, guidance.attempts,
+                    guidance.retreat_speed_m_s));
     lines.push_back(fmt::format(
-        "hands back  pose older than {:g} s, autopilot's pose {:g} s, silence {:g} s, a tick {:g} "
-        "s "
-        "late, another mode, disarmed, Ctrl-C",
+        "hands back  pose older than {:g} s, autopilot's pose {:g} s, silence {:g} s, "
+        "a tick {:g} s late, another mode, disarmed, Ctrl-C",
         limits.pose_limit_s, limits.estimate_limit_s, limits.silence_limit_s, limits.late_limit_s));
     return lines;
 }

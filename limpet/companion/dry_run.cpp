@@ -42,33 +42,7 @@ std::string vector_text(const Vector3& v) {
     return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
 }
 
-}  // namespace
-
-void PoseEstimate::update(const Sample<PoseReading>& pose) {
-    if (!pose.ever() || pose.time_s <= last_s_) {
-        return;
-    }
-    if (last_s_ >= 0.0) {
-        const double dt_s = pose.time_s - last_s_;
-        const double gain = -std::expm1(-dt_s / kFilter_s);
-        const Vector3 v_m_s = (pose.value.p_WB_m - estimate_.p_WB_m) / dt_s;
-        const Eigen::AngleAxisd turn(estimate_.q_WB.conjugate() * pose.value.q_WB);
-        const Vector3 w_rad_s = turn.axis() * (wrap_pi(turn.angle()) / dt_s);
-        estimate_.v_WB_m_s += gain * (v_m_s - estimate_.v_WB_m_s);
-        estimate_.w_WB_B_rad_s += gain * (w_rad_s - estimate_.w_WB_B_rad_s);
-    }
-    last_s_ = pose.time_s;
-    estimate_.time_s = pose.time_s;
-    estimate_.p_WB_m = pose.value.p_WB_m;
-    estimate_.q_WB = pose.value.q_WB;
-}
-
-Estimate PoseEstimate::estimate(bool fresh) const {
-    Estimate estimate = estimate_;
-    estimate.valid = fresh && last_s_ >= 0.0;
-    return estimate;
-}
-
+/// "position (1.20, 0.00, -0.10) m, yaw 3.0 deg", for people.
 std::string motion_text(const Setpoint& setpoint) {
     if (const auto* position = std::get_if<PositionSetpoint>(&setpoint.motion)) {
         return fmt::format("position {} m, yaw {:.1f} deg", vector_text(position->p_W_m),
@@ -86,27 +60,43 @@ std::string motion_text(const Setpoint& setpoint) {
     return "idle";
 }
 
+}  // namespace
+
+void PoseEstimate::update(const Sample<PoseReading>& pose) {
+    const double dt_s = pose.time_s - estimate_.time_s;
+    if (!pose.ever() || (estimate_.valid && dt_s <= 0.0)) {
+        return;
+    }
+    if (estimate_.valid) {
+        const double gain = -std::expm1(-dt_s / kFilter_s);
+        const Vector3 v_m_s = (pose.value.p_WB_m - estimate_.p_WB_m) / dt_s;
+        const Eigen::AngleAxisd turn(estimate_.q_WB.conjugate() * pose.value.q_WB);
+        const Vector3 w_rad_s = turn.axis() * (wrap_pi(turn.angle()) / dt_s);
+        estimate_.v_WB_m_s += gain * (v_m_s - estimate_.v_WB_m_s);
+        estimate_.w_WB_B_rad_s += gain * (w_rad_s - estimate_.w_WB_B_rad_s);
+    }
+    estimate_.time_s = pose.time_s;
+    estimate_.p_WB_m = pose.value.p_WB_m;
+    estimate_.q_WB = pose.value.q_WB;
+    estimate_.valid = true;
+}
+
 void DryRun::tell(double time_s, const guidance::PerchingMemory& memory) {
     const Setpoint& now = memory.setpoint;
-    const auto when = [&](bool changed, const std::string& text) {
-        if (changed || !begun_) {
-            say_(time_s, text);
+    const auto line = [&](std::string& told, const std::string& text) {
+        if (text != told) {
+            watch_.line(time_s, text);
+            told = text;
         }
     };
-    when(memory.state != state_, fmt::format("state     {}", to_string(memory.state)));
-    if (!begun_ || differs(now, told_)) {
-        say_(time_s, "set-point " + motion_text(now));
-        told_.motion = now.motion;
+    line(state_, fmt::format("state     {}", to_string(memory.state)));
+    if (!told_ || differs(now, *told_)) {
+        watch_.line(time_s, "set-point " + motion_text(now));
+        told_ = now;
     }
-    when(now.armed != told_.armed, fmt::format("motors    {}", now.armed ? "on" : "off"));
-    when(now.pump_on != told_.pump_on, fmt::format("pump      {}", now.pump_on ? "on" : "off"));
-    when(now.valve_open != told_.valve_open,
-         fmt::format("valve     {}", now.valve_open ? "open" : "closed"));
-    state_ = memory.state;
-    told_.armed = now.armed;
-    told_.pump_on = now.pump_on;
-    told_.valve_open = now.valve_open;
-    begun_ = true;
+    line(motors_, fmt::format("motors    {}", now.armed ? "on" : "off"));
+    line(pump_, fmt::format("pump      {}", now.pump_on ? "on" : "off"));
+    line(valve_, fmt::format("valve     {}", now.valve_open ? "open" : "closed"));
 }
 
 }  // namespace limpet::companion

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "limpet/companion/config.hpp"
 #include "limpet/companion/wires.hpp"
 #include "limpet/core/signals/readings.hpp"
@@ -33,13 +29,10 @@ public:
 
 private:
     void hear_sensors(const mavlink::Frame& frame, double time_s);
-    void hear_autopilot(const mavlink::Frame& frame, double time_s);
-    void hear_ranges(const mavlink::Frame& frame, double time_s);
-    void hear_loads(const mavlink::Frame& frame, double time_s);
+    /// @param wire  by which it came
+    void hear_readings(const mavlink::Frame& frame, ReadingSource wire, double time_s);
     void hear_battery(const mavlink::Frame& frame, double time_s);
-    void hear_lidar(wire::Transport& wire, devices::TfminiParser& parser,
-                    Sample<RangeReading>& into, double time_s);
-    void hear_mechanism(wire::Transport& wire, double time_s);
+    void hear_line(const devices::MechanismLine& line, double time_s);
 
     const CompanionConfig& config_;
     Readings readings_;

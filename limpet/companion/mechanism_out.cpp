@@ -30,20 +30,18 @@ bool MechanismPace::due(const mavlink::MechanismCommand& wanted, double rate_Hz,
     return true;
 }
 
-void MechanismOut::update(Wires& wires, const mavlink::MechanismCommand& wanted, double time_s) {
-    if (!pace_.due(wanted, config_.limits.mechanism_rate_Hz, time_s)) {
-        return;
-    }
-    if (config_.mechanism == MechanismWire::line) {
+void tell_mechanism(const CompanionConfig& config, Wires& wires,
+                    const mavlink::MechanismCommand& wanted, int repeats) {
+    if (config.mechanism == MechanismWire::line) {
         devices::MechanismBuffer buffer;
         const std::string_view line =
             devices::encode({.pump_on = wanted.pump_on, .valve_open = wanted.valve_open}, buffer);
         (void)wires.mechanism->send(std::as_bytes(std::span(line)), kPatience);
         return;
     }
-    const auto confirmation = static_cast<std::uint8_t>(std::min(pace_.repeats(), 255));
+    const auto confirmation = static_cast<std::uint8_t>(std::min(repeats, 255));
     (void)wires.sensors->send(
-        mavlink::actuator_command(wanted, static_cast<std::uint8_t>(config_.system), confirmation),
+        mavlink::actuator_command(wanted, static_cast<std::uint8_t>(config.system), confirmation),
         kPatience);
 }
 

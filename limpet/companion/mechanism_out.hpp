@@ -25,16 +25,8 @@ private:
 };
 
 /// Says it over a companion's wires.
-class MechanismOut {
-public:
-    explicit MechanismOut(const CompanionConfig& config) : config_(config) {}
-
-    void update(Wires& wires, const mavlink::MechanismCommand& wanted, double time_s);
-    [[nodiscard]] double asked_s() const { return pace_.asked_s(); }
-
-private:
-    const CompanionConfig& config_;
-    MechanismPace pace_;
-};
+/// @param repeats  how often it has been said before
+void tell_mechanism(const CompanionConfig& config, Wires& wires,
+                    const mavlink::MechanismCommand& wanted, int repeats);
 
 }  // namespace limpet::companion

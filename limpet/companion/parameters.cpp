@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/parameters.hpp"
 
+#include "limpet/companion/config.hpp"
+
 namespace limpet::companion {
 
 const ParameterTable<CompanionLimits>& companion_limits_table() {
@@ -49,48 +51,48 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
     return table;
 }
 
-const ParameterTable<MotionCaptureNumbers>& motion_capture_table() {
-    using P = MotionCaptureNumbers;
+const ParameterTable<CompanionConfig>& motion_capture_table() {
+    using P = CompanionConfig;
     static const ParameterTable<P> table = {
         {"rigid_body", "count", 1.0, 65535.0, &P::rigid_body,
          "streaming id of the vehicle in Motive", "Motive: rigid bodies count from 1"},
-        {"x_axis_yaw_deg", "deg", -180.0, 180.0, &P::x_axis_yaw_deg,
+        {"x_axis_yaw_deg", "deg", -180.0, 180.0,
+         [](P& p) -> double& { return p.axes.x_axis_yaw_deg; },
          "where Motive's x axis points: 0 north, 90 east; north may be chosen",
          "assumed: north is where it points"},
-        {"origin_x_m", "m", -1000.0, 1000.0, &P::origin_x_m, "Motive's origin north of ours",
-         "assumed: the same"},
-        {"origin_y_m", "m", -1000.0, 1000.0, &P::origin_y_m, "east of ours", "assumed: the same"},
-        {"origin_z_m", "m", -1000.0, 1000.0, &P::origin_z_m, "below ours", "assumed: the same"},
-        {"nose_yaw_deg", "deg", -180.0, 180.0, &P::nose_yaw_deg,
+        {"origin_x_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.axes.p_WM_m.x(); },
+         "Motive's origin north of ours", "assumed: the same"},
+        {"origin_y_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.axes.p_WM_m.y(); },
+         "east of ours", "assumed: the same"},
+        {"origin_z_m", "m", -1000.0, 1000.0, [](P& p) -> double& { return p.axes.p_WM_m.z(); },
+         "below ours", "assumed: the same"},
+        {"nose_yaw_deg", "deg", -180.0, 180.0, [](P& p) -> double& { return p.axes.nose_yaw_deg; },
          "nose, clockwise from the rigid body's x axis",
          "assumed: made with the nose along Motive's x"},
-        {"pivot_x_m", "m", -2.0, 2.0, &P::pivot_x_m,
+        {"pivot_x_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.axes.p_BP_m.x(); },
          "rigid body's pivot ahead of the centre of mass", "assumed: moved there in Motive"},
-        {"pivot_y_m", "m", -2.0, 2.0, &P::pivot_y_m, "right of it",
+        {"pivot_y_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.axes.p_BP_m.y(); },
+         "right of it", "assumed: moved there in Motive"},
+        {"pivot_z_m", "m", -2.0, 2.0, [](P& p) -> double& { return p.axes.p_BP_m.z(); }, "below it",
          "assumed: moved there in Motive"},
-        {"pivot_z_m", "m", -2.0, 2.0, &P::pivot_z_m, "below it", "assumed: moved there in Motive"},
     };
     return table;
 }
 
-const ParameterTable<AutopilotNumbers>& autopilot_wire_table() {
-    using P = AutopilotNumbers;
-    static const ParameterTable<P> table = {
-        {"system", "count", 1.0, 255.0, &P::system, "the autopilot's MAVLink system",
+const ParameterTable<CompanionConfig>& autopilot_wire_table() {
+    static const ParameterTable<CompanionConfig> table = {
+        {"system", "count", 1.0, 255.0, &CompanionConfig::system, "the autopilot's MAVLink system",
          "PX4: MAV_SYS_ID"},
     };
     return table;
 }
 
 std::vector<ParameterInfo> companion_parameters() {
-    CompanionLimits limits;
-    MotionCaptureNumbers motion_capture;
-    AutopilotNumbers autopilot;
+    CompanionConfig config;
     std::vector<ParameterInfo> all =
-        describe("companion.limits", bind(companion_limits_table(), limits));
-    for (auto& more :
-         {describe("companion.motion_capture", bind(motion_capture_table(), motion_capture)),
-          describe("companion.autopilot", bind(autopilot_wire_table(), autopilot))}) {
+        describe("companion.limits", bind(companion_limits_table(), config.limits));
+    for (auto& more : {describe("companion.motion_capture", bind(motion_capture_table(), config)),
+                       describe("companion.autopilot", bind(autopilot_wire_table(), config))}) {
         all.insert(all.end(), more.begin(), more.end());
     }
     return all;

@@ -31,27 +31,7 @@ struct CompanionLimits {
 };
 [[nodiscard]] const ParameterTable<CompanionLimits>& companion_limits_table();
 
-/// How motion capture lies in W and the rigid body on the vehicle: numbers of `motion_capture`.
-struct MotionCaptureNumbers {
-    int rigid_body = 1;
-    double x_axis_yaw_deg = 0.0;
-    double origin_x_m = 0.0;
-    double origin_y_m = 0.0;
-    double origin_z_m = 0.0;
-    double nose_yaw_deg = 0.0;
-    double pivot_x_m = 0.0;
-    double pivot_y_m = 0.0;
-    double pivot_z_m = 0.0;
-};
-[[nodiscard]] const ParameterTable<MotionCaptureNumbers>& motion_capture_table();
-
-/// The vehicle's number on the wire: `autopilot`.
-struct AutopilotNumbers {
-    int system = 1;
-};
-[[nodiscard]] const ParameterTable<AutopilotNumbers>& autopilot_wire_table();
-
-/// All of these for `limpet params`: sections "companion.limits", ...
+/// All numbers of a companion's file for `limpet params`: sections "companion.limits", ...
 [[nodiscard]] std::vector<ParameterInfo> companion_parameters();
 
 }  // namespace limpet::companion

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,8 @@
 #include <thread>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/version.hpp"
+#include "limpet/devices/tfmini.hpp"
 
 namespace limpet::companion {
 namespace {
@@ -22,18 +26,6 @@ std::string_view word(CompanionEnd end) {
         case CompanionEnd::absent: return "absent";
     }
     throw InternalError("end of a companion out of range");
-}
-
-Json json_of(const Event& event) {
-    Json values = Json::object();
-    for (std::size_t k = 0; k < event.value_count; ++k) {
-        values[std::string(event.values[k].name)] = event.values[k].value;
-    }
-    return {{"t_s", event.time_s},
-            {"name", to_string(event.name)},
-            {"station", event.station},
-            {"reason", event.reason},
-            {"values", values}};
 }
 
 void loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
@@ -72,22 +64,43 @@ CompanionClock steady_clock(double speed) {
 
 CompanionResult run(const CompanionConfig& config, Wires& wires, const CompanionClock& clock,
                     const CompanionConduct& conduct, const CompanionWatch& watch) {
-    std::optional<CompanionLog> log;
+    std::optional<record::Recorder> recorder;
     if (!conduct.recording.empty()) {
-        log.emplace(conduct.recording, config);
+        recorder.emplace(conduct.recording, recording_info(config));
     }
-    Companion companion(config, wires, log ? &*log : nullptr, conduct.dry_run, watch);
+    Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
     loop(config, companion, clock, conduct.stop);
-    if (log) {
-        log->finish(summary_json(config, companion.result()));
+    if (recorder) {
+        recorder->finish(summary_json(config, companion.result()));
     }
     return companion.result();
+}
+
+record::RecordingInfo recording_info(const CompanionConfig& config) {
+    record::RecordingInfo info;
+    info.scenario = config.name;
+    info.version = kVersion;
+    info.numbers["land_pressure_Pa"] = fmt::format("{}", config.guidance.land_pressure_Pa);
+    info.numbers["detach_pressure_Pa"] = fmt::format("{}", config.guidance.detach_pressure_Pa);
+    info.attachments.push_back(
+        {.name = "companion.yaml", .media_type = "application/yaml", .text = config.yaml});
+    info.range_sensor.minimum_m = devices::kTfminiClosest_m;
+    info.range_sensor.maximum_m = devices::kTfminiFarthest_m;
+    return info;
 }
 
 std::string summary_json(const CompanionConfig& config, const CompanionResult& result) {
     Json events = Json::array();
     for (const Event& event : result.events) {
-        events.push_back(json_of(event));
+        Json values = Json::object();
+        for (std::size_t k = 0; k < event.value_count; ++k) {
+            values[std::string(event.values[k].name)] = event.values[k].value;
+        }
+        events.push_back({{"t_s", event.time_s},
+                          {"name", to_string(event.name)},
+                          {"station", event.station},
+                          {"reason", event.reason},
+                          {"values", values}});
     }
     const Json json = {
         {"companion", config.name},

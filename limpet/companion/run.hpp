@@ -32,6 +32,9 @@ struct CompanionConduct {
                                   const CompanionClock& clock, const CompanionConduct& conduct,
                                   const CompanionWatch& watch);
 
+/// What the recording says of itself: the companion's file, the numbers that figures need.
+[[nodiscard]] record::RecordingInfo recording_info(const CompanionConfig& config);
+
 /// The recording's summary: outcome, reason, attempts, events, ticks.
 [[nodiscard]] std::string summary_json(const CompanionConfig& config,
                                        const CompanionResult& result);

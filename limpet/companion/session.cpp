@@ -20,7 +20,7 @@ std::string_view to_string(SessionPhase phase) {
 }
 
 PerchingSession::PerchingSession(const SessionSetup& setup, CompanionWatch watch)
-    : setup_(setup), watch_(std::move(watch)), asked_(!setup.by_request), task_(setup.task) {}
+    : setup_(setup), watch_(std::move(watch)), task_(setup.task), asked_(!setup.by_request) {}
 
 CompanionEnd ended_by(Cause cause) {
     return cause == Cause::interrupted ? CompanionEnd::interrupted : CompanionEnd::handed_back;
@@ -136,7 +136,7 @@ void PerchingSession::begin(double time_s) {
     reason_.clear();
     memory_ = start_perching(task_, believe(time_s), time_s);
     arming_ = {.asked_s = time_s, .seen = true};
-    say(time_s, "begins");
+    watch_.line(time_s, "begins");
     fly(time_s);  // in this tick: a set-point that is none yet would stop the rotors
 }
 
@@ -146,7 +146,7 @@ void PerchingSession::fly(double time_s) {
     }
     const Judgement verdict = judge(look(time_s), place());
     if (verdict.action == Action::hold || verdict.action == Action::let_go) {
-        report(make_event(time_s, "companion", EventName::aborted, to_string(verdict.cause)));
+        watch_.event(make_event(time_s, "companion", EventName::aborted, to_string(verdict.cause)));
         hand_back(verdict.action, ended_by(verdict.cause),
                   fmt::format("{}, {}", to_string(verdict.cause), to_string(place())), time_s);
         return;
@@ -161,7 +161,7 @@ void PerchingSession::fly(double time_s) {
         // A mission at rest ends again and again: that it cannot take off is said once.
         const bool rests = place_of(memory_) == Place::at_rest;
         if (!(outcome_ && rests && event.name == EventName::aborted)) {
-            report(event);
+            watch_.event(event);
         }
     }
     setpoint_ = memory_.setpoint;
@@ -180,9 +180,9 @@ void PerchingSession::take_in(const Judgement& verdict, double time_s) {
     pending_ = verdict;
     const bool well = verdict.action == Action::carry_on;
     obstacle_ = well ? "" : to_string(verdict.cause);
-    say(time_s,
-        well ? "all is well again"
-             : fmt::format("{}, {}: {}", obstacle_, to_string(place()), to_string(verdict.action)));
+    watch_.line(time_s, well ? "all is well again"
+                             : fmt::format("{}, {}: {}", obstacle_, to_string(place()),
+                                           to_string(verdict.action)));
 }
 
 void PerchingSession::come_to_end(double time_s) {
@@ -223,20 +223,8 @@ void PerchingSession::hand_back(Action action, CompanionEnd end, std::string rea
     reason_ = std::move(reason);
     obstacle_ = "control was handed back: ask for perch again";
     if (flew_ || action == Action::hold) {
-        say(time_s,
-            fmt::format("{}{}", to_string(action), setpoint_.pump_on ? "; the pump stays on" : ""));
-    }
-}
-
-void PerchingSession::report(const Event& event) {
-    if (watch_.on_event) {
-        watch_.on_event(event);
-    }
-}
-
-void PerchingSession::say(double time_s, const std::string& text) const {
-    if (watch_.on_line) {
-        watch_.on_line(time_s, text);
+        watch_.line(time_s, fmt::format("{}{}", to_string(action),
+                                        setpoint_.pump_on ? "; the pump stays on" : ""));
     }
 }
 

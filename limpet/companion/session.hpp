@@ -19,10 +19,11 @@ namespace limpet::companion {
 // from topics and services. Time is injected.
 //
 //   waiting ── all inputs fresh, poses agree, cup free ──► ready ── wanted, flown, at its start ──┐
-//      ▲  ▲                                                │  ▲ │                                ▼
-//      │  └───────────── an input went away ───────────────┘  │ │ watchdog, limits flying │ │ │
-//      mission over in the air     │ │ └─┼────────────────────────────────┤ └─────────────────
-//      perch asked ──────── handed_back ◄────┴── mission over, watchdog ──────┘
+//    ▲  ▲                                                  │ ▲ │                                  ▼
+//    │  └─────────────── an input went away ───────────────┘ │ │ watchdog, limits            flying
+//    │                                                       └─┼─ mission over in the air ───┘   │
+//    │                                                         ▼                                 │
+//    └─────────────────── perch asked ─────────────────── handed_back ◄─ mission over, watchdog ─┘
 //
 // Who flies by request (perch, take_off, abort) is ready again after a mission that ends in the
 // air, and one that ends at rest on the wall goes on watching the vacuum; else a mission's end
@@ -83,6 +84,17 @@ struct CompanionWatch {
     std::function<void(const Event&)> on_event;
     /// A line for people: what it waits for, what it does, what was said.
     std::function<void(double time_s, const std::string& text)> on_line;
+
+    void event(const Event& event) const {
+        if (on_event) {
+            on_event(event);
+        }
+    }
+    void line(double time_s, const std::string& text) const {
+        if (on_line) {
+            on_line(time_s, text);
+        }
+    }
 };
 
 /// To who asked for something.
@@ -160,34 +172,32 @@ private:
     void take_in(const Judgement& verdict, double time_s);
     void come_to_end(double time_s);
     void hand_back(Action action, CompanionEnd end, std::string reason, double time_s);
-    void report(const Event& event);
-    void say(double time_s, const std::string& text) const;
 
     SessionSetup setup_;
     CompanionWatch watch_;
     SessionInputs inputs_;
-    SessionPhase phase_ = SessionPhase::waiting;
+    guidance::PerchingMemory memory_;
+    Setpoint setpoint_;  ///< what autopilot and mechanism are told
+    guidance::PerchingTask task_;
+    ArmingWatch arming_;
+    Judgement pending_;     ///< why it finishes, where it does
     double last_s_ = -1.0;  ///< of the last tick; < 0: there was none
     double phase_s_ = 0.0;  ///< since when in this phase
-    bool asked_ = false;    ///< for a flight
-    guidance::PerchingMemory memory_;
-    guidance::PerchingTask task_;
+    double steady_since_s_ = -1.0;
+    double told_obstacle_s_ = -1e9;
+    std::string obstacle_;
+    std::string told_obstacle_;
+    std::string reason_;
+    std::optional<Outcome> outcome_;
+    SessionPhase phase_ = SessionPhase::waiting;
+    CompanionEnd end_ = CompanionEnd::absent;
+    Action left_by_ = Action::let_go;
+    bool asked_ = false;  ///< for a flight
     bool interrupted_ = false;
     bool late_ = false;
     bool engaged_ = false;  ///< the autopilot has flown our set-points
-    ArmingWatch arming_;
-    Judgement pending_;  ///< why it finishes, where it does
-    double steady_since_s_ = -1.0;
-    Setpoint setpoint_;  ///< what autopilot and mechanism are told
     bool drives_mechanism_ = false;
-    CompanionEnd end_ = CompanionEnd::absent;
-    Action left_by_ = Action::let_go;
     bool flew_ = false;
-    std::string obstacle_;
-    std::string told_obstacle_;
-    double told_obstacle_s_ = -1e9;
-    std::optional<Outcome> outcome_;
-    std::string reason_;
 };
 
 }  // namespace limpet::companion

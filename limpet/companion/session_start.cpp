@@ -118,12 +118,12 @@ void PerchingSession::wait(double time_s) {
         go(SessionPhase::ready, time_s);
         setpoint_ = {};
         stay(time_s);
-        say(time_s, "ready: all inputs are here");
+        watch_.line(time_s, "ready: all inputs are here");
     } else if (!setup_.by_request && time_s - phase_s_ > setup_.limits.wait_limit_s) {
         hand_back(Action::let_go, CompanionEnd::absent,
                   fmt::format("waited {:g} s: {}", setup_.limits.wait_limit_s, obstacle_), time_s);
     } else if (obstacle_ != told_obstacle_ || time_s - told_obstacle_s_ >= kObstacleEvery_s) {
-        say(time_s, fmt::format("waits: {}", obstacle_));
+        watch_.line(time_s, fmt::format("waits: {}", obstacle_));
         told_obstacle_ = obstacle_;
         told_obstacle_s_ = time_s;
     }
@@ -191,7 +191,7 @@ void PerchingSession::be_patient(double time_s) {
     } else if (waits_for != told_obstacle_) {
         told_obstacle_ = waits_for;
         if (!waits_for.empty()) {
-            say(time_s, waits_for);
+            watch_.line(time_s, waits_for);
         }
     }
 }

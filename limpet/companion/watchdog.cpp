@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/watchdog.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "limpet/core/errors.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 struct Row {
     Cause cause;
+    std::string_view text;
     bool (*applies)(const Signs&);
     std::array<Action, 5> at;  ///< by Place
 };
@@ -20,27 +22,41 @@ using A = Action;
 constexpr std::array kTable = {
     //                                        in_air  pressed  leaving  on_cup  at_rest
     Row{Cause::mode_taken,
+        "another mode was chosen",
         [](const Signs& s) { return s.autopilot == mavlink::OffboardState::taken_away; },
         {A::let_go, A::let_go, A::let_go, A::let_go, A::let_go}},
     Row{Cause::disarmed,
+        "disarmed by somebody else",
         [](const Signs& s) { return s.disarmed; },
         {A::let_go, A::let_go, A::let_go, A::let_go, A::carry_on}},
     Row{Cause::interrupted,
+        "interrupted",
         [](const Signs& s) { return s.interrupted; },
         {A::hold, A::finish, A::finish, A::finish, A::let_go}},
     Row{Cause::autopilot_silent,
+        "autopilot silent",
         [](const Signs& s) { return s.autopilot == mavlink::OffboardState::silent; },
         {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::loop_late,
+        "guidance came too late",
         [](const Signs& s) { return s.late; },
         {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::pose_stale,
+        "motion-capture pose stale",
         [](const Signs& s) { return !s.pose_fresh; },
         {A::hold, A::finish, A::hold, A::finish, A::finish}},
     Row{Cause::estimate_stale,
+        "autopilot's pose stale",
         [](const Signs& s) { return !s.estimate_fresh; },
         {A::hold, A::finish, A::hold, A::finish, A::finish}},
 };
+
+const Row& row_of(Cause cause) {
+    const auto row = std::find_if(kTable.begin(), kTable.end(),
+                                  [cause](const Row& each) { return each.cause == cause; });
+    require(row != kTable.end(), "every cause has a row");
+    return *row;
+}
 
 }  // namespace
 
@@ -56,16 +72,7 @@ std::string_view to_string(Place place) {
 }
 
 std::string_view to_string(Cause cause) {
-    switch (cause) {
-        case Cause::mode_taken: return "another mode was chosen";
-        case Cause::disarmed: return "disarmed by somebody else";
-        case Cause::interrupted: return "interrupted";
-        case Cause::autopilot_silent: return "autopilot silent";
-        case Cause::loop_late: return "guidance came too late";
-        case Cause::pose_stale: return "motion-capture pose stale";
-        case Cause::estimate_stale: return "autopilot's pose stale";
-    }
-    throw InternalError("cause out of range");
+    return row_of(cause).text;
 }
 
 std::string_view to_string(Action action) {
@@ -104,12 +111,7 @@ Place place_of(const guidance::PerchingMemory& memory) {
 }
 
 Action action_for(Cause cause, Place place) {
-    for (const Row& row : kTable) {
-        if (row.cause == cause) {
-            return row.at[static_cast<std::size_t>(place)];
-        }
-    }
-    throw InternalError("a cause without a row");
+    return row_of(cause).at[static_cast<std::size_t>(place)];
 }
 
 Judgement judge(const Signs& signs, Place place) {

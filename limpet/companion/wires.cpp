@@ -22,13 +22,6 @@ std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
     return link;
 }
 
-std::unique_ptr<devices::NatNetClient> open_natnet(const CompanionConfig& config) {
-    return std::make_unique<devices::NatNetClient>(
-        devices::NatNetOptions{.body_id = config.rigid_body, .axes = config.axes},
-        open_transport(config.pose_address, wire::Role::listen),
-        config.pose_command ? open_transport(*config.pose_command, wire::Role::connect) : nullptr);
-}
-
 }  // namespace
 
 Wires open_wires(const CompanionConfig& config) {
@@ -38,7 +31,11 @@ Wires open_wires(const CompanionConfig& config) {
         wires.sensors = open_link(config, *config.sensors, 1);
     }
     if (config.pose_source == PoseSource::natnet) {
-        wires.motion_capture = open_natnet(config);
+        wires.motion_capture = std::make_unique<devices::NatNetClient>(
+            devices::NatNetOptions{.body_id = config.rigid_body, .axes = config.axes},
+            open_transport(config.pose_address, wire::Role::listen),
+            config.pose_command ? open_transport(*config.pose_command, wire::Role::connect)
+                                : nullptr);
     }
     if (config.lidar_source == ReadingSource::serial) {
         wires.lidar_left = open_transport(config.lidar_left, wire::Role::connect);
@@ -48,14 +45,6 @@ Wires open_wires(const CompanionConfig& config) {
         wires.mechanism = open_transport(config.mechanism_address, wire::Role::connect);
     }
     return wires;
-}
-
-bool has_serial(const CompanionConfig& config) {
-    const auto is_serial = [](const wire::TransportAddress& address) {
-        return address.medium == wire::Medium::serial;
-    };
-    return is_serial(config.autopilot) || (config.sensors && is_serial(*config.sensors)) ||
-           config.lidar_source == ReadingSource::serial || config.mechanism == MechanismWire::line;
 }
 
 }  // namespace limpet::companion

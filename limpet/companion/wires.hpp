@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "limpet/companion/config.hpp"
 #include "limpet/devices/natnet_client.hpp"
@@ -27,8 +25,5 @@ struct Wires {
 /// @throws InputError naming address or key file, before or after others were opened: nothing was
 ///         sent
 [[nodiscard]] Wires open_wires(const CompanionConfig& config);
-
-/// @return whether any wire is a serial port: its clock cannot be turned faster
-[[nodiscard]] bool has_serial(const CompanionConfig& config);
 
 }  // namespace limpet::companion

@@ -211,13 +211,12 @@ TEST(PoseEstimate, FollowsAStraightRunAndATurn) {
                          {.p_WB_m = {speed_m_s * t_s, 0.0, -1.0},
                           .q_WB = quaternion_from_euler({.yaw_rad = rate_rad_s * t_s})}});
     }
-    const Estimate now = estimate.estimate(true);
+    const Estimate& now = estimate.estimate();
     EXPECT_NEAR(now.v_WB_m_s.x(), speed_m_s, 1e-6);
     EXPECT_NEAR(now.w_WB_B_rad_s.z(), rate_rad_s, 1e-6);
     EXPECT_NEAR(now.p_WB_m.x(), 1.0, 1e-12);
     EXPECT_TRUE(now.valid);
-    EXPECT_FALSE(estimate.estimate(false).valid);
-    EXPECT_FALSE(PoseEstimate().estimate(true).valid);
+    EXPECT_FALSE(PoseEstimate().estimate().valid);
 }
 
 }  // namespace

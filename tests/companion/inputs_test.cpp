@@ -200,19 +200,22 @@ TEST(Inputs, TakeTheRigidBodyOutOfNatNet) {
 
 TEST(MechanismOut, SaysChangesAtOnceAndRepeats) {
     Bench bench;
-    MechanismOut out(bench.config);
+    MechanismPace pace;
     const auto said = [&](bool pump, double time_s) {
         bench.mechanism->sent.clear();
-        out.update(bench.wires, {.pump_on = pump}, time_s);
+        const mavlink::MechanismCommand wanted{.pump_on = pump};
+        if (pace.due(wanted, 10.0, time_s)) {
+            tell_mechanism(bench.config, bench.wires, wanted, pace.repeats());
+        }
         return bench.mechanism->sent;
     };
     EXPECT_EQ(said(false, 0.00).substr(0, 5), "P0 V0");
     EXPECT_EQ(said(false, 0.02), "");
     EXPECT_EQ(said(true, 0.04).substr(0, 5), "P1 V0");
-    EXPECT_DOUBLE_EQ(out.asked_s(), 0.04);
+    EXPECT_DOUBLE_EQ(pace.asked_s(), 0.04);
     EXPECT_EQ(said(true, 0.06), "");
     EXPECT_EQ(said(true, 0.14).substr(0, 5), "P1 V0");
-    EXPECT_DOUBLE_EQ(out.asked_s(), 0.04);
+    EXPECT_DOUBLE_EQ(pace.asked_s(), 0.04);
 }
 
 }  // namespace

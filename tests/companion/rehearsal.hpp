@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "limpet/companion/companion.hpp"
+#include "limpet/companion/run.hpp"
 #include "tests/companion/stage.hpp"
 
 namespace limpet::companion {
@@ -29,10 +29,10 @@ struct Rehearsal {
           wires(open_wires(config)),
           stage(wires.autopilot->transport().address(), wires.sensors->transport().address()) {
         if (!recording.empty()) {
-            log.emplace(recording, config);
+            recorder.emplace(recording, recording_info(config));
         }
         companion.emplace(
-            config, wires, log ? &*log : nullptr, dry_run,
+            config, wires, recorder ? &*recorder : nullptr, dry_run,
             CompanionWatch{.on_event = {},
                            .on_line = [this](double, const auto& text) { lines.push_back(text); }});
     }
@@ -40,7 +40,7 @@ struct Rehearsal {
     CompanionConfig config;
     Wires wires;
     Stage stage;
-    std::optional<CompanionLog> log;
+    std::optional<record::Recorder> recorder;
     std::optional<Companion> companion;
     std::vector<std::string> lines;
     bool interrupted = false;
