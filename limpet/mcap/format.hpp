@@ -9,8 +9,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "limpet/core/members.hpp"
 
 /// The MCAP container, version 0: what writer and reader share. Source: https://mcap.dev/spec.
 ///
@@ -52,6 +55,8 @@ enum class OpCode : std::uint8_t {
     data_end = 0x0F,
 };
 
+// A struct whose members stand as in its record is both written and read by them.
+
 struct Schema {
     std::uint16_t id = 0;  ///< 0 is no schema
     std::string name;      ///< "sensor_msgs/msg/Imu"
@@ -67,13 +72,6 @@ struct Channel {
     StringMap metadata;
 };
 
-struct Attachment {
-    std::string name;  ///< "scenario.yaml"
-    std::string media_type;
-    std::string text;
-    std::uint64_t log_time_ns = 0;
-};
-
 struct Metadata {
     std::string name;
     StringMap values;
@@ -87,6 +85,32 @@ struct Message {
     ByteView data;  ///< somebody else's
 };
 
+struct Attachment {
+    std::string name;  ///< "scenario.yaml"
+    std::string media_type;
+    std::string text;
+    std::uint64_t log_time_ns = 0;
+};
+
+/// What stands in an attachment's record ahead of its text; a checksum of both follows.
+struct AttachmentHead {
+    std::uint64_t log_time_ns = 0;
+    std::uint64_t create_time_ns = 0;  ///< 0 is unknown: the wall clock stays out of recordings
+    std::string_view name;
+    std::string_view media_type;
+    std::uint64_t size = 0;  ///< of the text
+};
+
+/// What stands in a chunk ahead of its records.
+struct ChunkHeader {
+    std::uint64_t first_time_ns = 0;
+    std::uint64_t last_time_ns = 0;
+    std::uint64_t size = 0;  ///< of the records, unpacked
+    std::uint32_t crc = 0;   ///< of the records, unpacked; 0: none
+    std::string_view compression;
+    std::uint64_t stored_size = 0;  ///< of the records, as they follow
+};
+
 /// @param bytes  what it covers
 /// @param crc    of the bytes before these, to go on; 0 to begin
 /// @return CRC-32 (IEEE 802.3) as MCAP and zlib have it
@@ -94,27 +118,22 @@ struct Message {
 
 // Appending. A buffer with the capacity it needs is not reallocated.
 
+inline void put(Bytes& out, ByteView raw) {
+    out.insert(out.end(), raw.begin(), raw.end());
+}
+
 template <std::unsigned_integral Unsigned>
 void put(Bytes& out, Unsigned value) {
     std::array<std::uint8_t, sizeof(Unsigned)> raw;
     for (std::size_t i = 0; i < raw.size(); ++i) {
         raw[i] = static_cast<std::uint8_t>(value >> (8 * i));
     }
-    out.insert(out.end(), raw.begin(), raw.end());
+    put(out, ByteView(raw));
 }
 
-inline void put_bytes(Bytes& out, ByteView bytes) {
-    out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
-inline void put_string(Bytes& out, std::string_view text) {
-    put(out, static_cast<std::uint32_t>(text.size()));
-    out.insert(out.end(), text.begin(), text.end());
-}
-
-/// Writes what `content()` appends behind its own length, as a `Length`.
+/// What `content()` appends, behind its length as a `Length`.
 template <class Length, class Content>
-void put_sized(Bytes& out, Content&& content) {
+void put_sized(Bytes& out, const Content& content) {
     const std::size_t start = out.size();
     put(out, Length{0});
     content();
@@ -124,19 +143,37 @@ void put_sized(Bytes& out, Content&& content) {
     }
 }
 
-template <class Content>
-void put_record(Bytes& out, OpCode opcode, Content&& content) {
-    put(out, static_cast<std::uint8_t>(opcode));
-    put_sized<std::uint64_t>(out, std::forward<Content>(content));
+inline void put(Bytes& out, std::string_view text) {
+    put(out, static_cast<std::uint32_t>(text.size()));
+    out.insert(out.end(), text.begin(), text.end());
 }
 
-inline void put_map(Bytes& out, const StringMap& map) {
+inline void put(Bytes& out, const StringMap& map) {
     put_sized<std::uint32_t>(out, [&] {
         for (const auto& [key, value] : map) {
-            put_string(out, key);
-            put_string(out, value);
+            put(out, key);
+            put(out, value);
         }
     });
+}
+
+/// What appends by itself.
+template <std::invocable Content>
+void put(Bytes& /*out*/, const Content& content) {
+    content();
+}
+
+/// A plain struct's members, in their order.
+template <class Struct>
+requires std::is_aggregate_v<Struct>
+void put(Bytes& out, const Struct& members) {
+    with_members(members, [&out](const auto&... member) { (put(out, member), ...); });
+}
+
+template <class... Fields>
+void put_record(Bytes& out, OpCode opcode, const Fields&... fields) {
+    put(out, static_cast<std::uint8_t>(opcode));
+    put_sized<std::uint64_t>(out, [&] { (put(out, fields), ...); });
 }
 
 /// A record says more than it holds: the reader turns it into a line of the damage report.
@@ -162,30 +199,35 @@ public:
         return taken;
     }
 
-    template <std::unsigned_integral Unsigned>
-    Unsigned get() {
-        const ByteView raw = take(sizeof(Unsigned));
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
-            value |= static_cast<std::uint64_t>(raw[i]) << (8 * i);
+    /// The next value, as put() has it; a view of bytes is all that is left.
+    template <class Value>
+    Value get() {
+        Value value{};
+        if constexpr (std::unsigned_integral<Value>) {
+            const ByteView raw = take(sizeof value);
+            for (std::size_t i = 0; i < sizeof value; ++i) {
+                value = static_cast<Value>(value | std::uint64_t{raw[i]} << (8 * i));
+            }
+        } else if constexpr (std::is_same_v<Value, ByteView>) {
+            value = take(left());
+        } else if constexpr (std::is_same_v<Value, StringMap>) {
+            Cursor entries(take(get<std::uint32_t>()));
+            while (entries.left() > 0) {
+                std::string key = entries.get<std::string>();
+                value[std::move(key)] = entries.get<std::string>();
+            }
+        } else if constexpr (std::is_convertible_v<Value, std::string_view>) {
+            value = text(take(get<std::uint32_t>()));
+        } else {
+            with_members(value, [this](auto&... member) {
+                ((member = this->get<std::remove_reference_t<decltype(member)>>()), ...);
+            });
         }
-        return static_cast<Unsigned>(value);
+        return value;
     }
 
-    std::string string() { return text(take(get<std::uint32_t>())); }
-
-    StringMap map() {
-        Cursor entries(take(get<std::uint32_t>()));
-        StringMap result;
-        while (entries.left() > 0) {
-            std::string key = entries.string();
-            result[std::move(key)] = entries.string();
-        }
-        return result;
-    }
-
-    [[nodiscard]] static std::string text(ByteView bytes) {
-        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    [[nodiscard]] static std::string_view text(ByteView bytes) {
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
 
 private:

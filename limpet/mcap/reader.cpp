@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mcap/records.hpp"
 
 namespace limpet::mcap {
 namespace {
@@ -98,25 +97,22 @@ private:
     }
 
     void record(OpCode opcode, ByteView content, std::size_t offset) {
+        Cursor in(content);
         switch (opcode) {
-            case OpCode::header: {
-                Cursor in(content);
-                contents_.profile = in.string();
-                contents_.library = in.string();
+            case OpCode::header:
+                contents_.profile = in.get<std::string>();
+                contents_.library = in.get<std::string>();
                 break;
-            }
-            case OpCode::schema: add(get_schema(content)); break;
-            case OpCode::channel: add(get_channel(content)); break;
-            case OpCode::message: give(get_message(content)); break;
-            case OpCode::chunk: chunk(content); break;
-            case OpCode::attachment:
-                contents_.attachments.push_back(get_attachment(content));
-                break;
-            case OpCode::metadata: contents_.metadata.push_back(get_metadata(content)); break;
-            case OpCode::data_end: check_data(Cursor(content), offset); break;
+            case OpCode::schema: add(contents_.schemas, in.get<Schema>()); break;
+            case OpCode::channel: add(contents_.channels, in.get<Channel>()); break;
+            case OpCode::message: give(in.get<Message>()); break;
+            case OpCode::chunk: chunk(in); break;
+            case OpCode::attachment: attachment(content); break;
+            case OpCode::metadata: contents_.metadata.push_back(in.get<Metadata>()); break;
+            case OpCode::data_end: check_data(in, offset); break;
             case OpCode::footer:
                 footer_seen_ = true;
-                check_summary(content);
+                check_summary(in);
                 if (data_end_ == 0) {
                     throw Malformed("data section without its end");
                 }
@@ -130,13 +126,23 @@ private:
         }
     }
 
-    void add(Schema&& schema) {
-        const std::uint16_t id = schema.id;
-        contents_.schemas.emplace(id, std::move(schema));
+    template <class Record>
+    static void add(std::map<std::uint16_t, Record>& records, Record&& record) {
+        const std::uint16_t id = record.id;
+        records.emplace(id, std::move(record));
     }
-    void add(Channel&& channel) {
-        const std::uint16_t id = channel.id;
-        contents_.channels.emplace(id, std::move(channel));
+
+    void attachment(ByteView content) {
+        Cursor in(content);
+        const auto head = in.get<AttachmentHead>();
+        const std::string_view text = Cursor::text(in.take(head.size));
+        const ByteView covered = content.first(content.size() - in.left());
+        const auto crc = in.get<std::uint32_t>();
+        if (crc != 0 && crc != crc32(covered)) {
+            throw Malformed("attachment with a wrong checksum");
+        }
+        contents_.attachments.push_back({std::string(head.name), std::string(head.media_type),
+                                         std::string(text), head.log_time_ns});
     }
 
     void give(const Message& message) {
@@ -150,9 +156,8 @@ private:
         contents_.last_time_ns = std::max(contents_.last_time_ns, message.log_time_ns);
     }
 
-    void chunk(ByteView content) {
-        Cursor in(content);
-        const ChunkHeader header = get_chunk_header(in);
+    void chunk(Cursor in) {
+        const auto header = in.get<ChunkHeader>();
         const ByteView records = unpack(header, in.take(header.stored_size));
         if (header.crc != 0 && header.crc != crc32(records)) {
             throw Malformed("chunk with a wrong checksum");
@@ -165,7 +170,7 @@ private:
     void cut_chunk(ByteView content) {
         Cursor in(content);
         try {
-            if (get_chunk_header(in).compression.empty()) {
+            if (in.get<ChunkHeader>().compression.empty()) {
                 records_in_chunk(in.rest());
             }
         } catch (const Malformed&) {  // cut within the chunk's own head: counted as unread bytes
@@ -220,8 +225,7 @@ private:
         }
     }
 
-    void check_summary(ByteView footer) {
-        Cursor in(footer);
+    void check_summary(Cursor in) {
         const auto start = in.get<std::uint64_t>();
         in.get<std::uint64_t>();  // start of the summary offsets
         const std::uint8_t* crc_at = in.rest().data();

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <numeric>
 #include <system_error>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mcap/records.hpp"
 
 namespace limpet::mcap {
 namespace {
@@ -53,11 +54,8 @@ Writer::Writer(std::filesystem::path path, const WriterOptions& options)
     entries_.reserve(full_chunk / (kRecordHeader_bytes + kMessageHeader_bytes));
     chunk_indexes_.reserve(kIndexReserve_bytes);
 
-    put_bytes(staged_, kMagic);
-    put_record(staged_, OpCode::header, [&] {
-        put_string(staged_, kProfile);
-        put_string(staged_, kLibrary);
-    });
+    put(staged_, ByteView(kMagic));
+    put_record(staged_, OpCode::header, kProfile, kLibrary);
     emit_staged();
 }
 
@@ -73,8 +71,8 @@ Writer::~Writer() {
 std::uint16_t Writer::add_schema(std::string_view name, std::string_view encoding,
                                  std::string_view text) {
     const std::uint16_t id = ++schema_count_;
-    put(staged_, Schema{id, std::string(name), std::string(encoding), std::string(text)});
-    put_bytes(schemas_, staged_);
+    put_record(staged_, OpCode::schema, id, name, encoding, text);
+    put(schemas_, staged_);
     emit_staged();
     return id;
 }
@@ -84,25 +82,32 @@ std::uint16_t Writer::add_channel(std::uint16_t schema_id, std::string_view topi
     require(schema_id <= schema_count_, "a channel's schema is added before the channel");
     const auto id = static_cast<std::uint16_t>(message_counts_.size());
     message_counts_.push_back(0);
-    put(staged_,
-        Channel{id, schema_id, std::string(topic), std::string(message_encoding), metadata});
-    put_bytes(channels_, staged_);
+    put_record(staged_, OpCode::channel, id, schema_id, topic, message_encoding, metadata);
+    put(channels_, staged_);
     emit_staged();
     return id;
 }
 
 void Writer::add_metadata(const Metadata& metadata) {
     close_chunk();
-    put(staged_, metadata);
-    put_index(metadata_indexes_, metadata, offset_, staged_.size());
+    put_record(staged_, OpCode::metadata, metadata);
+    put_record(metadata_indexes_, OpCode::metadata_index, offset_, staged_.size(), metadata.name);
     ++metadata_count_;
     emit_staged();
 }
 
 void Writer::add_attachment(const Attachment& attachment) {
     close_chunk();
-    put(staged_, attachment);
-    put_index(attachment_indexes_, attachment, offset_, staged_.size());
+    const AttachmentHead head{.log_time_ns = attachment.log_time_ns,
+                              .name = attachment.name,
+                              .media_type = attachment.media_type,
+                              .size = attachment.text.size()};
+    Bytes content;
+    put(content, head);
+    content.insert(content.end(), attachment.text.begin(), attachment.text.end());
+    put_record(staged_, OpCode::attachment, content, crc32(content));
+    put_record(attachment_indexes_, OpCode::attachment_index, offset_, staged_.size(),
+               head.log_time_ns, head.create_time_ns, head.size, head.name, head.media_type);
     ++attachment_count_;
     emit_staged();
 }
@@ -111,13 +116,12 @@ void Writer::write(std::uint16_t channel_id, std::uint64_t log_time_ns, ByteView
     require(file_ != nullptr, "nothing is written to a closed recording");
     require(channel_id < message_counts_.size(), "a message's channel is added before the message");
     entries_.push_back({channel_id, log_time_ns, records_.size()});
-    put_record(records_, OpCode::message, [&] {
-        put(records_, channel_id);
-        put(records_, message_counts_[channel_id]++);
-        put(records_, log_time_ns);
-        put(records_, log_time_ns);
-        put_bytes(records_, data);
-    });
+    put_record(records_, OpCode::message,
+               Message{.channel_id = channel_id,
+                       .sequence = message_counts_[channel_id]++,
+                       .log_time_ns = log_time_ns,
+                       .publish_time_ns = log_time_ns,
+                       .data = data});
     chunk_range_.include(log_time_ns);
     if (records_.size() >= options_.chunk_bytes) {
         close_chunk();
@@ -135,10 +139,7 @@ void Writer::close_chunk() {
                              .crc = crc32(records_),
                              .compression = options_.compress ? "zstd" : "",
                              .stored_size = stored.size()};
-    put_record(staged_, OpCode::chunk, [&] {
-        put(staged_, header);
-        put_bytes(staged_, stored);
-    });
+    put_record(staged_, OpCode::chunk, header, stored);
     index_chunk(header);
     range_.include(header.first_time_ns);
     range_.include(header.last_time_ns);
@@ -162,25 +163,23 @@ ByteView Writer::compress_records() {
 void Writer::index_chunk(const ChunkHeader& header) {
     const std::uint64_t chunk_length = staged_.size();
     Bytes& index = chunk_indexes_;
-    put_record(index, OpCode::chunk_index, [&] {
-        put(index, header.first_time_ns);
-        put(index, header.last_time_ns);
-        put(index, offset_);
-        put(index, chunk_length);
-        put_sized<std::uint32_t>(index, [&] {
-            for (std::uint16_t id = 0; id < message_counts_.size(); ++id) {
-                const std::uint64_t at = offset_ + staged_.size();
-                if (stage_message_index(id)) {
-                    put(index, id);
-                    put(index, at);
-                }
+    const auto message_indexes = [&] {
+        for (std::uint16_t id = 0; id < message_counts_.size(); ++id) {
+            const std::uint64_t at = offset_ + staged_.size();
+            if (stage_message_index(id)) {
+                put(index, id);
+                put(index, at);
             }
-        });
-        put(index, staged_.size() - chunk_length);
-        put_string(index, header.compression);
-        put(index, header.stored_size);
-        put(index, header.size);
-    });
+        }
+    };
+    put_record(
+        index, OpCode::chunk_index, header.first_time_ns, header.last_time_ns, offset_,
+        chunk_length,
+        [&] {
+            put_sized<std::uint32_t>(index, message_indexes);
+            put(index, staged_.size() - chunk_length);
+        },
+        header.compression, header.stored_size, header.size);
 }
 
 /// @return false if the open chunk has no message of the channel
@@ -191,8 +190,7 @@ bool Writer::stage_message_index(std::uint16_t channel_id) {
     if (std::none_of(entries_.begin(), entries_.end(), of_channel)) {
         return false;
     }
-    put_record(staged_, OpCode::message_index, [&] {
-        put(staged_, channel_id);
+    put_record(staged_, OpCode::message_index, channel_id, [&] {
         put_sized<std::uint32_t>(staged_, [&] {
             for (const IndexEntry& entry : entries_) {
                 if (of_channel(entry)) {
@@ -209,10 +207,10 @@ void Writer::close() {
     require(file_ != nullptr, "a recording is closed once");
     close_chunk();
     const std::uint32_t crc = data_crc_;
-    put_record(staged_, OpCode::data_end, [&] { put(staged_, crc); });
+    put_record(staged_, OpCode::data_end, crc);
     emit_staged();
     stage_summary();
-    put_bytes(staged_, kMagic);
+    put(staged_, ByteView(kMagic));
     emit_staged();
 
     if (std::fclose(file_.release()) != 0) {
@@ -223,65 +221,45 @@ void Writer::close() {
     }
 }
 
-void Writer::stage_statistics() {
-    std::uint64_t messages = 0;
-    for (const std::uint32_t count : message_counts_) {
-        messages += count;
-    }
-    put_record(staged_, OpCode::statistics, [&] {
-        put(staged_, messages);
-        put(staged_, schema_count_);
-        put(staged_, static_cast<std::uint32_t>(message_counts_.size()));
-        put(staged_, attachment_count_);
-        put(staged_, metadata_count_);
-        put(staged_, chunk_count_);
-        put(staged_, range_.begin_ns());
-        put(staged_, range_.last_ns);
-        put_sized<std::uint32_t>(staged_, [&] {
-            for (std::uint16_t id = 0; id < message_counts_.size(); ++id) {
-                put(staged_, id);
-                put(staged_, std::uint64_t{message_counts_[id]});
-            }
-        });
-    });
+Bytes Writer::statistics() const {
+    Bytes record;
+    const auto messages =
+        std::accumulate(message_counts_.begin(), message_counts_.end(), std::uint64_t{0});
+    put_record(record, OpCode::statistics, messages, schema_count_,
+               static_cast<std::uint32_t>(message_counts_.size()), attachment_count_,
+               metadata_count_, chunk_count_, range_.begin_ns(), range_.last_ns, [&] {
+                   put_sized<std::uint32_t>(record, [&] {
+                       for (std::uint16_t id = 0; id < message_counts_.size(); ++id) {
+                           put(record, id);
+                           put(record, std::uint64_t{message_counts_[id]});
+                       }
+                   });
+               });
+    return record;
 }
 
 /// Summary, summary offsets and footer; each group of records is found through its offset.
 void Writer::stage_summary() {
-    const std::uint64_t summary_start = offset_;
-    struct Group {
-        OpCode opcode;
-        std::size_t start, length;
-    };
-    std::vector<Group> groups;
-    const auto add_group = [&](OpCode opcode, auto&& stage) {
-        const std::size_t start = staged_.size();
-        stage();
-        if (staged_.size() > start) {
-            groups.push_back({opcode, start, staged_.size() - start});
+    const Bytes counts = statistics();
+    const std::pair<OpCode, const Bytes*> groups[] = {
+        {OpCode::schema, &schemas_},
+        {OpCode::channel, &channels_},
+        {OpCode::statistics, &counts},
+        {OpCode::chunk_index, &chunk_indexes_},
+        {OpCode::attachment_index, &attachment_indexes_},
+        {OpCode::metadata_index, &metadata_indexes_}};
+    Bytes offsets;
+    for (const auto& [opcode, records] : groups) {
+        if (!records->empty()) {
+            put_record(offsets, OpCode::summary_offset, static_cast<std::uint8_t>(opcode),
+                       offset_ + staged_.size(), records->size());
+            put(staged_, *records);
         }
-    };
-    add_group(OpCode::schema, [&] { put_bytes(staged_, schemas_); });
-    add_group(OpCode::channel, [&] { put_bytes(staged_, channels_); });
-    add_group(OpCode::statistics, [&] { stage_statistics(); });
-    add_group(OpCode::chunk_index, [&] { put_bytes(staged_, chunk_indexes_); });
-    add_group(OpCode::attachment_index, [&] { put_bytes(staged_, attachment_indexes_); });
-    add_group(OpCode::metadata_index, [&] { put_bytes(staged_, metadata_indexes_); });
-
-    const std::uint64_t offsets_start = summary_start + staged_.size();
-    for (const Group& group : groups) {
-        put_record(staged_, OpCode::summary_offset, [&] {
-            put(staged_, static_cast<std::uint8_t>(group.opcode));
-            put(staged_, summary_start + group.start);
-            put(staged_, std::uint64_t{group.length});
-        });
     }
+    const std::uint64_t offsets_start = offset_ + staged_.size();
+    put(staged_, offsets);
     // The CRC covers everything up to itself, the footer's length included.
-    put_record(staged_, OpCode::footer, [&] {
-        put(staged_, summary_start);
-        put(staged_, offsets_start);
-        put(staged_, std::uint32_t{0});
-    });
+    put_record(staged_, OpCode::footer, offset_, offsets_start, std::uint32_t{0});
     staged_.resize(staged_.size() - sizeof(std::uint32_t));
     put(staged_, crc32(staged_));
 }

@@ -12,8 +12,6 @@ struct ZSTD_CCtx_s;
 
 namespace limpet::mcap {
 
-struct ChunkHeader;
-
 struct WriterOptions {
     std::size_t chunk_bytes =
         std::size_t{256} * 1024;  ///< a chunk is closed at this size, before compression
@@ -75,7 +73,7 @@ private:
     void index_chunk(const ChunkHeader& header);
     bool stage_message_index(std::uint16_t channel_id);
     [[nodiscard]] ByteView compress_records();
-    void stage_statistics();
+    [[nodiscard]] Bytes statistics() const;
     void stage_summary();
     [[noreturn]] void fail(const char* what) const;
 
