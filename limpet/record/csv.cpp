@@ -15,36 +15,27 @@
 namespace limpet::record {
 namespace {
 
-void append(std::string& out, double value) {
-    fmt::format_to(std::back_inserter(out), "{}", value);
-}
-
-void append_field(std::string& out, std::string_view text) {
-    out += ',';
-    out += csv_field(text);
-}
-
 std::string table_as_csv(const Table& table) {
     std::string out = "time_s";
+    const auto append = [&out](const auto& field) {
+        fmt::format_to(std::back_inserter(out), ",{}", field);
+    };
     for (const Column& column : table.columns) {
-        append_field(out, column_name_with_unit(table.type, column.name));
+        append(csv_field(column_name_with_unit(table.type, column.name)));
     }
     for (const TextColumn& column : table.texts) {
-        append_field(out, column.name);
+        append(csv_field(column.name));
     }
-    out += '\n';
     for (std::size_t row = 0; row < table.time_s.size(); ++row) {
-        append(out, table.time_s[row]);
+        fmt::format_to(std::back_inserter(out), "\n{}", table.time_s[row]);
         for (const Column& column : table.columns) {
-            out += ',';
-            append(out, column.values[row]);
+            append(column.values[row]);
         }
         for (const TextColumn& column : table.texts) {
-            append_field(out, column.values[row]);
+            append(csv_field(column.values[row]));
         }
-        out += '\n';
     }
-    return out;
+    return out + '\n';
 }
 
 std::string values_as_text(const RecordedEvent& event) {
@@ -58,12 +49,9 @@ std::string values_as_text(const RecordedEvent& event) {
 std::string events_as_csv(const std::vector<RecordedEvent>& events) {
     std::string out = "time_s,station,name,reason,values\n";
     for (const RecordedEvent& event : events) {
-        append(out, event.time_s);
-        append_field(out, event.station);
-        append_field(out, event.name);
-        append_field(out, event.reason);
-        append_field(out, values_as_text(event));
-        out += '\n';
+        fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", event.time_s,
+                       csv_field(event.station), csv_field(event.name), csv_field(event.reason),
+                       csv_field(values_as_text(event)));
     }
     return out;
 }

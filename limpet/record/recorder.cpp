@@ -1,20 +1,113 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/record/recorder.hpp"
 
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/record/message_definitions.hpp"
+#include "limpet/record/ros_frames.hpp"
 
 namespace limpet::record {
 namespace {
+
+using eprosima::fastcdr::Cdr;
+using ros::flu_from_frd;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// @throws InternalError for a time before 0: a sample that never came is not recorded
 std::int64_t nanoseconds(double time_s) {
     require(time_s >= 0.0 && time_s < 1e9, "recorded times are 0 or later, and finite");
     return std::llround(time_s * 1e9);
+}
+
+// A field of a message. Texts are names and reasons.
+
+template <class Number>
+requires std::is_arithmetic_v<Number>
+void put(Cdr& cdr, Number number) {
+    if constexpr (std::is_same_v<Number, bool>) {
+        cdr << static_cast<std::uint8_t>(number);
+    } else {
+        cdr << number;
+    }
+}
+
+void put(Cdr& cdr, std::string_view text) {
+    constexpr std::size_t kMaxText = 256;
+    require(text.size() <= kMaxText, "a recorded text has at most 256 characters");
+    cdr << static_cast<std::uint32_t>(text.size() + 1);
+    cdr.serializeArray(text.data(), text.size());
+    cdr << '\0';
+}
+
+void put(Cdr& cdr, std::span<const double> numbers) {
+    cdr.serializeArray(numbers.data(), numbers.size());
+}
+
+void put(Cdr& cdr, const Vector3& v) {
+    cdr.serializeArray(v.data(), 3);
+}
+
+/// ROS puts w last, as Eigen does.
+void put(Cdr& cdr, const Quaternion& q) {
+    cdr.serializeArray(q.coeffs().data(), 4);
+}
+
+void put(Cdr& cdr, const Euler& angles) {
+    cdr << angles.roll_rad << angles.pitch_rad << angles.yaw_rad;
+}
+
+/// An array of any length: how many, then each.
+template <class Element>
+void put(Cdr& cdr, std::span<const EventValue> values, Element EventValue::*element) {
+    cdr << static_cast<std::uint32_t>(values.size());
+    for (const EventValue& value : values) {
+        put(cdr, value.*element);
+    }
+}
+
+void put(Cdr& cdr, std::span<const EventValue> values) {
+    put(cdr, values, &EventValue::name);
+    put(cdr, values, &EventValue::value);
+}
+
+/// Mode and numbers of a Setpoint message.
+struct Motion {
+    std::uint8_t mode = 0;
+    Vector3 p = Vector3::Constant(kNaN);
+    Vector3 v = Vector3::Constant(kNaN);
+    Vector3 a = Vector3::Constant(kNaN);
+    Euler angles{kNaN, kNaN, kNaN};
+    double thrust = kNaN;
+};
+
+Motion motion(const IdleSetpoint&) {
+    return {};
+}
+
+Motion motion(const PositionSetpoint& setpoint) {
+    return {.mode = 1,
+            .p = setpoint.p_W_m,
+            .v = setpoint.feedforward_v_W_m_s,
+            .angles = {kNaN, kNaN, setpoint.yaw_rad}};
+}
+
+Motion motion(const VelocitySetpoint& setpoint) {
+    return {.mode = 2,
+            .v = setpoint.v_W_m_s,
+            .a = setpoint.feedforward_a_W_m_s2,
+            .angles = {kNaN, kNaN, setpoint.yaw_rad}};
+}
+
+Motion motion(const AttitudeSetpoint& setpoint) {
+    return {.mode = 3, .angles = euler_from_quaternion(setpoint.q_WB), .thrust = setpoint.thrust};
 }
 
 }  // namespace
@@ -55,64 +148,93 @@ std::uint16_t Recorder::add_channel(std::string_view topic, std::uint16_t schema
     return writer_.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
 }
 
-void Recorder::write_columns(Columns& to, double time_s, std::span<const double> numbers) {
-    const std::int64_t t = nanoseconds(time_s);
-    write(to.channel, t, messages::columns(buffer_, t, numbers));
-    to.last_s = time_s;
-}
-
-void Recorder::write(Topic topic, std::int64_t time_ns, messages::Encoded message) {
-    write(channels_[static_cast<std::size_t>(topic)], time_ns, message);
-}
-
-void Recorder::write(std::uint16_t channel, std::int64_t time_ns, messages::Encoded message) {
-    writer_.write(channel, static_cast<std::uint64_t>(time_ns), message);
+template <class... Fields>
+void Recorder::write(std::uint16_t channel, double time_s, const Fields&... fields) {
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    const std::int64_t time_ns = nanoseconds(time_s);
+    // Fast-CDR skips the bytes that align the next value; they must not carry the last message.
+    std::fill_n(buffer_.begin(), used_, '\0');
+    eprosima::fastcdr::FastBuffer stream(buffer_.data(), buffer_.size());
+    Cdr cdr(stream, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
+    cdr.serialize_encapsulation();
+    put(cdr, static_cast<std::int32_t>(time_ns / kSecond_ns));
+    put(cdr, static_cast<std::uint32_t>(time_ns % kSecond_ns));
+    (put(cdr, fields), ...);
+    used_ = cdr.getSerializedDataLength();
+    writer_.write(channel, static_cast<std::uint64_t>(time_ns),
+                  {reinterpret_cast<const std::uint8_t*>(buffer_.data()), used_});
     last_time_ns_ = std::max(last_time_ns_, time_ns);
 }
 
+template <class... Fields>
+void Recorder::write(Topic topic, double time_s, const Fields&... fields) {
+    write(channels_[static_cast<std::size_t>(topic)], time_s, fields...);
+}
+
+void Recorder::write_columns(Columns& to, double time_s, std::span<const double> numbers) {
+    write(to.channel, time_s, numbers);
+    to.last_s = time_s;
+}
+
 void Recorder::imu(const Sample<ImuReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::imu, t, messages::imu(buffer_, t, sample.value));
+    constexpr std::array<double, 9> kNotMeasured = {-1.0};  // a covariance, as the message says
+    constexpr std::array<double, 9> kUnknown = {};
+    write(Topic::imu, sample.time_s, "base_link", Quaternion::Identity(), kNotMeasured,
+          flu_from_frd(sample.value.rate_B_rad_s), kUnknown,
+          flu_from_frd(sample.value.specific_force_B_m_s2), kUnknown);
+}
+
+void Recorder::range(Topic topic, std::string_view frame, const Sample<RangeReading>& sample) {
+    constexpr std::uint8_t kInfrared = 1;
+    constexpr float kNothing = std::numeric_limits<float>::infinity();
+    constexpr float kVarianceUnknown = 0.0F;
+    const auto& [distance_m, valid] = sample.value;
+    write(topic, sample.time_s, frame, kInfrared,
+          static_cast<float>(range_sensor_.field_of_view_rad),
+          static_cast<float>(range_sensor_.minimum_m), static_cast<float>(range_sensor_.maximum_m),
+          valid ? static_cast<float>(distance_m) : kNothing, kVarianceUnknown);
 }
 
 void Recorder::range_left(const Sample<RangeReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::range_left, t,
-          messages::range(buffer_, t, "lidar_left", range_sensor_, sample.value));
+    range(Topic::range_left, "lidar_left", sample);
 }
 
 void Recorder::range_right(const Sample<RangeReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::range_right, t,
-          messages::range(buffer_, t, "lidar_right", range_sensor_, sample.value));
+    range(Topic::range_right, "lidar_right", sample);
 }
 
 void Recorder::force(const Sample<ForceReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    const Wrench along_slider{.force_N = {sample.value.axial_N, 0.0, 0.0}};
-    write(Topic::force, t, messages::wrench(buffer_, t, "carriage", along_slider));
+    wrench(Topic::force, sample.time_s, "carriage", {{sample.value.axial_N, 0.0, 0.0}});
+}
+
+void Recorder::pressure(Topic topic, double time_s, std::string_view frame, double pressure_Pa) {
+    constexpr double kVarianceUnknown = 0.0;
+    write(topic, time_s, frame, pressure_Pa, kVarianceUnknown);
 }
 
 void Recorder::cup_pressure(const Sample<PressureReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::cup_pressure, t, messages::pressure(buffer_, t, "cup", sample.value.pressure_Pa));
+    pressure(Topic::cup_pressure, sample.time_s, "cup", sample.value.pressure_Pa);
 }
 
 void Recorder::motion_capture(const Sample<PoseReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::motion_capture, t,
-          messages::pose(buffer_, t, sample.value.p_WB_m, sample.value.q_WB));
+    pose(Topic::motion_capture, sample.time_s, sample.value.p_WB_m, sample.value.q_WB);
 }
 
 void Recorder::barometer(const Sample<BarometerReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::barometer, t,
-          messages::pressure(buffer_, t, "base_link", sample.value.pressure_Pa));
+    pressure(Topic::barometer, sample.time_s, "base_link", sample.value.pressure_Pa);
 }
 
 void Recorder::battery(const Sample<BatteryReading>& sample) {
-    const std::int64_t t = nanoseconds(sample.time_s);
-    write(Topic::battery, t, messages::battery(buffer_, t, sample.value));
+    constexpr std::uint8_t kDischarging = 2, kHealthUnknown = 0, kLithiumPolymer = 3;
+    constexpr bool kPresent = true;
+    constexpr std::uint32_t kNoCells = 0;
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::string_view kLocation, kSerialNumber;
+    const BatteryReading& reading = sample.value;
+    write(Topic::battery, sample.time_s, "base_link", static_cast<float>(reading.voltage_V),
+          kUnknown, static_cast<float>(-reading.current_A), kUnknown, kUnknown, kUnknown,
+          static_cast<float>(reading.remaining), kDischarging, kHealthUnknown, kLithiumPolymer,
+          kPresent, kNoCells, kNoCells, kLocation, kSerialNumber);
 }
 
 void Recorder::new_readings(const Readings& readings, Readings& last) {
@@ -132,43 +254,67 @@ void Recorder::new_readings(const Readings& readings, Readings& last) {
     when_new(readings.battery, last.battery, &Recorder::battery);
 }
 
+void Recorder::pose(Topic topic, double time_s, const Vector3& p_WB_m, const Quaternion& q_WB) {
+    write(topic, time_s, "map", ros::enu_from_ned(p_WB_m), ros::enu_flu_from_ned_frd(q_WB));
+}
+
+void Recorder::twist(Topic topic, double time_s, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+                     const Vector3& w_WB_B_rad_s) {
+    write(topic, time_s, "base_link", flu_from_frd(q_WB.conjugate() * v_WB_W_m_s),
+          flu_from_frd(w_WB_B_rad_s));
+}
+
+void Recorder::wrench(Topic topic, double time_s, std::string_view frame, const Wrench& wrench) {
+    write(topic, time_s, frame, flu_from_frd(wrench.force_N), flu_from_frd(wrench.moment_N_m));
+}
+
 void Recorder::truth(const Truth& truth) {
-    const std::int64_t t = nanoseconds(truth.time_s);
-    const Kinematics& base = truth.base;
-    write(Topic::truth_pose, t, messages::pose(buffer_, t, base.p_WF_m, base.q_WF));
-    write(Topic::truth_twist, t,
-          messages::twist(buffer_, t, base.q_WF, base.v_WF_W_m_s, base.w_WF_F_rad_s));
-    write(Topic::truth_vehicle, t, messages::vehicle_truth(buffer_, t, truth));
-    write(Topic::cup, t, messages::cup_state(buffer_, t, truth.cup_status));
-    write(Topic::truth_cup_wrench, t,
-          messages::wrench(buffer_, t, "cup", truth.cup_status.wrench_C));
+    const double t = truth.time_s;
+    const auto& [p_W_m, q_WB, v_W_m_s, w_B_rad_s] = truth.base;
+    pose(Topic::truth_pose, t, p_W_m, q_WB);
+    twist(Topic::truth_twist, t, q_WB, v_W_m_s, w_B_rad_s);
+
+    const SliderStatus& slider = truth.slider;
+    const BatteryStatus& power = truth.battery;
+    // The cup's joint turns about y, then about the turned z.
+    const Vector3 mouth_B = q_WB.conjugate() * truth.cup.q_WF * Vector3::UnitX();
+    const double cup_pitch_rad = std::atan2(-mouth_B.z(), mouth_B.x());
+    const double cup_yaw_rad = std::asin(std::clamp(mouth_B.y(), -1.0, 1.0));
+    write(Topic::truth_vehicle, t, euler_from_quaternion(q_WB), v_W_m_s, w_B_rad_s,
+          slider.position_m, slider.velocity_m_s, slider.force_N, cup_pitch_rad, cup_yaw_rad,
+          truth.legs_force_W_N, truth.rotor_speed_rad_s, truth.thrust_N, power.voltage_V,
+          power.current_A, power.energy_used_J, power.remaining);
+
+    const CupStatus& cup = truth.cup_status;
+    write(Topic::cup, t, static_cast<std::uint8_t>(cup.phase), cup.pump_running, cup.valve_open,
+          cup.pressure_Pa, cup.pull_N, cup.shear_N, cup.peel_N_m, cup.gap_m, cup.pull_margin_N,
+          cup.shear_margin_N, cup.peel_margin_N, cup.seal_threshold_N);
+    wrench(Topic::truth_cup_wrench, t, "cup", cup.wrench_C);
 }
 
 void Recorder::estimate(const Estimate& estimate) {
-    const std::int64_t t = nanoseconds(estimate.time_s);
-    write(Topic::estimate_pose, t, messages::pose(buffer_, t, estimate.p_WB_m, estimate.q_WB));
-    write(Topic::estimate_twist, t,
-          messages::twist(buffer_, t, estimate.q_WB, estimate.v_WB_m_s, estimate.w_WB_B_rad_s));
+    pose(Topic::estimate_pose, estimate.time_s, estimate.p_WB_m, estimate.q_WB);
+    twist(Topic::estimate_twist, estimate.time_s, estimate.q_WB, estimate.v_WB_m_s,
+          estimate.w_WB_B_rad_s);
 }
 
 void Recorder::setpoint(double time_s, const Setpoint& setpoint) {
-    const std::int64_t t = nanoseconds(time_s);
-    write(Topic::setpoint, t, messages::setpoint(buffer_, t, setpoint));
+    const Motion m = std::visit([](const auto& asked) { return motion(asked); }, setpoint.motion);
+    write(Topic::setpoint, time_s, m.mode, setpoint.armed, setpoint.pump_on, setpoint.valve_open,
+          setpoint.hold_integrators, m.p, m.v, m.a, m.angles, m.thrust);
 }
 
 void Recorder::guidance(double time_s, std::string_view state, int attempt) {
-    const std::int64_t t = nanoseconds(time_s);
-    write(Topic::guidance, t, messages::guidance_state(buffer_, t, state, attempt));
+    write(Topic::guidance, time_s, state, attempt);
 }
 
 void Recorder::rotor_command(double time_s, const RotorCommand& command) {
-    const std::int64_t t = nanoseconds(time_s);
-    write(Topic::rotor_command, t, messages::rotor_command(buffer_, t, command));
+    write(Topic::rotor_command, time_s, command.command, command.armed);
 }
 
 void Recorder::event(const Event& event) {
-    const std::int64_t t = nanoseconds(event.time_s);
-    write(Topic::events, t, messages::event(buffer_, t, event));
+    write(Topic::events, event.time_s, event.station, to_string(event.name), event.reason,
+          std::span(event.values).first(event.value_count));
 }
 
 void Recorder::finish(const std::string& summary_json) {

@@ -11,8 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/event.hpp"
+#include "limpet/core/signals/readings.hpp"
+#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/signals/setpoint.hpp"
+#include "limpet/core/signals/truth.hpp"
 #include "limpet/mcap/writer.hpp"
-#include "limpet/record/messages.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {
@@ -24,6 +29,13 @@ struct ColumnChannel {
     std::span<const std::string_view> columns;  ///< with their units
 };
 
+/// What a Range message says of its sensor besides the reading.
+struct RangeSensor {
+    double field_of_view_rad = radians(3.6);  ///< Source: TFmini Plus data sheet
+    double minimum_m = 0.1;                   ///< Source: TFmini Plus data sheet
+    double maximum_m = 12.0;                  ///< Source: TFmini Plus data sheet
+};
+
 /// What a recording says of itself. Nothing in it may depend on the wall clock or the machine.
 struct RecordingInfo {
     std::string scenario;
@@ -32,12 +44,14 @@ struct RecordingInfo {
     /// Numbers that a reader of the recording needs: {"land_pressure_Pa", "88000"}.
     mcap::StringMap numbers = {};
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
-    messages::RangeSensor range_sensor;
+    RangeSensor range_sensor;
     std::vector<ColumnChannel> columns = {};
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from
-/// 0, so that the same flight gives the same bytes.
+/// 0, so that the same flight gives the same bytes. Our signals become ROS 2 messages in CDR, whose
+/// fields stand in message_definitions.cpp: ROS's own in its frames (ros_frames.hpp), limpet_msgs
+/// as they are. A text has at most 256 characters, else InternalError: texts are names and reasons.
 ///
 /// The file grows as PATH.part and becomes PATH in finish(); PATH.part of a run that died is
 /// readable (mcap_writer.hpp). Between constructor and finish() nothing is allocated.
@@ -50,6 +64,7 @@ public:
 
     // A sample is recorded at its own time, that of the measurement [s], >= 0.
     void imu(const Sample<ImuReading>& sample);
+    /// An invalid reading is +infinity (REP 117: nothing within range).
     void range_left(const Sample<RangeReading>& sample);
     void range_right(const Sample<RangeReading>& sample);
     void force(const Sample<ForceReading>& sample);
@@ -90,12 +105,26 @@ private:
     };
     std::uint16_t add_channel(std::string_view topic, std::uint16_t schema);
     void write_columns(Columns& to, double time_s, std::span<const double> numbers);
-    void write(Topic topic, std::int64_t time_ns, messages::Encoded message);
-    void write(std::uint16_t channel, std::int64_t time_ns, messages::Encoded message);
+
+    // A message is a stamp and fields, in the order of their definition.
+    template <class... Fields>
+    void write(std::uint16_t channel, double time_s, const Fields&... fields);
+    template <class... Fields>
+    void write(Topic topic, double time_s, const Fields&... fields);
+    void range(Topic topic, std::string_view frame, const Sample<RangeReading>& sample);
+    void pressure(Topic topic, double time_s, std::string_view frame, double pressure_Pa);
+    /// In "map".
+    void pose(Topic topic, double time_s, const Vector3& p_WB_m, const Quaternion& q_WB);
+    /// In "base_link", both parts, as nav_msgs/Odometry has it.
+    void twist(Topic topic, double time_s, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
+               const Vector3& w_WB_B_rad_s);
+    /// @param wrench  in a forward-right-down frame called `frame` when turned to forward-left-up
+    void wrench(Topic topic, double time_s, std::string_view frame, const Wrench& wrench);
 
     mcap::Writer writer_;
-    messages::RangeSensor range_sensor_;
-    messages::Buffer buffer_;
+    RangeSensor range_sensor_;
+    std::array<char, 4096> buffer_{};  ///< room for the longest message
+    std::size_t used_ = 0;             ///< of it, by the last one
     std::array<std::uint16_t, kTopics.size()> channels_{};
     std::vector<Columns> columns_;
     std::int64_t last_time_ns_ = 0;

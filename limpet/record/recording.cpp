@@ -20,53 +20,18 @@ struct TopicReader {
     std::unique_ptr<TableReader> reader;
 };
 
-/// Sorts messages into tables, by channel.
-class Collector {
-public:
-    void message(const mcap::Contents& contents, const mcap::Message& message) {
-        const auto [at, is_new] = topics_.try_emplace(message.channel_id);
-        TopicReader& topic = at->second;
-        if (is_new) {
-            open(contents, contents.channels.at(message.channel_id), topic);
-        }
-        if (topic.reader) {
-            topic.reader->append(static_cast<double>(message.log_time_ns) * 1e-9, message.data);
-        }
+/// A reader of the channel's messages, which fills the topic's table.
+/// @throws InputError when they are of a kind that is not read
+void open(const mcap::Contents& contents, const mcap::Channel& channel, TopicReader& topic) {
+    topic.table.topic = channel.topic;
+    const auto schema = contents.schemas.find(channel.schema_id);
+    if (schema == contents.schemas.end() || schema->second.encoding != "ros2msg" ||
+        channel.message_encoding != "cdr") {
+        throw InputError("not cdr with a ros2msg schema");
     }
-
-    std::vector<Table> take_tables() {
-        std::vector<Table> tables;
-        for (auto& [id, topic] : topics_) {
-            if (topic.reader) {
-                tables.push_back(std::move(topic.table));
-            }
-        }
-        topics_.clear();
-        return tables;
-    }
-
-    [[nodiscard]] const std::string& problems() const { return problems_; }
-
-private:
-    void open(const mcap::Contents& contents, const mcap::Channel& channel, TopicReader& topic) {
-        topic.table.topic = channel.topic;
-        const auto schema = contents.schemas.find(channel.schema_id);
-        try {
-            if (schema == contents.schemas.end() || schema->second.encoding != "ros2msg" ||
-                channel.message_encoding != "cdr") {
-                throw InputError("not cdr with a ros2msg schema");
-            }
-            const auto types = parse_ros2msg(schema->second.name, schema->second.text);
-            topic.reader = std::make_unique<TableReader>(types, topic.table);
-        } catch (const InputError& problem) {
-            problems_ += fmt::format("{}topic {} is not read: {}", problems_.empty() ? "" : "; ",
-                                     channel.topic, problem.what());
-        }
-    }
-
-    std::map<std::uint16_t, TopicReader> topics_;  // nodes stay where they are: readers point there
-    std::string problems_;
-};
+    const auto types = parse_ros2msg(schema->second.name, schema->second.text);
+    topic.reader = std::make_unique<TableReader>(types, topic.table);
+}
 
 std::string text_at(const Table& table, const std::string& column, std::size_t row) {
     const TextColumn* found = table.find_text(column);
@@ -96,22 +61,22 @@ std::vector<RecordedEvent> events_of(const Table& table) {
     return events;
 }
 
-template <class Items>
-std::string names_of(const Items& items, std::string (*name)(const typename Items::value_type&)) {
-    std::vector<std::string> names;
-    std::transform(items.begin(), items.end(), std::back_inserter(names), name);
+template <class Item>
+std::string names_of(const std::vector<Item>& items, std::string Item::*name) {
+    std::vector<std::string_view> names;
+    for (const Item& item : items) {
+        names.push_back(item.*name);
+    }
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
 
 const Table& Recording::table(std::string_view topic) const {
-    const auto found = std::find_if(tables.begin(), tables.end(),
-                                    [topic](const Table& t) { return t.topic == topic; });
-    if (found == tables.end()) {
+    const Table* found = find_by(tables, &Table::topic, topic);
+    if (found == nullptr) {
         throw InputError(fmt::format("{}: no topic {}; there are: {}", path.string(), topic,
-                                     names_of(
-                                         tables, +[](const Table& t) { return t.topic; })));
+                                     names_of(tables, &Table::topic)));
     }
     return *found;
 }
@@ -120,30 +85,44 @@ Series Recording::series(std::string_view topic, std::string_view column) const 
     const Table& of_topic = table(topic);
     const Column* found = of_topic.find(column);
     if (found == nullptr) {
-        throw InputError(
-            fmt::format("{}: no column {} in {}; there are: {}", path.string(), column, topic,
-                        names_of(
-                            of_topic.columns, +[](const Column& c) { return c.name; })));
+        throw InputError(fmt::format("{}: no column {} in {}; there are: {}", path.string(), column,
+                                     topic, names_of(of_topic.columns, &Column::name)));
     }
     return {of_topic.time_s, found->values};
 }
 
 const mcap::Attachment* Recording::attachment(std::string_view name) const {
-    const auto found = std::find_if(attachments.begin(), attachments.end(),
-                                    [name](const mcap::Attachment& a) { return a.name == name; });
-    return found == attachments.end() ? nullptr : &*found;
+    return find_by(attachments, &mcap::Attachment::name, name);
 }
 
 Recording read_recording(const std::filesystem::path& path) {
-    Collector collector;
+    std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
+    std::vector<std::string> problems;
     mcap::Contents contents =
-        mcap::read(path, [&collector](const mcap::Contents& so_far, const mcap::Message& message) {
-            collector.message(so_far, message);
+        mcap::read(path, [&](const mcap::Contents& so_far, const mcap::Message& message) {
+            const auto [at, is_new] = topics.try_emplace(message.channel_id);
+            TopicReader& topic = at->second;
+            const mcap::Channel& channel = so_far.channels.at(message.channel_id);
+            try {
+                if (is_new) {
+                    open(so_far, channel, topic);
+                }
+            } catch (const InputError& problem) {
+                problems.push_back(
+                    fmt::format("topic {} is not read: {}", channel.topic, problem.what()));
+            }
+            if (topic.reader) {
+                topic.reader->append(static_cast<double>(message.log_time_ns) * 1e-9, message.data);
+            }
         });
 
     Recording recording;
     recording.path = path;
-    recording.tables = collector.take_tables();
+    for (auto& [id, topic] : topics) {
+        if (topic.reader) {
+            recording.tables.push_back(std::move(topic.table));
+        }
+    }
     recording.attachments = std::move(contents.attachments);
     for (mcap::Metadata& metadata : contents.metadata) {
         recording.metadata[metadata.name] = std::move(metadata.values);
@@ -153,10 +132,10 @@ Recording read_recording(const std::filesystem::path& path) {
             recording.events = events_of(table);
         }
     }
-    recording.damage = contents.damage;
-    if (!collector.problems().empty()) {
-        recording.damage += (recording.damage.empty() ? "" : "; ") + collector.problems();
+    if (!contents.damage.empty()) {
+        problems.insert(problems.begin(), contents.damage);
     }
+    recording.damage = fmt::format("{}", fmt::join(problems, "; "));
     return recording;
 }
 

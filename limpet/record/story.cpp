@@ -9,8 +9,13 @@
 namespace limpet::record {
 namespace {
 
-Window clipped(const Window& window, const Window& whole) {
-    return {std::max(window.from_s, whole.from_s), std::min(window.to_s, whole.to_s)};
+constexpr double kEnd_s = 1e300;  ///< as far as it was recorded
+
+/// As much of it as was recorded.
+Chapter chapter(const Recording& recording, const char* file, const char* title, double from_s,
+                double to_s) {
+    const Window whole = whole_flight(recording);
+    return {file, title, {std::max(from_s, whole.from_s), std::min(to_s, whole.to_s)}};
 }
 
 /// When the first of these names happens after an instant; nullptr for none of them.
@@ -39,9 +44,8 @@ std::string text_of(const mcap::StringMap& map, const char* key) {
 }  // namespace
 
 const Table* find_table(const Recording& recording, std::string_view topic) {
-    const auto found = std::find_if(recording.tables.begin(), recording.tables.end(),
-                                    [topic](const Table& table) { return table.topic == topic; });
-    return found == recording.tables.end() || found->time_s.empty() ? nullptr : &*found;
+    const Table* found = find_by(recording.tables, &Table::topic, topic);
+    return found == nullptr || found->time_s.empty() ? nullptr : found;
 }
 
 std::size_t nearest_row(const Table& table, double time_s) {
@@ -88,15 +92,14 @@ std::optional<Chapter> perching(const Recording& recording) {
     if (approach == nullptr) {
         return std::nullopt;
     }
-    const Window whole = whole_flight(recording);
     const double start_s = approach->time_s;
     const RecordedEvent* end =
         first_of(recording, {"motors_off", "retreat_started", "aborted"}, start_s);
     if (end == nullptr) {
         end = first_event(recording, "perched", start_s);
     }
-    const double end_s = end == nullptr ? whole.to_s : end->time_s + 1.0;
-    return Chapter{"perching", "perching", clipped({start_s - 0.5, end_s}, whole)};
+    return chapter(recording, "perching", "perching", start_s - 0.5,
+                   end == nullptr ? kEnd_s : end->time_s + 1.0);
 }
 
 std::optional<Chapter> take_off(const Recording& recording) {
@@ -104,10 +107,9 @@ std::optional<Chapter> take_off(const Recording& recording) {
     if (start == nullptr) {
         return std::nullopt;
     }
-    const Window whole = whole_flight(recording);
     const RecordedEvent* end = first_of(recording, {"backed_off", "aborted"}, start->time_s);
-    const double end_s = end == nullptr ? whole.to_s : end->time_s + 2.0;
-    return Chapter{"take_off", "take-off", clipped({start->time_s - 0.5, end_s}, whole)};
+    return chapter(recording, "take_off", "take-off", start->time_s - 0.5,
+                   end == nullptr ? kEnd_s : end->time_s + 2.0);
 }
 
 std::optional<Chapter> failed_attempt(const Recording& recording) {
@@ -117,8 +119,8 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     }
     const RecordedEvent* approach = last_event(recording, "approach_started", retreat->time_s);
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
-    return Chapter{"failed_attempt", "failed attempt",
-                   clipped({start_s - 0.5, retreat->time_s + 3.0}, whole_flight(recording))};
+    return chapter(recording, "failed_attempt", "failed attempt", start_s - 0.5,
+                   retreat->time_s + 3.0);
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {

@@ -17,22 +17,7 @@ namespace {
 constexpr std::size_t kMaxSteps = 10'000;
 constexpr int kMaxDepth = 16;
 
-template <class NamedColumn>
-const NamedColumn* find_named(const std::vector<NamedColumn>& columns, std::string_view name) {
-    const auto found = std::find_if(columns.begin(), columns.end(),
-                                    [name](const NamedColumn& c) { return c.name == name; });
-    return found == columns.end() ? nullptr : &*found;
-}
-
 }  // namespace
-
-const Column* Table::find(std::string_view column) const {
-    return find_named(columns, column);
-}
-
-const TextColumn* Table::find_text(std::string_view column) const {
-    return find_named(texts, column);
-}
 
 /// Plain CDR (XCDR1): every value aligned to its own size, counted from behind the encapsulation.
 class TableReader::Cdr {
@@ -111,10 +96,8 @@ void TableReader::flatten(const std::vector<MessageType>& types, const MessageTy
     for (const Field& field : type.fields) {
         const bool primitive = field.nested_type.empty() || field.primitive == Primitive::time;
         const bool dynamic = field.shape == Field::Shape::dynamic_array;
-        const auto nested = std::find_if(types.begin(), types.end(), [&](const MessageType& t) {
-            return t.name == field.nested_type;
-        });
-        if (!primitive && (nested == types.end() || dynamic)) {
+        const MessageType* nested = find_by(types, &MessageType::name, field.nested_type);
+        if (!primitive && (nested == nullptr || dynamic)) {
             throw InputError(type.name + ": " +
                              (dynamic ? "dynamic array of messages: " : "unknown type: ") +
                              field.nested_type + " " + field.name);
@@ -194,19 +177,17 @@ void TableReader::read_array(Cdr& cdr, Step& step) {
     const auto length = cdr.get<std::uint32_t>();
     table_.columns[step.column].values.back() = length;
     for (std::size_t i = 0; i < length; ++i) {
-        if (i >= kMaxArrayColumns) {
-            if (step.primitive == Primitive::string) {
-                (void)cdr.string();
-            } else {
-                (void)cdr.number(step.primitive);
-            }
-            continue;
-        }
-        if (i == step.elements.size()) {
+        if (i == step.elements.size() && i < kMaxArrayColumns) {
             step.elements.push_back(
                 add_column(step.primitive, fmt::format("{}[{}]", step.name, i)));
         }
-        read_value(cdr, step.primitive, step.elements[i]);
+        if (i < step.elements.size()) {
+            read_value(cdr, step.primitive, step.elements[i]);
+        } else if (step.primitive == Primitive::string) {
+            (void)cdr.string();
+        } else {
+            (void)cdr.number(step.primitive);
+        }
     }
 }
 

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/record/schema.hpp"
 
 namespace limpet::record {
@@ -29,8 +31,12 @@ struct Table {
     std::vector<TextColumn> texts;
 
     /// @return nullptr if there is none of that name
-    [[nodiscard]] const Column* find(std::string_view column) const;
-    [[nodiscard]] const TextColumn* find_text(std::string_view column) const;
+    [[nodiscard]] const Column* find(std::string_view column) const {
+        return find_by(columns, &Column::name, column);
+    }
+    [[nodiscard]] const TextColumn* find_text(std::string_view column) const {
+        return find_by(texts, &TextColumn::name, column);
+    }
 };
 
 /// Elements of a dynamic array that become columns; what is behind them is read and dropped.

@@ -9,6 +9,7 @@
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
+#include "limpet/mcap/reader.hpp"
 #include "limpet/record/recording.hpp"
 #include "tests/support/allocations.hpp"
 
@@ -89,19 +90,33 @@ TEST(Recorder, TheSameFlightGivesTheSameBytes) {
     EXPECT_TRUE(a == load(folder / "b.mcap"));
 }
 
-TEST(Recorder, BytesDoNotDependOnWhatStoodInTheBufferBefore) {
-    messages::Buffer fresh, used;
-    (void)messages::event(used, 0, make_event(0.0, std::string(200, '~'), EventName::level));
-    const messages::Encoded a = messages::guidance_state(fresh, 5, "dock", 1);
-    const messages::Encoded b = messages::guidance_state(used, 5, "dock", 1);
-    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+/// The last message of what `fill` records, byte by byte.
+template <class Fill>
+std::vector<int> last_message(Fill&& fill) {
+    const TestFolder folder;
+    Recorder recorder(folder / "a.mcap", sample_info());
+    fill(recorder);
+    recorder.finish("{}");
+    std::vector<int> bytes;
+    (void)mcap::read(folder / "a.mcap", [&](const mcap::Contents&, const mcap::Message& message) {
+        bytes.assign(message.data.begin(), message.data.end());
+    });
+    return bytes;
 }
 
-TEST(Messages, RotorCommandByHand) {
-    messages::Buffer buffer;
-    const auto encoded =
-        messages::rotor_command(buffer, 1'000'000'002, {{0.5, 1.0, 0.0, 2.0}, true});
-    EXPECT_THAT(std::vector<int>(encoded.begin(), encoded.end()),
+TEST(Recorder, BytesDoNotDependOnWhatStoodInTheBufferBefore) {
+    const std::string tildes(200, '~');
+    EXPECT_EQ(last_message([](Recorder& r) { r.guidance(5.0, "dock", 1); }),
+              last_message([&](Recorder& r) {
+                  r.event(make_event(0.0, tildes, EventName::level));
+                  r.guidance(5.0, "dock", 1);
+              }));
+}
+
+TEST(Recorder, RotorCommandByHand) {
+    EXPECT_THAT(last_message([](Recorder& r) {
+                    r.rotor_command(1.000000002, {{0.5, 1.0, 0.0, 2.0}, true});
+                }),
                 ElementsAre(0, 1, 0, 0,                    // little-endian CDR
                             1, 0, 0, 0, 2, 0, 0, 0,        // 1 s, 2 ns
                             0, 0, 0, 0, 0, 0, 0xE0, 0x3F,  // 0.5
@@ -111,19 +126,17 @@ TEST(Messages, RotorCommandByHand) {
                             1));                           // armed
 }
 
-TEST(Messages, GuidanceStateByHand) {
-    messages::Buffer buffer;
-    const auto encoded = messages::guidance_state(buffer, 0, "dock", 3);
-    EXPECT_THAT(std::vector<int>(encoded.begin(), encoded.end()),
+TEST(Recorder, GuidanceStateByHand) {
+    EXPECT_THAT(last_message([](Recorder& r) { r.guidance(0.0, "dock", 3); }),
                 ElementsAre(0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,          // header, time 0
                             5, 0, 0, 0, 'd', 'o', 'c', 'k', 0, 0, 0, 0,  // text, zero, alignment
                             3, 0, 0, 0));
 }
 
-TEST(Messages, RefusesEndlessTexts) {
-    messages::Buffer buffer;
-    EXPECT_THROW((void)messages::guidance_state(buffer, 0, std::string(257, 'x'), 0),
-                 InternalError);
+TEST(Recorder, RefusesEndlessTexts) {
+    const TestFolder folder;
+    Recorder recorder(folder / "a.mcap", sample_info());
+    EXPECT_THROW(recorder.guidance(0.0, std::string(257, 'x'), 0), InternalError);
 }
 
 class Recorded : public ::testing::Test {
