@@ -25,17 +25,13 @@ struct Role {
     std::string_view from;
     std::string_view body;  ///< that it carries
     bool slides = false;
-    Vector3 axis;  ///< in the base's axes, x forward, y left, z up
+    int axis = 0;  ///< of the base's, x forward, y left, z up
     bool either_way = false;
 };
 
-const std::array<Role, 3>& roles() {
-    static const std::array<Role, 3> all = {
-        Role{"slider", "base", "carriage", true, Vector3::UnitX(), false},
-        Role{"cup_pitch", "carriage", "cup_yoke", false, Vector3::UnitY(), true},
-        Role{"cup_yaw", "cup_yoke", "cup", false, Vector3::UnitZ(), true}};
-    return all;
-}
+constexpr std::array kRoles = {Role{"slider", "base", "carriage", true, 0, false},
+                               Role{"cup_pitch", "carriage", "cup_yoke", false, 1, true},
+                               Role{"cup_yaw", "cup_yoke", "cup", false, 2, true}};
 
 /// A link in its place: frame in the base link's, and the body that it moves with.
 struct PlacedLink {
@@ -71,8 +67,8 @@ std::string root_of(const UrdfRobot& robot) {
 }
 
 const Role* role_of(const UrdfJoint& joint, const CadNames& names, bool has_cup) {
-    for (const Role& role : roles()) {
-        if (has_cup && joint.name == names.of(role.part)) {
+    for (const Role& role : kRoles) {
+        if (has_cup && joint.name == called(names, role.part)) {
             return &role;
         }
     }
@@ -131,7 +127,7 @@ void turn_to_base(Placed& placed, const std::string& base) {
 void check_links(const UrdfRobot& robot, const CadNames& names, const Placed& placed,
                  bool has_cup) {
     for (const std::string_view part : {"base", "carriage", "cup_yoke", "cup"}) {
-        const std::string& name = names.of(part);
+        const std::string name = called(names, part);
         if ((has_cup || part == "base") && placed.at(name).body != part) {
             throw InputError(fmt::format("{}: link \"{}\" moves with the {}, must be the {}",
                                          robot.link(name)->place, name, placed.at(name).body,
@@ -141,30 +137,33 @@ void check_links(const UrdfRobot& robot, const CadNames& names, const Placed& pl
 }
 
 void check_axes(const UrdfRobot& robot, const CadNames& names, const Placed& placed) {
-    for (const Role& role : roles()) {
-        const UrdfJoint& joint = *robot.joint(names.of(role.part));
+    for (const Role& role : kRoles) {
+        const UrdfJoint& joint = *robot.joint(called(names, role.part));
         const Vector3 axis = placed.at(joint.child).pose.linear() * joint.axis;
-        const double along = role.either_way ? std::abs(axis.dot(role.axis)) : axis.dot(role.axis);
+        const Vector3 wanted = Vector3::Unit(role.axis);
+        const double along = role.either_way ? std::abs(axis.dot(wanted)) : axis.dot(wanted);
         if (!(along > std::cos(kSameAxis))) {
             throw InputError(fmt::format(
                 "{}: joint \"{}\" has the axis {:.4g} {:.4g} {:.4g} in the base, the {} must have "
                 "{:.4g} {:.4g} {:.4g}{}",
-                joint.place, joint.name, axis.x(), axis.y(), axis.z(), role.part, role.axis.x(),
-                role.axis.y(), role.axis.z(), role.either_way ? ", either way" : ""));
+                joint.place, joint.name, axis.x(), axis.y(), axis.z(), role.part, wanted.x(),
+                wanted.y(), wanted.z(), role.either_way ? ", either way" : ""));
         }
     }
 }
 
 /// @return where the hinges cross, in the base link's frame
 Vector3 crossing(const UrdfRobot& robot, const CadNames& names, const Placed& placed) {
-    const Vector3 pitch = placed.at(robot.joint(names.cup_pitch)->child).pose.translation();
-    const UrdfJoint& yaw_joint = *robot.joint(names.cup_yaw);
+    const Vector3 pitch =
+        placed.at(robot.joint(called(names, "cup_pitch"))->child).pose.translation();
+    const UrdfJoint& yaw_joint = *robot.joint(called(names, "cup_yaw"));
     const Vector3 yaw = placed.at(yaw_joint.child).pose.translation();
     if (!((yaw - pitch).norm() <= kSamePlace_m)) {
-        throw InputError(fmt::format(
-            "{}: joint \"{}\" is {:.4g} m off joint \"{}\", the hinges "
-            "must cross within {} m",
-            yaw_joint.place, yaw_joint.name, (yaw - pitch).norm(), names.cup_pitch, kSamePlace_m));
+        throw InputError(
+            fmt::format("{}: joint \"{}\" is {:.4g} m off joint \"{}\", the hinges "
+                        "must cross within {} m",
+                        yaw_joint.place, yaw_joint.name, (yaw - pitch).norm(),
+                        called(names, "cup_pitch"), kSamePlace_m));
     }
     return pitch;
 }
@@ -203,16 +202,6 @@ vehicle::BodyInertia in_B(vehicle::BodyInertia body, const Vector3& centre_m) {
     return body;
 }
 
-Shape shape_of(UrdfShape::Kind kind) {
-    switch (kind) {
-        case UrdfShape::Kind::box: return Shape::box;
-        case UrdfShape::Kind::cylinder: return Shape::cylinder;
-        case UrdfShape::Kind::sphere: return Shape::sphere;
-        case UrdfShape::Kind::mesh: return Shape::mesh;
-    }
-    throw InternalError("unknown shape");
-}
-
 bool is_stl(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -225,23 +214,19 @@ void add_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
     for (const UrdfLink& link : robot.links) {
         const PlacedLink& at = placed.at(link.name);
         int number = 0;
-        for (const UrdfShape& shape : link.visuals) {
-            const Eigen::Isometry3d pose = at.pose * isometry(shape.p_m, shape.q);
+        for (Part part : link.visuals) {
+            const Eigen::Isometry3d pose = at.pose * isometry(part.p_F_m, part.q_F);
             const Vector3 p_B_m = flu(Vector3(pose.translation() - centre_m));
-            Part part;
             part.name = link.name + "_visual";
             if (++number > 1) {
                 part.name += fmt::format("_{}", number);
             }
             part.body = at.body;
-            part.shape = shape_of(shape.kind);
             part.p_F_m = at.body == "base" ? p_B_m : Vector3(p_B_m - cad.joint_B_m);
             part.q_F = flu(Quaternion(pose.linear()));
-            part.size_m = shape.size;
-            part.rgba = shape.rgba.value_or(std::array<double, 4>{0.75, 0.75, 0.76, 1.0});
-            part.mesh_file = shape.mesh.string();
-            if (part.shape == Shape::mesh && is_stl(shape.mesh)) {
-                part.mesh = std::make_shared<const Mesh>(read_stl(shape.mesh));
+            part.rgba = part.rgba.value_or(std::array<double, 4>{0.75, 0.75, 0.76, 1.0});
+            if (part.shape == Shape::mesh && is_stl(part.mesh_file)) {
+                part.mesh = std::make_shared<const Mesh>(read_stl(part.mesh_file));
             }
             cad.parts.push_back(std::move(part));
         }
@@ -250,27 +235,15 @@ void add_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
 
 }  // namespace
 
-const std::string& CadNames::of(std::string_view part) const {
-    const std::array<std::pair<std::string_view, const std::string*>, 7> all = {
-        {{"base", &base},
-         {"carriage", &carriage},
-         {"cup_yoke", &cup_yoke},
-         {"cup", &cup},
-         {"slider", &slider},
-         {"cup_pitch", &cup_pitch},
-         {"cup_yaw", &cup_yaw}}};
-    for (const auto& [name, value] : all) {
-        if (name == part) {
-            return *value;
-        }
-    }
-    throw InternalError("no part of that name");
+std::string called(const CadNames& names, std::string_view part) {
+    const auto given = names.find(part);
+    return given == names.end() ? std::string(part) : given->second;
 }
 
 CadModel make_cad_model(const UrdfRobot& robot, const std::string& file, const CadNames& names,
                         bool has_cup) {
     Placed placed = place_links(robot, names, has_cup);
-    turn_to_base(placed, names.base);
+    turn_to_base(placed, called(names, "base"));
     check_links(robot, names, placed, has_cup);
     const vehicle::BodyInertia whole = gather(robot, placed, "");
     const auto body = [&](std::string_view part) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,19 +13,12 @@
 
 namespace limpet::models {
 
-/// How a URDF calls what the perching needs; our own names unless a vehicle file says otherwise.
-struct CadNames {
-    std::string base = "base";
-    std::string carriage = "carriage";
-    std::string cup_yoke = "cup_yoke";
-    std::string cup = "cup";
-    std::string slider = "slider";
-    std::string cup_pitch = "cup_pitch";
-    std::string cup_yaw = "cup_yaw";
+/// How a URDF calls what the perching needs: the links base, carriage, cup_yoke and cup, the joints
+/// slider, cup_pitch and cup_yaw. Ours are the names of what is not in it.
+using CadNames = std::map<std::string, std::string, std::less<>>;
 
-    /// @param part  our name: "carriage" @return the file's
-    [[nodiscard]] const std::string& of(std::string_view part) const;
-};
+/// @param part  our name: "carriage" @return the file's
+[[nodiscard]] std::string called(const CadNames& names, std::string_view part);
 
 /// Bodies of a vehicle as a CAD program gives them. A link that hangs on one of the perching's by a
 /// joint that the perching does not know moves with it: motors, propellers, legs. A body is all

@@ -133,7 +133,7 @@ void draw_cup(std::vector<Part>& parts, const vehicle::Airframe& airframe) {
 
 }  // namespace
 
-const PaintLook& look(Paint paint) {
+std::span<const PaintLook> paint_looks() {
     static constexpr PaintLook looks[] = {
         {"carbon", {0.07, 0.07, 0.08, 1.0}, 0.5, 0.6},
         {"aluminium", {0.62, 0.64, 0.67, 1.0}, 0.8, 0.7},
@@ -146,7 +146,11 @@ const PaintLook& look(Paint paint) {
         {"pump", {0.78, 0.78, 0.75, 1.0}, 0.5, 0.5},
         {"hose", {0.30, 0.60, 0.90, 0.8}, 0.4, 0.4},
     };
-    return looks[static_cast<std::size_t>(paint)];
+    return looks;
+}
+
+const PaintLook& look(Paint paint) {
+    return paint_looks()[static_cast<std::size_t>(paint)];
 }
 
 const std::array<double, 4>& colour(const Part& part) {

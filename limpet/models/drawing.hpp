@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,9 +35,6 @@ enum class Paint {
     pump,
     hose
 };
-inline constexpr std::array kPaints = {
-    Paint::carbon, Paint::aluminium, Paint::propeller, Paint::blade, Paint::rubber,
-    Paint::foot,   Paint::battery,   Paint::board,     Paint::pump,  Paint::hose};
 
 struct PaintLook {
     std::string_view name;
@@ -44,6 +42,8 @@ struct PaintLook {
     double specular = 0.3;   ///< 0..1
     double shininess = 0.3;  ///< 0..1
 };
+/// In the order of Paint.
+[[nodiscard]] std::span<const PaintLook> paint_looks();
 [[nodiscard]] const PaintLook& look(Paint paint);
 
 /// One shape of the vehicle's picture, placed in its body's frame F: forward-right-down, origin

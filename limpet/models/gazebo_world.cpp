@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
-#include "limpet/models/finish_texture.hpp"
-#include "limpet/models/gazebo_sensors.hpp"
+#include "limpet/models/finish.hpp"
+#include "limpet/models/links.hpp"
 #include "limpet/models/model_text.hpp"
 #include "limpet/models/sdf_model.hpp"
 
@@ -21,68 +23,34 @@ using namespace model_text;
 constexpr sdf::ContactSurface kRigid{
     .friction = 100.0, .stiffness_N_m = 1e12, .damping_N_s_m = 1.0};
 
-void write_physics(pugi::xml_node world, double step_s) {
-    add_text(world, "gravity", text(0.0, 0.0, -kGravity_m_s2));
-    auto physics = add(world, "physics", "name", "ode", "type", "ode");
-    add_text(physics, "max_step_size", text(step_s));
-    add_text(physics, "real_time_factor", "1");
-    add_text(physics, "real_time_update_rate", "0");  // as fast as it goes
-    auto ode = add(physics, "ode");
-    auto solver = add(ode, "solver");
-    // The direct solver: exact, and for one vehicle faster than 50 sweeps of the iterative one,
-    // which leaves the light cup's joints soft (docs/validation.md).
-    add_text(solver, "type", "world");
-    auto constraints = add(ode, "constraints");
-    add_text(constraints, "cfm", "0");
-    add_text(constraints, "erp", "0.2");
-    add_text(constraints, "contact_max_correcting_vel", "100");
-    add_text(constraints, "contact_surface_layer", "0");
+/// x y z roll pitch yaw of something that looks along its own x and is level.
+std::string looking(const Viewpoint& view) {
+    const Vector3 along = view.at - view.from;
+    return text(view.from) + " " +
+           text(0.0, std::atan2(-along.z(), std::hypot(along.x(), along.y())),
+                std::atan2(along.y(), along.x()));
 }
 
-void write_colours(pugi::xml_node world) {
-    auto scene = add(world, "scene");
-    add_text(scene, "ambient", "0.40 0.40 0.42 1");
-    add_text(scene, "background", "0.80 0.86 0.91 1");
-    add_text(scene, "shadows", "false");
-    add_text(scene, "grid", "false");
+pugi::xml_node named(pugi::xml_node parent, const char* kind, const std::string& name) {
+    return parent.find_child_by_attribute(kind, "name", name.c_str());
 }
 
-void write_light(pugi::xml_node world, const char* name, const Vector3& position,
-                 const Vector3& direction, const char* diffuse, const char* specular) {
-    auto light = add(world, "light", "name", name, "type", "directional");
-    add_text(light, "cast_shadows", "false");
-    add_text(light, "pose", sdf::pose_up(position));
-    add_text(light, "diffuse", diffuse);
-    add_text(light, "specular", specular);
-    add_text(light, "direction", text(Vector3(direction.normalized())));
-}
-
-/// Where they are in MuJoCo's pictures (mjcf_scene.cpp). Without shadows: those of Gazebo 11.1 dim
-/// a face by 2 %, for much of the drawing's time.
-void write_lights(pugi::xml_node world, const WallScene& wall) {
-    const LevelFrame level = level_frame(wall);
-    write_light(world, "sun", level.point(-2.2, -1.4, 4.0), level.axes * Vector3(0.60, 0.35, -1.0),
-                "0.75 0.73 0.68 1", "0.3 0.3 0.3 1");
-    write_light(world, "fill", level.point(-3.0, 3.0, 3.0), level.axes * Vector3(1.0, -1.0, -0.6),
-                "0.20 0.22 0.26 1", "0 0 0 1");
-}
-
-void write_ground(pugi::xml_node world, double ground_z_W_m) {
-    auto model = add(world, "model", "name", "ground");
-    add_text(model, "static", "true");
-    add_text(model, "pose", sdf::pose({0.0, 0.0, ground_z_W_m}));
-    auto link = add(model, "link", "name", "link");
-    auto collision = add(link, "collision", "name", "ground");
-    auto plane = add(add(collision, "geometry"), "plane");
-    add_text(plane, "normal", "0 0 1");
-    add_text(plane, "size", "100 100");
-    sdf::write_surface(collision, kRigid);
-    auto visual = add(link, "visual", "name", "ground");
-    add_text(visual, "cast_shadows", "false");
-    auto shown = add(add(visual, "geometry"), "plane");
-    add_text(shown, "normal", "0 0 1");
-    add_text(shown, "size", "100 100");
-    sdf::write_colour(visual, {0.56, 0.57, 0.57, 1.0}, 0.0);
+/// Physics, lights and ground. The lights are where they are in MuJoCo's pictures
+/// (mjcf_writer.cpp).
+void write_surroundings(pugi::xml_node node, const GazeboWorld& world) {
+    add_parts(node, kGazeboParts, "world");
+    fill(node, "gravity", Vector3(0.0, 0.0, -kGravity_m_s2), "physics/max_step_size", world.step_s);
+    const LevelFrame level =
+        level_frame(world.walls.empty() ? WallScene{} : world.walls.front().face);
+    const auto place_light = [&](const char* name, const Vector3& p, const Vector3& direction) {
+        fill(named(node, "light", name), "pose", sdf::pose_up(p), "direction",
+             Vector3((level.axes * direction).normalized()));
+    };
+    place_light("sun", level.point(-2.2, -1.4, 4.0), {0.60, 0.35, -1.0});
+    place_light("fill", level.point(-3.0, 3.0, 3.0), {1.0, -1.0, -0.6});
+    const auto ground = named(node, "model", "ground");
+    fill(ground, "pose", sdf::pose({0.0, 0.0, world.ground_z_W_m}));
+    sdf::write_surface(ground.first_element_by_path("link/collision"), kRigid);
 }
 
 std::string material_name(const GazeboWorld& world, const PlacedWall& wall) {
@@ -97,9 +65,8 @@ void write_finish(pugi::xml_node visual, const GazeboWorld& world, const PlacedW
         return;
     }
     auto script = add(add(visual, "material"), "script");
-    add_text(script, "uri", "file://materials/scripts");
-    add_text(script, "uri", "file://materials/textures");
-    add_text(script, "name", material_name(world, wall));
+    add_text(script, "uri", "file://materials/scripts", "uri", "file://materials/textures", "name",
+             material_name(world, wall));
 }
 
 /// In the axes of T turned up: x into the wall, y left, z up the wall.
@@ -111,8 +78,7 @@ void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall&
                      .size_m = solid.size_m};
     const Quaternion q_WT(face.R_WT);
     auto model = add(node, "model", "name", wall.name);
-    add_text(model, "static", "true");
-    add_text(model, "pose", sdf::pose(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
+    add_text(model, "static", "true", "pose", sdf::pose(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
     auto link = add(model, "link", "name", "link");
     auto collision = add(link, "collision", "name", "wall");
     sdf::write_geometry(collision, shape);
@@ -131,6 +97,50 @@ void write_plugin(pugi::xml_node model, const WorldFlight& plugin) {
     }
 }
 
+pugi::xml_node add_sensor(pugi::xml_node parent, const char* part, const std::string& name,
+                          double rate_Hz) {
+    auto sensor = add_parts(parent, kGazeboParts, part);
+    set(sensor, "name", name);
+    fill(sensor, "update_rate", rate_Hz);
+    return sensor;
+}
+
+/// imu, lidar_left, lidar_right and contacts on the base; slider_force on the slider. Without a cup
+/// the imu alone.
+void write_sensors(pugi::xml_node model, const vehicle::Airframe& airframe,
+                   const GazeboSensors& sensors) {
+    const auto base = named(model, "link", called(airframe, "base"));
+    add_sensor(base, "imu", "imu", sensors.imu_rate_Hz);
+    if (!airframe.has_cup) {
+        return;
+    }
+    for (const auto& [name, side] : {std::pair{"lidar_left", -0.5}, {"lidar_right", 0.5}}) {
+        const Vector3 p_B_m(airframe.lidar_x_m, side * airframe.lidar_separation_m,
+                            airframe.lidar_z_m);
+        fill(add_sensor(base, "lidar", name, sensors.lidar_rate_Hz), "pose", sdf::pose(p_B_m),
+             "ray/range/min", sensors.lidar_range_min_m, "ray/range/max",
+             sensors.lidar_range_max_m);
+    }
+    for (const Part& tip : leg_tips(airframe)) {
+        fill(add_sensor(base, "contact", tip.name + "_contact", sensors.force_rate_Hz),
+             "contact/collision", tip.name);
+    }
+    add_sensor(named(model, "joint", called(airframe, "slider")), "slider_force", "slider_force",
+               sensors.force_rate_Hz);
+}
+
+/// A static model whose camera saves what it sees.
+void write_camera(pugi::xml_node world, const GazeboCamera& camera) {
+    auto model = add_parts(world, kGazeboParts, "camera");
+    set(model, "name", camera.name);
+    // Gazebo's angle is the horizontal one.
+    const double tangent = std::tan(0.5 * radians(camera.view.fovy_deg));
+    fill(model, "pose", looking(camera.view), "link/sensor/update_rate", camera.rate_Hz);
+    fill(model.first_element_by_path("link/sensor/camera"), "horizontal_fov",
+         2.0 * std::atan(tangent * camera.width_px / camera.height_px), "image/width",
+         camera.width_px, "image/height", camera.height_px, "save/path", camera.folder);
+}
+
 void write_placed(pugi::xml_node world, const vehicle::Airframe& airframe,
                   const PlacedVehicle& vehicle, const std::optional<GazeboSensors>& sensors) {
     auto model = add(world, "model", "name", vehicle.name);
@@ -140,7 +150,7 @@ void write_placed(pugi::xml_node world, const vehicle::Airframe& airframe,
     }
     sdf::write_vehicle(model, airframe);
     if (sensors && !vehicle.is_static) {
-        sdf::write_sensors(model, airframe, *sensors);
+        write_sensors(model, airframe, *sensors);
     }
     if (vehicle.plugin) {
         write_plugin(model, *vehicle.plugin);
@@ -178,10 +188,7 @@ std::vector<WorldFile> write_wall_looks(const GazeboWorld& world) {
 std::string write_world(const vehicle::Airframe& airframe, const GazeboWorld& world) {
     pugi::xml_document document;
     auto node = add(add(document, "sdf", "version", "1.6"), "world", "name", world.name);
-    write_physics(node, world.step_s);
-    write_colours(node);
-    write_lights(node, world.walls.empty() ? WallScene{} : world.walls.front().face);
-    write_ground(node, world.ground_z_W_m);
+    write_surroundings(node, world);
     for (const PlacedWall& wall : world.walls) {
         write_wall(node, world, wall);
     }
@@ -189,10 +196,10 @@ std::string write_world(const vehicle::Airframe& airframe, const GazeboWorld& wo
         write_placed(node, airframe, vehicle, world.sensors);
     }
     if (world.camera) {
-        sdf::write_camera(node, *world.camera);
+        write_camera(node, *world.camera);
     }
     auto user = add(add(node, "gui"), "camera", "name", "user_camera");
-    add_text(user, "pose", sdf::looking(world.user_view));
+    add_text(user, "pose", looking(world.user_view));
     return to_string(document);
 }
 

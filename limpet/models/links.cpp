@@ -16,6 +16,20 @@ vehicle::BodyInertia share_of(vehicle::BodyInertia body, double share) {
     return body;
 }
 
+/// +x is forward: extends. The rest beyond the outer stop is the pre-load.
+Joint slider_joint(const vehicle::Airframe& airframe) {
+    const vehicle::SliderParameters& slider = airframe.slider;
+    return {.name = "slider",
+            .kind = Joint::Kind::prismatic,
+            .axis = Vector3::UnitX(),
+            .lower = -slider.travel_m,
+            .upper = 0.0,
+            .stiffness = slider.stiffness_N_m,
+            .damping = slider.damping_N_s_m,
+            .rest = slider.preload_N / slider.stiffness_N_m};
+}
+
+/// Positive as the vehicle's angles are: pitch up, yaw right.
 Joint cup_hinge(const vehicle::CupMountParameters& mount, std::string_view name,
                 const Vector3& axis) {
     const double range_rad = radians(mount.range_deg);
@@ -29,26 +43,6 @@ Joint cup_hinge(const vehicle::CupMountParameters& mount, std::string_view name,
 }
 
 }  // namespace
-
-Joint slider_joint(const vehicle::Airframe& airframe) {
-    const vehicle::SliderParameters& slider = airframe.slider;
-    return {.name = "slider",
-            .kind = Joint::Kind::prismatic,
-            .axis = Vector3::UnitX(),
-            .lower = -slider.travel_m,
-            .upper = 0.0,
-            .stiffness = slider.stiffness_N_m,
-            .damping = slider.damping_N_s_m,
-            .rest = slider.preload_N / slider.stiffness_N_m};
-}
-
-Joint cup_pitch_joint(const vehicle::Airframe& airframe) {
-    return cup_hinge(airframe.cup, "cup_pitch", Vector3::UnitY());
-}
-
-Joint cup_yaw_joint(const vehicle::Airframe& airframe) {
-    return cup_hinge(airframe.cup, "cup_yaw", Vector3::UnitZ());
-}
 
 std::vector<Link> make_links(const vehicle::Airframe& airframe) {
     std::vector<Link> links = {{.name = "base",
@@ -70,17 +64,17 @@ std::vector<Link> make_links(const vehicle::Airframe& airframe) {
                      .p_BF_m = joint_B_m,
                      .inertia = share_of(cup, kYokeShare),
                      .parent = "carriage",
-                     .joint = cup_pitch_joint(airframe)});
+                     .joint = cup_hinge(airframe.cup, "cup_pitch", Vector3::UnitY())});
     links.push_back({.name = "cup",
                      .p_BF_m = joint_B_m,
                      .inertia = share_of(cup, 1.0 - kYokeShare),
                      .parent = "cup_yoke",
-                     .joint = cup_yaw_joint(airframe)});
+                     .joint = cup_hinge(airframe.cup, "cup_yaw", Vector3::UnitZ())});
     return links;
 }
 
 std::string called(const vehicle::Airframe& airframe, std::string_view part) {
-    return airframe.cad && !part.empty() ? airframe.cad->names.of(part) : std::string(part);
+    return called(airframe.cad ? airframe.cad->names : CadNames{}, part);
 }
 
 }  // namespace limpet::models

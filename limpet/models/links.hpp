@@ -26,12 +26,6 @@ struct Joint {
     double rest = 0.0;       ///< where the spring is slack: force = stiffness (rest - q)
 };
 
-/// +x is forward: extends. The rest beyond the outer stop is the pre-load.
-[[nodiscard]] Joint slider_joint(const vehicle::Airframe& airframe);
-/// Positive as the vehicle's angles are: pitch up, yaw right.
-[[nodiscard]] Joint cup_pitch_joint(const vehicle::Airframe& airframe);
-[[nodiscard]] Joint cup_yaw_joint(const vehicle::Airframe& airframe);
-
 /// A rigid body of a format that allows one degree of freedom a joint.
 struct Link {
     std::string_view name;

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
 
 #include "limpet/core/frames.hpp"
 
@@ -30,8 +32,14 @@ template <class... Numbers>
     ((out += fmt::format(" {:.15g}", static_cast<double>(rest) + 0.0)), ...);
     return out;
 }
+[[nodiscard]] inline std::string text(std::string_view words) {
+    return std::string(words);
+}
 [[nodiscard]] inline std::string text(const Vector3& v) {
     return text(v.x(), v.y(), v.z());
+}
+[[nodiscard]] inline std::string text(const std::array<double, 4>& rgba) {
+    return text(rgba[0], rgba[1], rgba[2], rgba[3]);
 }
 /// MuJoCo's order: w x y z.
 [[nodiscard]] inline std::string text(const Quaternion& q) {
@@ -41,16 +49,20 @@ template <class... Numbers>
 /// a rod along x has its pitch.
 [[nodiscard]] std::string text_rpy(const Quaternion& q);
 
-/// Appends <name key="value" .../>.
-template <class... Rest>
-void set(pugi::xml_node node, const char* key, const std::string& value, Rest... rest) {
-    node.append_attribute(key) = value.c_str();
+// Names and values by turns; a value is whatever text() takes.
+
+/// Appends attributes, or sets those that are there.
+template <class Value, class... Rest>
+void set(pugi::xml_node node, const char* key, const Value& value, const Rest&... rest) {
+    auto attribute = node.attribute(key);
+    (attribute ? attribute : node.append_attribute(key)) = text(value).c_str();
     if constexpr (sizeof...(rest) > 0) {
         set(node, rest...);
     }
 }
+/// Appends <name key="value" .../>.
 template <class... Attributes>
-pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes... attributes) {
+pugi::xml_node add(pugi::xml_node parent, const char* name, const Attributes&... attributes) {
     pugi::xml_node node = parent.append_child(name);
     if constexpr (sizeof...(attributes) > 0) {
         set(node, attributes...);
@@ -58,9 +70,28 @@ pugi::xml_node add(pugi::xml_node parent, const char* name, Attributes... attrib
     return node;
 }
 /// Appends <name>value</name>.
-inline void add_text(pugi::xml_node parent, const char* name, const std::string& value) {
-    parent.append_child(name).text().set(value.c_str());
+template <class Value, class... Rest>
+void add_text(pugi::xml_node parent, const char* name, const Value& value, const Rest&... rest) {
+    parent.append_child(name).text().set(text(value).c_str());
+    if constexpr (sizeof...(rest) > 0) {
+        add_text(parent, rest...);
+    }
 }
+/// Writes into the elements that are there, by their paths: "link/pose".
+template <class Value, class... Rest>
+void fill(pugi::xml_node parent, const char* path, const Value& value, const Rest&... rest) {
+    parent.first_element_by_path(path).text().set(text(value).c_str());
+    if constexpr (sizeof...(rest) > 0) {
+        fill(parent, rest...);
+    }
+}
+
+/// gazebo_parts.xml and mjcf_parts.xml: what stands in every model.
+extern const char* const kGazeboParts;
+extern const char* const kMjcfParts;
+/// Appends all that one of them has under a name.
+/// @return the first of it
+pugi::xml_node add_parts(pugi::xml_node parent, const char* parts, const char* name);
 
 [[nodiscard]] std::string to_string(const pugi::xml_document& document);
 

@@ -3,6 +3,7 @@
 
 #include "limpet/models/links.hpp"
 #include "limpet/models/model_text.hpp"
+#include "limpet/models/model_writer.hpp"
 
 namespace limpet::models::sdf {
 
@@ -17,16 +18,11 @@ constexpr double kFootDamping_N_s_m = 800.0;
 
 void write_inertial(pugi::xml_node link, const Link& spec) {
     auto inertial = add(link, "inertial");
-    add_text(inertial, "pose", pose(spec.inertia.centre_B_m - spec.p_BF_m));
-    add_text(inertial, "mass", text(spec.inertia.mass_kg));
-    auto inertia = add(inertial, "inertia");
+    add_text(inertial, "pose", pose(spec.inertia.centre_B_m - spec.p_BF_m), "mass",
+             spec.inertia.mass_kg);
     const Matrix3 own = flu(spec.inertia.inertia_kg_m2);
-    add_text(inertia, "ixx", text(own(0, 0)));
-    add_text(inertia, "iyy", text(own(1, 1)));
-    add_text(inertia, "izz", text(own(2, 2)));
-    add_text(inertia, "ixy", text(own(0, 1)));
-    add_text(inertia, "ixz", text(own(0, 2)));
-    add_text(inertia, "iyz", text(own(1, 2)));
+    add_text(add(inertial, "inertia"), "ixx", own(0, 0), "iyy", own(1, 1), "izz", own(2, 2), "ixy",
+             own(0, 1), "ixz", own(0, 2), "iyz", own(1, 2));
 }
 
 void write_visual(pugi::xml_node link, const Part& part) {
@@ -38,7 +34,7 @@ void write_visual(pugi::xml_node link, const Part& part) {
     const auto& rgba = colour(part);
     write_colour(visual, rgba, look(part.paint).specular);
     if (rgba[3] < 1.0) {
-        add_text(visual, "transparency", text(1.0 - rgba[3]));
+        add_text(visual, "transparency", 1.0 - rgba[3]);
     }
 }
 
@@ -55,17 +51,12 @@ void write_joint(pugi::xml_node model, const vehicle::Airframe& airframe, const 
     const Joint& spec = *link.joint;
     auto joint = add(model, "joint", "name", called(airframe, spec.name), "type",
                      spec.kind == Joint::Kind::prismatic ? "prismatic" : "revolute");
-    add_text(joint, "parent", called(airframe, link.parent));
-    add_text(joint, "child", called(airframe, link.name));
+    add_text(joint, "parent", called(airframe, link.parent), "child", called(airframe, link.name));
     auto axis = add(joint, "axis");
-    add_text(axis, "xyz", text(flu(spec.axis)));
-    auto limit = add(axis, "limit");
-    add_text(limit, "lower", text(spec.lower));
-    add_text(limit, "upper", text(spec.upper));
-    auto dynamics = add(axis, "dynamics");
-    add_text(dynamics, "damping", text(spec.damping));
-    add_text(dynamics, "spring_reference", text(spec.rest));
-    add_text(dynamics, "spring_stiffness", text(spec.stiffness));
+    add_text(axis, "xyz", flu(spec.axis));
+    add_text(add(axis, "limit"), "lower", spec.lower, "upper", spec.upper);
+    add_text(add(axis, "dynamics"), "damping", spec.damping, "spring_reference", spec.rest,
+             "spring_stiffness", spec.stiffness);
     if (spec.kind == Joint::Kind::revolute) {
         // The cup is light: taken explicitly, lip and hinge dampers together shake it off at 1 ms.
         auto ode = add(add(joint, "physics"), "ode");
@@ -85,45 +76,33 @@ std::string pose_up(const Vector3& p_m, const Quaternion& q) {
 
 void write_colour(pugi::xml_node visual, const std::array<double, 4>& rgba, double specular) {
     auto material = add(visual, "material");
-    add_text(material, "ambient", text(rgba[0], rgba[1], rgba[2], rgba[3]));
-    add_text(material, "diffuse", text(rgba[0], rgba[1], rgba[2], rgba[3]));
-    add_text(material, "specular", text(specular, specular, specular, 1.0));
+    add_text(material, "ambient", rgba, "diffuse", rgba, "specular",
+             text(specular, specular, specular, 1.0));
 }
 
 void write_geometry(pugi::xml_node parent, const Part& part) {
     add_text(parent, "pose", pose(part.p_F_m, part.q_F));
     auto geometry = add(parent, "geometry");
     switch (part.shape) {
-        case Shape::box: add_text(add(geometry, "box"), "size", text(part.size_m)); break;
-        case Shape::cylinder: {
-            auto cylinder = add(geometry, "cylinder");
-            add_text(cylinder, "radius", text(part.size_m.x()));
-            add_text(cylinder, "length", text(part.size_m.z()));
+        case Shape::box: add_text(add(geometry, "box"), "size", part.size_m); break;
+        case Shape::cylinder:
+            add_text(add(geometry, "cylinder"), "radius", part.size_m.x(), "length",
+                     part.size_m.z());
             break;
-        }
-        case Shape::sphere:
-            add_text(add(geometry, "sphere"), "radius", text(part.size_m.x()));
+        case Shape::sphere: add_text(add(geometry, "sphere"), "radius", part.size_m.x()); break;
+        case Shape::mesh:
+            add_text(add(geometry, "mesh"), "uri", "file://" + part.mesh_file, "scale",
+                     part.size_m);
             break;
-        case Shape::mesh: {
-            auto mesh = add(geometry, "mesh");
-            add_text(mesh, "uri", "file://" + part.mesh_file);
-            add_text(mesh, "scale", text(part.size_m));
-            break;
-        }
     }
 }
 
 void write_surface(pugi::xml_node collision, const ContactSurface& surface) {
     auto node = add(collision, "surface");
-    auto friction = add(add(node, "friction"), "ode");
-    add_text(friction, "mu", text(surface.friction));
-    add_text(friction, "mu2", text(surface.friction));
-    auto contact = add(add(node, "contact"), "ode");
-    add_text(contact, "kp", text(surface.stiffness_N_m));
-    add_text(contact, "kd", text(surface.damping_N_s_m));
+    add_text(add(add(node, "friction"), "ode"), "mu", surface.friction, "mu2", surface.friction);
     // Fast enough that the spring is never cut short, and from the first touch on.
-    add_text(contact, "max_vel", "1");
-    add_text(contact, "min_depth", "0");
+    add_text(add(add(node, "contact"), "ode"), "kp", surface.stiffness_N_m, "kd",
+             surface.damping_N_s_m, "max_vel", "1", "min_depth", "0");
 }
 
 void write_vehicle(pugi::xml_node model, const vehicle::Airframe& airframe) {
@@ -151,3 +130,14 @@ void write_vehicle(pugi::xml_node model, const vehicle::Airframe& airframe) {
 }
 
 }  // namespace limpet::models::sdf
+
+namespace limpet::models {
+
+std::string write_sdf(const vehicle::Airframe& airframe) {
+    pugi::xml_document document;
+    auto root = model_text::add(document, "sdf", "version", "1.6");
+    sdf::write_vehicle(model_text::add(root, "model", "name", airframe.name), airframe);
+    return model_text::to_string(document);
+}
+
+}  // namespace limpet::models

@@ -83,13 +83,16 @@ private:
         }
         return values;
     }
-    [[nodiscard]] Vector3 vector(pugi::xml_node node, const char* key,
-                                 const Vector3& otherwise) const {
-        if (!node.attribute(key)) {
-            return otherwise;
-        }
+    [[nodiscard]] double number(pugi::xml_node node, const char* key) const {
+        return numbers(node, key, 1)[0];
+    }
+    [[nodiscard]] Vector3 vector(pugi::xml_node node, const char* key) const {
         const auto v = numbers(node, key, 3);
         return {v[0], v[1], v[2]};
+    }
+    [[nodiscard]] Vector3 vector(pugi::xml_node node, const char* key,
+                                 const Vector3& otherwise) const {
+        return node.attribute(key) ? vector(node, key) : otherwise;
     }
     void read_origin(pugi::xml_node parent, Vector3& p_m, Quaternion& q) const {
         const auto origin = parent.child("origin");
@@ -122,9 +125,9 @@ private:
     void read_inertial(pugi::xml_node inertial, UrdfLink& link) const {
         Quaternion q;
         read_origin(inertial, link.centre_m, q);
-        link.mass_kg = numbers(inertial.child("mass"), "value", 1)[0];
+        link.mass_kg = number(inertial.child("mass"), "value");
         const auto node = inertial.child("inertia");
-        const auto at = [&](const char* key) { return numbers(node, key, 1)[0]; };
+        const auto at = [&](const char* key) { return number(node, key); };
         Matrix3 own;
         own << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"),
             at("iyz"), at("izz");
@@ -170,27 +173,24 @@ private:
         return path.lexically_normal();
     }
 
-    [[nodiscard]] UrdfShape read_shape(pugi::xml_node visual) const {
-        UrdfShape shape;
-        read_origin(visual, shape.p_m, shape.q);
+    [[nodiscard]] Part read_shape(pugi::xml_node visual) const {
+        Part shape;
+        read_origin(visual, shape.p_F_m, shape.q_F);
         const auto geometry = visual.child("geometry");
-        const auto one = [&](pugi::xml_node node, const char* key) {
-            return numbers(node, key, 1)[0];
-        };
         if (const auto mesh = geometry.child("mesh")) {
-            shape.mesh = mesh_path(mesh);
-            shape.size = vector(mesh, "scale", Vector3::Ones());
+            shape.shape = Shape::mesh;
+            shape.mesh_file = mesh_path(mesh).string();
+            shape.size_m = vector(mesh, "scale", Vector3::Ones());
         } else if (const auto box = geometry.child("box")) {
-            const auto v = numbers(box, "size", 3);
-            shape.kind = UrdfShape::Kind::box;
-            shape.size = {v[0], v[1], v[2]};
+            shape.shape = Shape::box;
+            shape.size_m = vector(box, "size");
         } else if (const auto cylinder = geometry.child("cylinder")) {
-            shape.kind = UrdfShape::Kind::cylinder;
-            const double radius_m = one(cylinder, "radius");
-            shape.size = {radius_m, radius_m, one(cylinder, "length")};
+            shape.shape = Shape::cylinder;
+            const double radius_m = number(cylinder, "radius");
+            shape.size_m = {radius_m, radius_m, number(cylinder, "length")};
         } else if (const auto sphere = geometry.child("sphere")) {
-            shape.kind = UrdfShape::Kind::sphere;
-            shape.size = Vector3::Constant(one(sphere, "radius"));
+            shape.shape = Shape::sphere;
+            shape.size_m = Vector3::Constant(number(sphere, "radius"));
         } else {
             fail(visual, "a visual without a mesh, box, cylinder or sphere");
         }
@@ -252,22 +252,7 @@ private:
     UrdfRobot robot_;
 };
 
-template <class Named>
-const Named* named(const std::vector<Named>& all, const std::string& wanted) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == wanted; });
-    return found == all.end() ? nullptr : &*found;
-}
-
 }  // namespace
-
-const UrdfLink* UrdfRobot::link(const std::string& wanted) const {
-    return named(links, wanted);
-}
-
-const UrdfJoint* UrdfRobot::joint(const std::string& wanted) const {
-    return named(joints, wanted);
-}
 
 UrdfRobot read_urdf(const fs::path& file) {
     return Reader(file).read();

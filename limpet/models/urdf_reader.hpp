@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/models/drawing.hpp"
 
 /// A URDF as a CAD program's exporter writes it (sw_urdf_exporter and the like). Axes are the
 /// file's own: x forward, y left, z up.
 namespace limpet::models {
-
-struct UrdfShape {
-    enum class Kind {
-        box,       ///< size: edge lengths
-        cylinder,  ///< size: radius, radius, length along z
-        sphere,    ///< size: radius three times
-        mesh,      ///< size: scale
-    };
-    Kind kind = Kind::mesh;
-    Vector3 p_m = Vector3::Zero();  ///< in the link's frame
-    Quaternion q = Quaternion::Identity();
-    Vector3 size = Vector3::Ones();
-    std::filesystem::path mesh;  ///< absolute
-    std::optional<std::array<double, 4>> rgba;
-};
 
 struct UrdfLink {
     std::string name;
@@ -34,7 +20,7 @@ struct UrdfLink {
     double mass_kg = 0.0;
     Vector3 centre_m = Vector3::Zero();
     Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the centre, axes of the link
-    std::vector<UrdfShape> visuals;
+    std::vector<Part> visuals;                ///< in the link's frame, without names
 };
 
 struct UrdfJoint {
@@ -54,8 +40,13 @@ struct UrdfRobot {
     std::vector<UrdfLink> links;
     std::vector<UrdfJoint> joints;
 
-    [[nodiscard]] const UrdfLink* link(const std::string& wanted) const;
-    [[nodiscard]] const UrdfJoint* joint(const std::string& wanted) const;
+    /// @return nullptr if there is none
+    [[nodiscard]] const UrdfLink* link(std::string_view wanted) const {
+        return find_by(links, &UrdfLink::name, wanted);
+    }
+    [[nodiscard]] const UrdfJoint* joint(std::string_view wanted) const {
+        return find_by(joints, &UrdfJoint::name, wanted);
+    }
 };
 
 /// Reads links, joints and visuals. `package://NAME/...` is looked up in the folder NAME that the

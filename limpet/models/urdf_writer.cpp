@@ -12,31 +12,29 @@ using namespace model_text;
 
 void write_origin(pugi::xml_node parent, const Vector3& p_m,
                   const Quaternion& q = Quaternion::Identity()) {
-    add(parent, "origin", "xyz", text(flu(p_m)), "rpy", text_rpy(flu(q)));
+    add(parent, "origin", "xyz", flu(p_m), "rpy", text_rpy(flu(q)));
 }
 
 void write_inertial(pugi::xml_node link, const Link& spec) {
     auto inertial = add(link, "inertial");
     write_origin(inertial, spec.inertia.centre_B_m - spec.p_BF_m);
-    add(inertial, "mass", "value", text(spec.inertia.mass_kg));
+    add(inertial, "mass", "value", spec.inertia.mass_kg);
     const Matrix3 own = flu(spec.inertia.inertia_kg_m2);
-    add(inertial, "inertia", "ixx", text(own(0, 0)), "iyy", text(own(1, 1)), "izz", text(own(2, 2)),
-        "ixy", text(own(0, 1)), "ixz", text(own(0, 2)), "iyz", text(own(1, 2)));
+    add(inertial, "inertia", "ixx", own(0, 0), "iyy", own(1, 1), "izz", own(2, 2), "ixy", own(0, 1),
+        "ixz", own(0, 2), "iyz", own(1, 2));
 }
 
 void write_geometry(pugi::xml_node parent, const Part& part) {
     write_origin(parent, part.p_F_m, part.q_F);
     auto geometry = add(parent, "geometry");
     switch (part.shape) {
-        case Shape::box: add(geometry, "box", "size", text(part.size_m)); break;
+        case Shape::box: add(geometry, "box", "size", part.size_m); break;
         case Shape::cylinder:
-            add(geometry, "cylinder", "radius", text(part.size_m.x()), "length",
-                text(part.size_m.z()));
+            add(geometry, "cylinder", "radius", part.size_m.x(), "length", part.size_m.z());
             break;
-        case Shape::sphere: add(geometry, "sphere", "radius", text(part.size_m.x())); break;
+        case Shape::sphere: add(geometry, "sphere", "radius", part.size_m.x()); break;
         case Shape::mesh:
-            add(geometry, "mesh", "filename", "file://" + part.mesh_file, "scale",
-                text(part.size_m));
+            add(geometry, "mesh", "filename", "file://" + part.mesh_file, "scale", part.size_m);
             break;
     }
 }
@@ -45,11 +43,9 @@ void write_visual(pugi::xml_node link, const Part& part) {
     auto visual = add(link, "visual", "name", part.name);
     write_geometry(visual, part);
     if (part.rgba) {
-        const auto& c = *part.rgba;
-        add(add(visual, "material", "name", part.name), "color", "rgba",
-            text(c[0], c[1], c[2], c[3]));
+        add(add(visual, "material", "name", part.name), "color", "rgba", *part.rgba);
     } else {
-        add(visual, "material", "name", std::string(look(part.paint).name));
+        add(visual, "material", "name", look(part.paint).name);
     }
 }
 
@@ -63,10 +59,10 @@ void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const 
     add(joint, "parent", "link", called(airframe, link.parent));
     add(joint, "child", "link", called(airframe, link.name));
     write_origin(joint, link.p_BF_m - p_parent_B_m);
-    add(joint, "axis", "xyz", text(flu(spec.axis)));
-    add(joint, "limit", "lower", text(spec.lower), "upper", text(spec.upper), "effort",
-        text(kUnlimited), "velocity", text(kUnlimited));
-    add(joint, "dynamics", "damping", text(spec.damping), "friction", "0");
+    add(joint, "axis", "xyz", flu(spec.axis));
+    add(joint, "limit", "lower", spec.lower, "upper", spec.upper, "effort", kUnlimited, "velocity",
+        kUnlimited);
+    add(joint, "dynamics", "damping", spec.damping, "friction", "0");
 }
 
 }  // namespace
@@ -74,10 +70,8 @@ void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const 
 std::string write_urdf(const vehicle::Airframe& airframe) {
     pugi::xml_document document;
     auto robot = add(document, "robot", "name", airframe.name);
-    for (const Paint paint : kPaints) {
-        const auto& c = look(paint).rgba;
-        auto material = add(robot, "material", "name", std::string(look(paint).name));
-        add(material, "color", "rgba", text(c[0], c[1], c[2], c[3]));
+    for (const PaintLook& paint : paint_looks()) {
+        add(add(robot, "material", "name", paint.name), "color", "rgba", paint.rgba);
     }
     const auto parts = draw(airframe);
     Vector3 p_parent_B_m = Vector3::Zero();

@@ -20,11 +20,6 @@ namespace fs = std::filesystem;
 constexpr double kSameShare = 0.01;  // of masses and inertias
 constexpr double kSameLength_m = 1e-3;
 
-struct NamedPart {
-    std::string_view key;
-    std::string* name;
-};
-
 template <class All>
 std::string names_of(const All& all) {
     std::string names;
@@ -38,28 +33,23 @@ std::string names_of(const All& all) {
 /// @param all  its links or its joints
 template <class All>
 void read_names(const YamlNode& model, const char* section, const char* kind,
-                const std::vector<NamedPart>& parts, const models::UrdfRobot& robot,
-                const All& all) {
+                const std::vector<std::string_view>& parts, const models::UrdfRobot& robot,
+                const All& all, models::CadNames& names) {
     const YamlNode* node = model.find(section);
     if (is_section(node)) {
-        std::vector<std::string_view> keys;
-        for (const NamedPart& part : parts) {
-            keys.push_back(part.key);
-        }
-        check_keys(*node, keys);
+        check_keys(*node, parts);
     }
-    for (const NamedPart& part : parts) {
-        const YamlNode* given = is_section(node) ? node->find(part.key) : nullptr;
-        if (given != nullptr) {
-            *part.name = read_text(*given);
-        }
-        const bool there = std::any_of(all.begin(), all.end(),
-                                       [&](const auto& one) { return one.name == *part.name; });
+    for (const std::string_view part : parts) {
+        const YamlNode* given = is_section(node) ? node->find(part) : nullptr;
+        const std::string name = given != nullptr ? read_text(*given) : std::string(part);
+        const bool there =
+            std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
         if (!there) {
             fail(given != nullptr ? *given : model,
                  fmt::format("{}: there is no {} \"{}\" for the {}, there are: {}", robot.file,
-                             kind, shown(*part.name), part.key, names_of(all)));
+                             kind, shown(name), part, names_of(all)));
         }
+        names.emplace(part, name);
     }
 }
 
@@ -79,19 +69,14 @@ std::shared_ptr<const models::CadModel> load_model(const YamlNode& model, const 
     }
     models::UrdfRobot robot = models::read_urdf(shown_path(file));
     models::CadNames names;
-    std::vector<NamedPart> links = {{"base", &names.base}};
+    std::vector<std::string_view> links = {"base"};
     if (has_cup) {
-        links.insert(
-            links.end(),
-            {{"carriage", &names.carriage}, {"cup_yoke", &names.cup_yoke}, {"cup", &names.cup}});
+        links.insert(links.end(), {"carriage", "cup_yoke", "cup"});
     }
-    read_names(model, "links", "link", links, robot, robot.links);
+    read_names(model, "links", "link", links, robot, robot.links, names);
     if (has_cup) {
-        read_names(model, "joints", "joint",
-                   {{"slider", &names.slider},
-                    {"cup_pitch", &names.cup_pitch},
-                    {"cup_yaw", &names.cup_yaw}},
-                   robot, robot.joints);
+        read_names(model, "joints", "joint", {"slider", "cup_pitch", "cup_yaw"}, robot,
+                   robot.joints, names);
     } else if (model.find("joints") != nullptr) {
         fail(*model.find("joints"), "has_cup is false: no joint is needed");
     }

@@ -49,7 +49,7 @@ void write_model(Writer& writer, const models::CadModel& cad, bool has_cup) {
     const auto names = [&](const char* key, std::initializer_list<std::string_view> parts) {
         writer.line(2, fmt::format("{}:", key));
         for (const std::string_view part : parts) {
-            writer.value(3, part, in_quotes(cad.names.of(part)));
+            writer.value(3, part, in_quotes(models::called(cad.names, part)));
         }
     };
     writer.line(1, "model:");

@@ -6,7 +6,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "limpet/models/finish_texture.hpp"
+#include "limpet/models/finish.hpp"
 
 namespace limpet::models {
 namespace {
