@@ -8,14 +8,27 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/engines.hpp"
-#include "limpet/plant/mujoco_errors.hpp"
 
 namespace limpet::plant {
 
 namespace {
 
+/// Makes MuJoCo throw InternalError where it would print, write MUJOCO_LOG.TXT and end the process.
+/// Its warnings stay silent: they are counted in mjData::warning, which the plant reads after every
+/// step. Process-wide, as MuJoCo's hooks are; safe to call from any thread, any number of times.
+void guard_mujoco() {
+    [[maybe_unused]] static const bool installed = [] {
+        mju_user_error = [](const char* message) {
+            throw InternalError(std::string("MuJoCo: ") + message);
+        };
+        mju_user_warning = [](const char*) {};
+        return true;
+    }();
+}
+
 /// MuJoCo reads files only; its virtual file system holds one in memory.
 mjModel* compile(const std::string& mjcf) {
+    guard_mujoco();
     constexpr const char* kName = "model.xml";
     if (mjcf.empty()) {
         throw InputError("MJCF: the model is empty");
@@ -54,9 +67,7 @@ int find_joint(const mjModel& model, int body, mjtJoint type, const char* what) 
 
 }  // namespace
 
-MujocoModel::MujocoModel(const std::string& mjcf) {
-    guard_mujoco();
-    model_.reset(compile(mjcf));
+MujocoModel::MujocoModel(const std::string& mjcf) : model_(compile(mjcf), mj_deleteModel) {
     mjModel& model = *model_;
     Places& at = places_;
     at.base_body = find(model, mjOBJ_BODY, "body", "base");
@@ -85,11 +96,5 @@ const Engine kMujocoEngine = {
         bare.visuals = false;
         return std::make_shared<const MujocoModel>(write_mjcf(airframe, bare));
     }};
-
-MujocoModel::~MujocoModel() = default;
-
-void MujocoModel::Delete::operator()(mjModel_* model) const {
-    mj_deleteModel(model);
-}
 
 }  // namespace limpet::plant

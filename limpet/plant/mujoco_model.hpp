@@ -34,9 +34,6 @@ public:
     /// @param mjcf  text, without references to files
     /// @throws InputError with MuJoCo's message when the text does not compile or a part is missing
     explicit MujocoModel(const std::string& mjcf);
-    ~MujocoModel() override;
-    MujocoModel(const MujocoModel&) = delete;
-    MujocoModel& operator=(const MujocoModel&) = delete;
 
     /// @throws std::bad_weak_ptr unless a shared_ptr owns the model
     [[nodiscard]] std::unique_ptr<Plant> make() const override;
@@ -45,11 +42,7 @@ public:
     [[nodiscard]] const Places& places() const { return places_; }
 
 private:
-    struct Delete {
-        void operator()(mjModel_* model) const;
-    };
-
-    std::unique_ptr<mjModel_, Delete> model_;
+    std::unique_ptr<mjModel_, void (*)(mjModel_*)> model_;
     Places places_;
 };
 

@@ -42,7 +42,7 @@ std::shared_ptr<const MujocoModel> own_model(const std::shared_ptr<const PlantMo
 MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
     : model_(std::move(model)),
       options_(std::make_unique<mjModel>(model_->get())),
-      data_(mj_makeData(options_.get())),
+      data_(mj_makeData(options_.get()), mj_deleteData),
       integrated_(data_->qpos, data_->qpos + options_->nq) {
     refresh();
 }
@@ -54,10 +54,6 @@ MujocoPlant::~MujocoPlant() = default;
 
 std::unique_ptr<Plant> MujocoModel::make() const {
     return std::make_unique<MujocoPlant>(shared_from_this());
-}
-
-void MujocoPlant::Delete::operator()(mjData_* data) const {
-    mj_deleteData(data);
 }
 
 int MujocoPlant::engine_body(Body body) const {

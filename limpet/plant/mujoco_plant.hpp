@@ -58,10 +58,6 @@ public:
     void displacement_from(const PlantState& origin, std::span<double> step) const;
 
 private:
-    struct Delete {
-        void operator()(mjData_* data) const;
-    };
-
     [[nodiscard]] int engine_body(Body body) const;
     void take_positions();
     void refresh();
@@ -70,7 +66,7 @@ private:
 
     std::shared_ptr<const MujocoModel> model_;
     std::unique_ptr<mjModel_> options_;  ///< shallow: never given to mj_deleteModel
-    std::unique_ptr<mjData_, Delete> data_;
+    std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
     std::vector<double> integrated_;  ///< qpos as the last step left it
     Vector3 contact_force_W_N_ = Vector3::Zero();
 };

@@ -25,6 +25,19 @@ double pull_demand_N(const LipParameters& lip, const LipMotion& motion, bool sea
     return sealed ? -push_N : std::min(0.0, -push_N);
 }
 
+/// Two components along the wall, shortened where together they ask for more than a limit.
+struct Limited {
+    double y, z;
+    double demand = std::hypot(y, z);
+
+    Limited(double limit, double y_asked, double z_asked) : y(y_asked), z(z_asked) {
+        if (limit - demand < 0.0) {
+            y *= limit / demand;
+            z *= limit / demand;
+        }
+    }
+};
+
 /// Beyond which limit a sealed lip is loaded; the gravest first.
 LetGo let_go_of(const LipLoad& load, bool twisted_open) {
     if (load.pull_margin_N < 0.0) {
@@ -117,37 +130,26 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
     const double lip_N = std::max(0.0, vacuum_N - load.pull_N);
 
     const double shear_limit_N = friction * lip_N;
-    double shear_y_N = -lip.shear_stiffness_N_m * (motion.y_m - anchor.y_m) -
-                       lip.shear_damping_N_s_m * motion.y_rate_m_s;
-    double shear_z_N = -lip.shear_stiffness_N_m * (motion.z_m - anchor.z_m) -
-                       lip.shear_damping_N_s_m * motion.z_rate_m_s;
-    const double shear_demand_N = std::hypot(shear_y_N, shear_z_N);
-    load.shear_margin_N = shear_limit_N - shear_demand_N;
-    if (load.shear_margin_N < 0.0) {
-        const double scale = shear_limit_N / shear_demand_N;
-        shear_y_N *= scale;
-        shear_z_N *= scale;
-        if (!sealed) {  // slides: the anchor follows so that the spring alone holds the limit
-            anchor.y_m = motion.y_m + shear_y_N / lip.shear_stiffness_N_m;
-            anchor.z_m = motion.z_m + shear_z_N / lip.shear_stiffness_N_m;
-        }
+    const auto shear_N = [&](double stretch_m, double rate_m_s) {
+        return -lip.shear_stiffness_N_m * stretch_m - lip.shear_damping_N_s_m * rate_m_s;
+    };
+    const Limited shear(shear_limit_N, shear_N(motion.y_m - anchor.y_m, motion.y_rate_m_s),
+                        shear_N(motion.z_m - anchor.z_m, motion.z_rate_m_s));
+    load.shear_N = std::hypot(shear.y, shear.z);
+    load.shear_margin_N = shear_limit_N - shear.demand;
+    if (!sealed && load.shear_margin_N < 0.0) {
+        // slides: the anchor follows so that the spring alone holds the limit
+        anchor.y_m = motion.y_m + shear.y / lip.shear_stiffness_N_m;
+        anchor.z_m = motion.z_m + shear.z / lip.shear_stiffness_N_m;
     }
-    load.shear_N = std::hypot(shear_y_N, shear_z_N);
 
     const double lever_m = 0.5 * lip.radius_m;
     const double peel_limit_N_m = lip_N * lever_m;
-    double tilt_y_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad.y() -
-                        lip.tilt_damping_N_m_s_rad * motion.rate_rad_s.y();
-    double tilt_z_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad.z() -
-                        lip.tilt_damping_N_m_s_rad * motion.rate_rad_s.z();
-    const double peel_demand_N_m = std::hypot(tilt_y_N_m, tilt_z_N_m);
-    load.peel_margin_N = (peel_limit_N_m - peel_demand_N_m) / lever_m;
-    if (load.peel_margin_N < 0.0) {
-        const double scale = peel_limit_N_m / peel_demand_N_m;
-        tilt_y_N_m *= scale;
-        tilt_z_N_m *= scale;
-    }
-    load.peel_N_m = std::hypot(tilt_y_N_m, tilt_z_N_m);
+    const Vector3 upright_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad -
+                                lip.tilt_damping_N_m_s_rad * motion.rate_rad_s;
+    const Limited tilt(peel_limit_N_m, upright_N_m.y(), upright_N_m.z());
+    load.peel_N_m = std::hypot(tilt.y, tilt.z);
+    load.peel_margin_N = (peel_limit_N_m - tilt.demand) / lever_m;
 
     const double twist_limit_N_m = friction * lip_N * lip.radius_m;
     const double twist_demand_N_m =
@@ -158,8 +160,8 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
         anchor.twist_rad = motion.rotation_rad.x() + twist_N_m / lip.twist_stiffness_N_m_rad;
     }
 
-    load.wrench_T.force_N = {load.pull_N, shear_y_N, shear_z_N};
-    load.wrench_T.moment_N_m = {twist_N_m, tilt_y_N_m, tilt_z_N_m};
+    load.wrench_T.force_N = {load.pull_N, shear.y, shear.z};
+    load.wrench_T.moment_N_m = {twist_N_m, tilt.y, tilt.z};
     if (!sealed) {
         load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
     } else {

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "limpet/core/parameters.hpp"
-#include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
 namespace limpet::suction {

@@ -2,7 +2,6 @@
 #include "limpet/suction/pressure.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
@@ -38,19 +37,6 @@ double pressure_after(const Surface& surface, const FirstOrderParameters& cup, A
     }
     return first_order.target_Pa +
            (pressure_Pa - first_order.target_Pa) * std::exp(-dt_s / first_order.time_constant_s);
-}
-
-double time_to_pressure_s(const Surface& surface, const FirstOrderParameters& cup, Airflow flow,
-                          double from_Pa, double to_Pa) {
-    const Law first_order = law(surface, cup, flow);
-    const double ratio = (from_Pa - first_order.target_Pa) / (to_Pa - first_order.target_Pa);
-    if (from_Pa == to_Pa) {
-        return 0.0;
-    }
-    if (!(ratio >= 1.0) || std::isinf(ratio)) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return first_order.time_constant_s * std::log(ratio);
 }
 
 const ParameterTable<FirstOrderParameters>& FirstOrder::table() {

@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "limpet/core/parameters.hpp"
-#include "limpet/suction/sealed_air.hpp"
 #include "limpet/suction/surface.hpp"
 
 namespace limpet::suction {
@@ -34,11 +33,6 @@ struct FirstOrderParameters {
 /// Source: paper eqs. (5), (6) and Table II; the valve adds its rate to that of the leak.
 [[nodiscard]] double pressure_after(const Surface& surface, const FirstOrderParameters& cup,
                                     Airflow flow, double pressure_Pa, double dt_s);
-
-/// How long one airflow takes from one pressure to another: the inverse of pressure_after.
-/// @return [s]; infinity when the flow never gets there
-[[nodiscard]] double time_to_pressure_s(const Surface& surface, const FirstOrderParameters& cup,
-                                        Airflow flow, double from_Pa, double to_Pa);
 
 /// The paper's model: eqs. (5), (6).
 struct FirstOrder {

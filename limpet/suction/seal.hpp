@@ -19,8 +19,4 @@ struct SealDemand {
 /// @param tilt_rad  angle between the lip's plane and the wall, >= 0 [rad]
 [[nodiscard]] bool seals(const SealDemand& demand, double press_N, double tilt_rad);
 
-/// Probability that a touch with this press force and tilt seals, over the surface's randomness;
-/// the dwell that Fig. 6 also asks for is not in it.
-[[nodiscard]] double seal_probability(const Surface& surface, double press_N, double tilt_rad);
-
 }  // namespace limpet::suction

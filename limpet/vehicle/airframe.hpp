@@ -14,10 +14,6 @@ namespace limpet::models {
 struct CadModel;
 }
 
-namespace limpet::models {
-struct CadModel;
-}
-
 namespace limpet::vehicle {
 
 /// Propeller and motor, the Gazebo motor model's parameters. Source: facts.md section 1, Table I.

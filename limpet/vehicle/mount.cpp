@@ -8,22 +8,20 @@
 
 namespace limpet::vehicle {
 
+namespace {
+
+constexpr std::array<std::string_view, 3> kMounts = {"free", "pendulum", "press_rig"};
+
+}  // namespace
+
 std::string_view to_string(Mount mount) {
-    switch (mount) {
-        case Mount::free: return "free";
-        case Mount::pendulum: return "pendulum";
-        case Mount::press_rig: return "press_rig";
-    }
-    throw InternalError("mount out of range");
+    return kMounts.at(static_cast<std::size_t>(mount));
 }
 
 std::optional<Mount> mount_from(std::string_view name) {
-    for (const Mount mount : std::array{Mount::free, Mount::pendulum, Mount::press_rig}) {
-        if (to_string(mount) == name) {
-            return mount;
-        }
-    }
-    return std::nullopt;
+    const auto found = std::find(kMounts.begin(), kMounts.end(), name);
+    return found == kMounts.end() ? std::nullopt
+                                  : std::optional(static_cast<Mount>(found - kMounts.begin()));
 }
 
 const ParameterTable<PendulumParameters>& pendulum_table() {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <map>
 
+#include "../support/suction.hpp"
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/suction/seal.hpp"
 
 namespace limpet::campaign {
 namespace {

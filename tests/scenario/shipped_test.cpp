@@ -7,10 +7,9 @@
 #include <map>
 #include <string>
 
+#include "../support/suction.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/suction/pressure.hpp"
-#include "limpet/suction/seal.hpp"
 
 namespace limpet::scenario {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "limpet/core/frames.hpp"
+#include "../support/suction.hpp"
 #include "surfaces.hpp"
 
 namespace limpet::suction {

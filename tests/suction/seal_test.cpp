@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "../support/suction.hpp"
+
 namespace limpet::suction {
 namespace {
 
