@@ -40,19 +40,22 @@ scenario::Scenario scenario_of(const std::string& what) {
                    : scenario::load_scenario(what);
 }
 
-void set(const px4::WireParameters& parameters, const std::string& text) {
+void set(const std::vector<BoundParameter>& rows, const std::string& text) {
     const std::size_t at = text.find('=');
     const std::string name = text.substr(0, at);
     const std::string value = at == std::string::npos ? "" : text.substr(at + 1);
-    if (!wire_parameter(parameters, name)) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const BoundParameter& known) { return known.name == name; });
+    if (row == rows.end()) {
         throw InputError("--param " + text + ": no parameter of the stand-in is called '" + name +
                          "'");
     }
     char* end = nullptr;
     const double number = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != '\0' || !set_wire_parameter(parameters, name, number)) {
+    if (value.empty() || *end != '\0' || !row->allows(number)) {
         throw InputError("--param " + text + ": '" + value + "' is no value for it");
     }
+    row->value.set(number);
 }
 
 void serve(const Options& options) {
@@ -64,7 +67,7 @@ void serve(const Options& options) {
     // as `limpet px4-params` has them: else a perched vehicle may not arm
     stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0;
     for (const std::string& text : options.parameters) {
-        set({.commander = stand_in.parameters, .autopilot = model.parameters}, text);
+        set(wire_parameters(stand_in.parameters, model.parameters), text);
     }
     px4::StandIn autopilot(std::move(model), stand_in);
     const std::atomic<bool>* stop = stop_on_signals();

@@ -2,11 +2,15 @@
 #include "limpet/mavlink/codec.hpp"
 
 #include <algorithm>
+#include <boost/crc.hpp>
+#include <cstring>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mavlink/checksum.hpp"
 
 namespace limpet::mavlink {
+
+using boost::endian::load_little_u16;
+
 namespace {
 
 /// 0xFE, length, sequence, system, component, id.
@@ -25,27 +29,34 @@ bool has_odd_flags(const std::uint8_t* at) {
     return at[0] == kStart2 && (at[2] & ~kSignedFlag) != 0;
 }
 
-/// @param at  a header, of either version
-std::uint32_t id_of(const std::uint8_t* at) {
-    if (at[0] == kStart1) {
-        return at[5];
-    }
-    return static_cast<std::uint32_t>(at[7]) | static_cast<std::uint32_t>(at[8]) << 8U |
-           static_cast<std::uint32_t>(at[9]) << 16U;
-}
-
-std::uint16_t sent_checksum(const std::uint8_t* at) {
-    return static_cast<std::uint16_t>(at[0] | (at[1] << 8U));
+template <class... Messages>
+constexpr auto infos(const std::tuple<Messages...>*) {
+    return std::array{Messages::kInfo...};
 }
 
 }  // namespace
 
-std::uint16_t frame_checksum(ByteView covered, std::uint8_t crc_extra) {
-    return checksum(checksum(kChecksumSeed, covered.subspan(1)), crc_extra);
+const MessageInfo* find_message(std::uint32_t id) {
+    static constexpr auto kInfos = infos(static_cast<const AllMessages*>(nullptr));
+    const auto* at =
+        std::lower_bound(kInfos.begin(), kInfos.end(), id,
+                         [](const MessageInfo& info, std::uint32_t key) { return info.id < key; });
+    return at != kInfos.end() && at->id == id ? at : nullptr;
 }
 
-ByteView finish_frame(FrameBuffer& out, std::size_t payload_bytes, std::uint32_t id,
-                      std::uint8_t crc_extra, Sender& from) {
+std::uint32_t id_of(const std::uint8_t* at) {
+    return at[0] == kStart1 ? at[5] : boost::endian::load_little_u24(at + 7);
+}
+
+std::uint16_t frame_checksum(ByteView covered, std::uint8_t crc_extra) {
+    boost::crc_optimal<16, 0x1021, 0xFFFF, 0, true, true> crc;  // CRC-16/MCRF4XX
+    crc.process_bytes(covered.data() + 1, covered.size() - 1);
+    crc.process_byte(crc_extra);
+    return crc.checksum();
+}
+
+ByteView finish_frame(FrameBuffer& out, const MessageInfo& message, Sender& from) {
+    std::size_t payload_bytes = message.payload_bytes;
     require(payload_bytes >= 1 && payload_bytes <= 255, "a payload has 1 to 255 bytes");
     while (payload_bytes > 1 && out[kHeader_bytes + payload_bytes - 1] == 0) {
         --payload_bytes;
@@ -57,14 +68,11 @@ ByteView finish_frame(FrameBuffer& out, std::size_t payload_bytes, std::uint32_t
     out[4] = from.sequence++;
     out[5] = from.system;
     out[6] = from.component;
-    for (std::size_t i = 0; i < 3; ++i) {
-        out[7 + i] = static_cast<std::uint8_t>(id >> (8 * i));
-    }
-    const std::uint16_t crc =
-        frame_checksum(ByteView(out).first(kHeader_bytes + payload_bytes), crc_extra);
-    out[kHeader_bytes + payload_bytes] = static_cast<std::uint8_t>(crc & 0xFFU);
-    out[kHeader_bytes + payload_bytes + 1] = static_cast<std::uint8_t>(crc >> 8U);
-    return ByteView(out).first(kHeader_bytes + payload_bytes + kChecksum_bytes);
+    boost::endian::store_little_u24(&out[7], message.id);
+    const std::size_t covered = kHeader_bytes + payload_bytes;
+    boost::endian::store_little_u16(
+        &out[covered], frame_checksum(ByteView(out).first(covered), message.crc_extra));
+    return ByteView(out).first(covered + kChecksum_bytes);
 }
 
 std::optional<Frame> Parser::next(ByteView& bytes) {
@@ -93,10 +101,7 @@ std::size_t Parser::wanted_bytes() const {
     if (there == 0 || !is_start(at[0])) {
         return 1;
     }
-    if (there < kFlags_bytes) {
-        return kFlags_bytes;
-    }
-    if (has_odd_flags(at)) {
+    if (there < kFlags_bytes || has_odd_flags(at)) {
         return kFlags_bytes;
     }
     const std::size_t header = at[0] == kStart1 ? kHeader1_bytes : kHeader_bytes;
@@ -162,7 +167,7 @@ std::optional<Frame> Parser::judge() {
     }
     const std::size_t covered = found.header_bytes + found.frame.payload.size();
     if (frame_checksum(found.frame.bytes.first(covered), info->crc_extra) !=
-        sent_checksum(at + covered)) {
+        load_little_u16(at + covered)) {
         ++statistics_.bad_checksum;
         discard();
         return std::nullopt;

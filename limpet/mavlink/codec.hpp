@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <boost/endian/conversion.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -63,71 +64,32 @@ struct LinkStatistics {
 };
 
 /// Puts header and checksum around a payload.
-/// @param out            holds the payload from kHeader_bytes on
-/// @param payload_bytes  1..255, trailing zeros included
+/// @param out  holds the whole payload from kHeader_bytes on
 /// @return the frame, in `out`; `from.sequence` has gone on by one
-/// @throws InternalError for a payload of no or too many bytes
-[[nodiscard]] ByteView finish_frame(FrameBuffer& out, std::size_t payload_bytes, std::uint32_t id,
-                                    std::uint8_t crc_extra, Sender& from);
+/// @throws InternalError for a payload of no or more than 255 bytes
+[[nodiscard]] ByteView finish_frame(FrameBuffer& out, const MessageInfo& message, Sender& from);
+
+/// @param at  a header, of either version
+/// @return the message's id
+[[nodiscard]] std::uint32_t id_of(const std::uint8_t* at);
 
 /// @param covered  header, start byte included, and payload as it is sent
 [[nodiscard]] std::uint16_t frame_checksum(ByteView covered, std::uint8_t crc_extra);
-
-namespace detail {
-
-template <std::size_t bytes>
-using BitsOf = std::conditional_t<
-    bytes == 8, std::uint64_t,
-    std::conditional_t<bytes == 4, std::uint32_t,
-                       std::conditional_t<bytes == 2, std::uint16_t, std::uint8_t>>>;
-
-/// Bytes of a number, little-endian whatever the machine; floats by their IEEE 754 bits.
-template <class T>
-void put_element(std::uint8_t* to, T value) {
-    BitsOf<sizeof(T)> bits = 0;
-    std::memcpy(&bits, &value, sizeof(T));
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-        to[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(bits) >> (8 * i));
-    }
-}
-
-template <class T>
-void get_element(const std::uint8_t* from, T& value) {
-    std::uint64_t wide = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-        wide |= static_cast<std::uint64_t>(from[i]) << (8 * i);
-    }
-    const auto bits = static_cast<BitsOf<sizeof(T)>>(wide);
-    std::memcpy(&value, &bits, sizeof(T));
-}
-
-template <class Value, class Each>
-void for_each_element(Value& value, Each&& each) {
-    if constexpr (WireType<std::remove_const_t<Value>>::kIsArray) {
-        for (auto& element : value) {
-            each(element);
-        }
-    } else {
-        each(value);
-    }
-}
-
-}  // namespace detail
 
 /// Frames a message, unsigned.
 /// @return the frame's bytes, in `out`; `from.sequence` has gone on by one
 template <class Message>
 [[nodiscard]] ByteView encode(const Message& message, Sender& from, FrameBuffer& out) {
-    constexpr auto& kPlace = kLayout<Message>;
-    std::size_t index = 0;
+    std::uint8_t* to = out.data() + kHeader_bytes;
     for_each_field(message, [&](std::string_view, const auto& value) {
-        std::uint8_t* to = out.data() + kHeader_bytes + kPlace.offset[index++];
-        detail::for_each_element(value, [&](const auto& element) {
-            detail::put_element(to, element);
-            to += sizeof(element);
+        for_each_element(value, [&](auto element) {
+            using Element = decltype(element);
+            using boost::endian::order;
+            boost::endian::endian_store<Element, sizeof(Element), order::little>(to, element);
+            to += sizeof(Element);
         });
     });
-    return finish_frame(out, kPlace.payload_bytes, Message::kId, kPlace.crc_extra, from);
+    return finish_frame(out, Message::kInfo, from);
 }
 
 /// What is not in the payload is zero: trailing zeros, and extensions that the sender lacks. What a
@@ -138,21 +100,38 @@ template <class Message>
     if (frame.id != Message::kId) {
         return std::nullopt;
     }
-    std::array<std::uint8_t, kLayout<Message>.payload_bytes> payload = {};
-    if (!frame.payload.empty()) {
-        std::memcpy(payload.data(), frame.payload.data(),
-                    frame.payload.size() < payload.size() ? frame.payload.size() : payload.size());
-    }
+    std::array<std::uint8_t, Message::kInfo.payload_bytes> payload = {};
+    std::copy_n(frame.payload.begin(), std::min(frame.payload.size(), payload.size()),
+                payload.begin());
     Message message;
-    std::size_t index = 0;
+    const std::uint8_t* at = payload.data();
     for_each_field(message, [&](std::string_view, auto& value) {
-        const std::uint8_t* at = payload.data() + kLayout<Message>.offset[index++];
-        detail::for_each_element(value, [&](auto& element) {
-            detail::get_element(at, element);
-            at += sizeof(element);
+        for_each_element(value, [&](auto& element) {
+            using Element = std::remove_reference_t<decltype(element)>;
+            using boost::endian::order;
+            element = boost::endian::endian_load<Element, sizeof(Element), order::little>(at);
+            at += sizeof(Element);
         });
     });
     return message;
+}
+
+/// Whether a message with a target is for this system and component; 0 is for all.
+template <class Message>
+[[nodiscard]] bool addressed_to(const Sender& self, const Message& message) {
+    return (message.target_system == 0 || message.target_system == self.system) &&
+           (message.target_component == 0 || message.target_component == self.component);
+}
+
+/// The answer to a command.
+/// @param result  MAV_RESULT
+/// @param asked   the frame that it came in
+[[nodiscard]] inline CommandAck acknowledgement(const CommandLong& command, std::uint8_t result,
+                                                const Frame& asked) {
+    return {.command = command.command,
+            .result = result,
+            .target_system = asked.system,
+            .target_component = asked.component};
 }
 
 /// Bytes in, frames out, whatever the bytes.

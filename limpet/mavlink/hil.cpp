@@ -94,6 +94,13 @@ milliseconds Hil::patience() const {
     return sends_ > kBootSensors ? kSlowBootWait : kBootWait;
 }
 
+std::optional<HilStatus> Hil::ended() const {
+    if (options_.stop != nullptr && *options_.stop) {
+        return HilStatus::interrupted;
+    }
+    return link_.generation() != generation_ ? std::optional(HilStatus::gone) : std::nullopt;
+}
+
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
     const Clock::time_point begin = Clock::now();
     const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
@@ -105,11 +112,8 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
         if (const auto frame = link_.receive(std::min<Clock::duration>(kSlice, left))) {
             take(*frame, others);
         }
-        if (options_.stop != nullptr && *options_.stop) {
-            return HilStatus::interrupted;
-        }
-        if (link_.generation() != generation_) {
-            return HilStatus::gone;
+        if (const auto over = ended()) {
+            return *over;
         }
     }
     count_.waited_s += duration<double>(Clock::now() - sent).count();
@@ -139,11 +143,8 @@ HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
         settled = settled ||
                   (answer && (answered_usec_ == time_usec || sent_at(answered_usec_) == nullptr));
     }
-    if (options_.stop != nullptr && *options_.stop) {
-        return HilStatus::interrupted;
-    }
-    if (link_.generation() != generation_) {
-        return HilStatus::gone;
+    if (const auto over = ended()) {
+        return *over;
     }
     if (!answered_ever_) {
         return HilStatus::waiting;

@@ -84,6 +84,8 @@ private:
     [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
     [[nodiscard]] HilStatus in_real_time(std::uint64_t time_usec, const Others& others);
+    /// @return why there is no use in listening on; nothing while there is
+    [[nodiscard]] std::optional<HilStatus> ended() const;
     /// @return when the sensors of that stamp went; nullptr when none of the last ones has it
     [[nodiscard]] const Sent* sent_at(std::uint64_t time_usec) const;
     /// @return whether it is an answer

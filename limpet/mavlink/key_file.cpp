@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -47,26 +48,16 @@ std::string content(const std::string& path) {
     return text;
 }
 
-std::optional<std::uint8_t> digit(char letter) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    const char small = letter >= 'A' && letter <= 'F' ? static_cast<char>(letter + 32) : letter;
-    const std::size_t value = kDigits.find(small);
-    return value == std::string_view::npos ? std::nullopt
-                                           : std::optional(static_cast<std::uint8_t>(value));
-}
-
 std::optional<SigningKey> from_hex(std::string_view text) {
     SigningKey key = {};
     if (text.size() != 2 * key.size()) {
         return std::nullopt;
     }
     for (std::size_t i = 0; i < key.size(); ++i) {
-        const auto high = digit(text[2 * i]);
-        const auto low = digit(text[2 * i + 1]);
-        if (!high || !low) {
+        const char* at = text.data() + 2 * i;
+        if (std::from_chars(at, at + 2, key[i], 16).ptr != at + 2) {
             return std::nullopt;
         }
-        key[i] = static_cast<std::uint8_t>(*high * 16 + *low);
     }
     return key;
 }

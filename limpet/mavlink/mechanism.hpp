@@ -15,8 +15,8 @@ namespace limpet::mavlink {
 inline constexpr std::uint8_t kMechanismComponent = 25;
 /// MAV_CMD_DO_SET_ACTUATOR. Source: common.xml
 inline constexpr std::uint16_t kCommandSetActuator = 187;
-/// A companion's last heartbeats: the mission is over. Source: common.xml, MAV_STATE_POWEROFF
-inline constexpr std::uint8_t kStatePowerOff = 7;
+/// A companion's last heartbeats: the mission is over.
+inline constexpr std::uint8_t kStatePowerOff = MavState::poweroff;
 
 /// What the mechanism shall do. It keeps its last state when nobody speaks: a vehicle on a wall
 /// must not drop because a computer failed.
@@ -30,14 +30,12 @@ struct MechanismCommand {
 /// @param confirmation  how often it was said before
 [[nodiscard]] inline CommandLong actuator_command(const MechanismCommand& command,
                                                   std::uint8_t system, std::uint8_t confirmation) {
-    CommandLong message;
-    message.target_system = system;
-    message.target_component = kMechanismComponent;
-    message.command = kCommandSetActuator;
-    message.confirmation = confirmation;
-    message.param1 = command.pump_on ? 1.0F : 0.0F;
-    message.param2 = command.valve_open ? 1.0F : 0.0F;
-    return message;
+    return {.target_system = system,
+            .target_component = kMechanismComponent,
+            .command = kCommandSetActuator,
+            .confirmation = confirmation,
+            .param1 = command.pump_on ? 1.0F : 0.0F,
+            .param2 = command.valve_open ? 1.0F : 0.0F};
 }
 
 /// @param now  what is so: NaN leaves it, as the command has it

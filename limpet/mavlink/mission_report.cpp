@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/mission_report.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kInfo = 6;  // MAV_SEVERITY
 constexpr std::string_view kOutcome = "outcome";
 constexpr std::string_view kAnd = ": ";
 
-/// Fills a text piece by piece and lets go of what does not fit.
-class TextWriter {
-public:
-    void add(std::string_view piece) {
-        const std::size_t room = text_.size() - length_;
-        length_ += piece.substr(0, room).copy(text_.data() + length_, room);
-    }
-    [[nodiscard]] StatusText message() const {
-        StatusText message;
-        message.severity = kInfo;
-        message.text = text_;
-        return message;
-    }
-
-private:
-    std::array<char, 50> text_ = {};
-    std::size_t length_ = 0;
-};
+/// What does not fit is let go of.
+template <class... Pieces>
+StatusText info(const Pieces&... pieces) {
+    StatusText message{.severity = MavSeverity::info};
+    const std::array<std::string_view, sizeof...(pieces)> all = {pieces...};
+    fmt::format_to_n(message.text.data(), message.text.size(), "{}", fmt::join(all, ""));
+    return message;
+}
 
 struct Parts {
     std::string_view head;
@@ -42,13 +33,8 @@ Parts part(std::string_view text) {
 }  // namespace
 
 StatusText event_text(const Event& event) {
-    TextWriter text;
-    text.add(to_string(event.name));
-    if (!event.reason.empty()) {
-        text.add(kAnd);
-        text.add(event.reason);
-    }
-    return text.message();
+    return event.reason.empty() ? info(to_string(event.name))
+                                : info(to_string(event.name), kAnd, event.reason);
 }
 
 std::optional<EventName> event_name(const StatusText& message) {
@@ -63,13 +49,7 @@ std::optional<EventName> event_name(const StatusText& message) {
 }
 
 StatusText outcome_text(Outcome outcome, std::string_view reason) {
-    TextWriter text;
-    text.add(kOutcome);
-    text.add(kAnd);
-    text.add(to_string(outcome));
-    text.add(kAnd);
-    text.add(reason);
-    return text.message();
+    return info(kOutcome, kAnd, to_string(outcome), kAnd, reason);
 }
 
 std::optional<ToldOutcome> told_outcome(const StatusText& message) {
@@ -83,10 +63,8 @@ std::optional<ToldOutcome> told_outcome(const StatusText& message) {
 }
 
 NamedValueFloat guidance_state(int state, std::uint32_t time_boot_ms) {
-    NamedValueFloat message;
-    message.time_boot_ms = time_boot_ms;
+    NamedValueFloat message{.time_boot_ms = time_boot_ms, .value = static_cast<float>(state)};
     set_text(message.name, kGuidanceStateName);
-    message.value = static_cast<float>(state);
     return message;
 }
 

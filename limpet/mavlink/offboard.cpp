@@ -4,25 +4,19 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 #include <variant>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mavlink/addressed.hpp"
+#include "limpet/mavlink/numbers.hpp"
 #include "limpet/mavlink/translate.hpp"
 
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kQuadrotor = 2;
-constexpr std::uint8_t kGroundStation = 6;
-constexpr std::uint8_t kOnboardController = 18;
-constexpr std::uint8_t kNoAutopilot = 8;
-constexpr std::uint8_t kStateActive = 4;
 constexpr std::uint8_t kMavlinkVersion = 3;
 /// Room in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
-constexpr float kCustomMode = 1.0F;  ///< MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
 
 /// Whether it is time again, and then remembers.
 bool again(double& last_s, double interval_s, double time_s) {
@@ -32,10 +26,6 @@ bool again(double& last_s, double interval_s, double time_s) {
     }
     last_s = time_s;
     return true;
-}
-
-std::uint32_t boot_ms(double time_s) {
-    return static_cast<std::uint32_t>(std::llround(time_s * 1e3));
 }
 
 std::string_view command_name(std::uint16_t command) {
@@ -67,7 +57,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
         return;
     }
     if (const auto beat = decode<Heartbeat>(frame)) {
-        if (beat->type == kQuadrotor || beat->autopilot != kNoAutopilot) {
+        if (beat->type == MavType::quadrotor || beat->autopilot != MavAutopilot::invalid) {
             heartbeat_s_ = time_s;
             report_.armed = (beat->base_mode & kArmedFlag) != 0;
             report_.custom_mode = beat->custom_mode;
@@ -95,9 +85,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
 }
 
 void Offboard::hear_command_ack(const CommandAck& ack) {
-    constexpr std::uint8_t kAccepted = 0;
-    constexpr std::uint8_t kInProgress = 5;
-    if (ack.result == kAccepted || ack.result == kInProgress) {
+    if (ack.result == MavResult::accepted || ack.result == MavResult::in_progress) {
         if (report_.refused_command == ack.command) {
             report_.refused_command = 0;
         }
@@ -133,39 +121,32 @@ Estimate Offboard::estimate(double time_s) const {
 void Offboard::send_command(Link& link, std::uint16_t command, float param1, float param2,
                             float param3) {
     self_ = link.self();
-    CommandLong message;
-    message.target_system = options_.target_system;
-    message.target_component = kAutopilotComponent;
-    message.command = command;
-    message.param1 = param1;
-    message.param2 = param2;
-    message.param3 = param3;
-    (void)link.send(message, kPatience);
+    (void)link.send(CommandLong{.target_system = options_.target_system,
+                                .target_component = kAutopilotComponent,
+                                .command = command,
+                                .param1 = param1,
+                                .param2 = param2,
+                                .param3 = param3},
+                    kPatience);
 }
 
 void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_s) {
-    const auto send_position = [&](const auto& target) {
-        SetPositionTargetLocalNed message = position_target(target, boot_ms(time_s));
+    const auto send = [&](auto message) {
         message.target_system = options_.target_system;
         message.target_component = kAutopilotComponent;
         (void)link.send(message, kPatience);
     };
-    const auto send_attitude = [&](const AttitudeSetpoint& target) {
-        SetAttitudeTarget message = attitude_target(target, boot_ms(time_s));
-        message.target_system = options_.target_system;
-        message.target_component = kAutopilotComponent;
-        (void)link.send(message, kPatience);
-    };
+    const std::uint32_t now_ms = boot_ms(time_s);
     // Disarmed or idle, it is told what it is: whatever it would do for a position, it must not.
     const AttitudeSetpoint rest{.q_WB = estimate_.q_WB, .thrust = 0.0};
     if (!setpoint.armed || std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
-        send_attitude(rest);
+        send(attitude_target(rest, now_ms));
     } else if (const auto* position = std::get_if<PositionSetpoint>(&setpoint.motion)) {
-        send_position(*position);
+        send(position_target(*position, now_ms));
     } else if (const auto* velocity = std::get_if<VelocitySetpoint>(&setpoint.motion)) {
-        send_position(*velocity);
+        send(position_target(*velocity, now_ms));
     } else {
-        send_attitude(std::get<AttitudeSetpoint>(setpoint.motion));
+        send(attitude_target(std::get<AttitudeSetpoint>(setpoint.motion), now_ms));
     }
 }
 
@@ -204,22 +185,19 @@ void Offboard::attend(Link& link, double time_s) {
 /// What goes whether or not it flies.
 void Offboard::speak_up(Link& link, double time_s) {
     if (again(sent_heartbeat_s_, 1.0 / options_.heartbeat_rate_Hz, time_s)) {
-        Heartbeat beat;
-        beat.type = options_.hears_texts ? kGroundStation : kOnboardController;
-        beat.autopilot = kNoAutopilot;
-        beat.system_status = kStateActive;
-        beat.mavlink_version = kMavlinkVersion;
-        (void)link.send(beat, kPatience);
+        const std::uint8_t type = options_.hears_texts ? MavType::gcs : MavType::onboard_controller;
+        (void)link.send(Heartbeat{.type = type,
+                                  .autopilot = MavAutopilot::invalid,
+                                  .system_status = MavState::active,
+                                  .mavlink_version = kMavlinkVersion},
+                        kPatience);
     }
     const OffboardState now = state(time_s);
     const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
     if (heard && again(sent_request_s_, 1.0, time_s)) {
         if (options_.sets_origin && !report_.armed) {
-            SetGpsGlobalOrigin origin;
-            constexpr GeographicOrigin kOrigin;
-            origin.target_system = options_.target_system;
-            origin.latitude = static_cast<std::int32_t>(std::llround(kOrigin.latitude_deg * 1e7));
-            origin.longitude = static_cast<std::int32_t>(std::llround(kOrigin.longitude_deg * 1e7));
+            SetGpsGlobalOrigin origin{.target_system = options_.target_system};
+            put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
             (void)link.send(origin, kPatience);
         }
         request_rate(link);

@@ -7,17 +7,36 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/mavlink/addressed.hpp"
 
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kReal32 = 9;  // MAV_PARAM_TYPE
 constexpr std::size_t kLongestName = 16;
 constexpr std::chrono::nanoseconds kAtOnce{0};  // who does not listen is not waited for
+
+std::uint8_t type_of(const ServedParameter& parameter) {
+    return parameter.int32 ? MavParamType::int32 : MavParamType::real32;
+}
+
+/// An integer's bytes stand in the float, as PX4 has it.
+float on_wire(const ServedParameter& parameter) {
+    auto value = static_cast<float>(parameter.value);
+    if (parameter.int32) {
+        const auto whole = static_cast<std::int32_t>(parameter.value);
+        std::memcpy(&value, &whole, sizeof(value));
+    }
+    return value;
+}
+
+double value_of(const ParamSet& message) {
+    std::int32_t whole = 0;
+    std::memcpy(&whole, &message.param_value, sizeof(whole));
+    return message.param_type == MavParamType::int32 ? whole : double{message.param_value};
+}
 
 }  // namespace
 
@@ -43,8 +62,8 @@ void ParameterServer::answer(std::size_t index, Link& link) const {
     if (index >= parameters_.size()) {
         return;  // the protocol has no answer for what is not there
     }
-    ParamValue message{.param_value = static_cast<float>(parameters_[index].value),
-                       .param_type = kReal32,
+    ParamValue message{.param_value = on_wire(parameters_[index]),
+                       .param_type = type_of(parameters_[index]),
                        .param_count = static_cast<std::uint16_t>(parameters_.size()),
                        .param_index = static_cast<std::uint16_t>(index)};
     set_text(message.param_id, parameters_[index].name);
@@ -57,15 +76,15 @@ void ParameterServer::set(const ParamSet& message, Link& link) {
         return;
     }
     ServedParameter& parameter = parameters_[index];
-    const float wanted = message.param_value;
+    const double wanted = value_of(message);
     std::array<char, 160> text = {};
     const auto refuse = [&](auto format, const auto&... values) {
         const auto end = fmt::format_to_n(text.data(), text.size(), format, values...).out;
         refused_({text.data(), static_cast<std::size_t>(end - text.data())});
     };
-    if (message.param_type != kReal32) {
-        refuse(FMT_STRING("{} refused: type {}, must be 9 (REAL32)"), parameter.name,
-               message.param_type);
+    if (message.param_type != type_of(parameter)) {
+        refuse(FMT_STRING("{} refused: type {}, must be {}"), parameter.name, message.param_type,
+               parameter.int32 ? "6 (INT32)" : "9 (REAL32)");
     } else if (!(wanted >= static_cast<float>(parameter.minimum) &&
                  wanted <= static_cast<float>(parameter.maximum))) {  // nor what is no number
         refuse(FMT_STRING("{} = {:g} refused, allowed {:g} .. {:g}"), parameter.name, wanted,
@@ -74,36 +93,29 @@ void ParameterServer::set(const ParamSet& message, Link& link) {
         refuse(FMT_STRING("{} = {:g} refused, must be whole"), parameter.name, wanted);
     } else if (wanted != static_cast<float>(parameter.value)) {
         // The limits themselves have more digits than the wire.
-        parameter.value =
-            std::clamp(static_cast<double>(wanted), parameter.minimum, parameter.maximum);
+        parameter.value = std::clamp(wanted, parameter.minimum, parameter.maximum);
         set_(parameter.name, parameter.value);
     }
     answer(index, link);
 }
 
-std::size_t ParameterServer::asked_for(const ParamRequestRead& message) const {
-    return message.param_index >= 0 ? static_cast<std::size_t>(message.param_index)
-                                    : find(text_of(message.param_id));
-}
-
 bool ParameterServer::handle(const Frame& frame, Link& link) {
-    if (const auto list = decode<ParamRequestList>(frame)) {
-        next_ = addressed_to(link.self(), *list) ? 0 : next_;
-        return true;
+    const auto ours = [&](const auto& message) {
+        return message && addressed_to(link.self(), *message);
+    };
+    const auto list = decode<ParamRequestList>(frame);
+    const auto read = decode<ParamRequestRead>(frame);
+    const auto wanted = decode<ParamSet>(frame);
+    if (ours(list)) {
+        next_ = 0;
+    } else if (ours(read)) {
+        answer(read->param_index >= 0 ? static_cast<std::size_t>(read->param_index)
+                                      : find(text_of(read->param_id)),
+               link);
+    } else if (ours(wanted)) {
+        set(*wanted, link);
     }
-    if (const auto read = decode<ParamRequestRead>(frame)) {
-        if (addressed_to(link.self(), *read)) {
-            answer(asked_for(*read), link);
-        }
-        return true;
-    }
-    if (const auto wanted = decode<ParamSet>(frame)) {
-        if (addressed_to(link.self(), *wanted)) {
-            set(*wanted, link);
-        }
-        return true;
-    }
-    return false;
+    return list || read || wanted;
 }
 
 void ParameterServer::update(Link& link) {

@@ -12,13 +12,14 @@
 
 namespace limpet::mavlink {
 
-/// One parameter that a ground station may read and set. On the wire all of them are REAL32.
+/// One parameter that a ground station may read and set.
 struct ServedParameter {
     std::string name;  ///< 1 to 16 characters, once in the list
     double value = 0.0;
     double minimum = 0.0;  ///< allowed, inclusive
     double maximum = 0.0;  ///< allowed, inclusive
     bool whole = false;    ///< a count: no fractions
+    bool int32 = false;    ///< INT32 on the wire, as PX4 has counts; else REAL32
 };
 
 /// The vehicle's side of MAVLink's parameter protocol, over any list. A value that cannot be taken
@@ -49,7 +50,6 @@ private:
     [[nodiscard]] std::size_t find(std::string_view name) const;
     void answer(std::size_t index, Link& link) const;
     void set(const ParamSet& message, Link& link);
-    [[nodiscard]] std::size_t asked_for(const ParamRequestRead& message) const;
 
     std::vector<ServedParameter> parameters_;
     Set set_;

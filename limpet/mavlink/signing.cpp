@@ -62,27 +62,21 @@ ByteView Signing::sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now) {
     require(frame.data() == buffer.data() && frame.size() > kHeader_bytes + kChecksum_bytes &&
                 frame.size() + kSignature_bytes <= buffer.size() && buffer[2] == 0,
             "an unsigned frame of encode is signed");
-    const std::uint32_t id = static_cast<std::uint32_t>(buffer[7]) |
-                             static_cast<std::uint32_t>(buffer[8]) << 8U |
-                             static_cast<std::uint32_t>(buffer[9]) << 16U;
-    const MessageInfo* info = find_message(id);
+    const MessageInfo* info = find_message(id_of(buffer.data()));
     require(info != nullptr, "encode knows its messages");
 
     buffer[2] = kSignedFlag;  // which the checksum covers
     const std::size_t covered = frame.size() - kChecksum_bytes;
-    const std::uint16_t crc = frame_checksum(ByteView(buffer).first(covered), info->crc_extra);
-    buffer[covered] = static_cast<std::uint8_t>(crc & 0xFFU);
-    buffer[covered + 1] = static_cast<std::uint8_t>(crc >> 8U);
+    boost::endian::store_little_u16(
+        &buffer[covered], frame_checksum(ByteView(buffer).first(covered), info->crc_extra));
 
     timestamp_ = std::min(std::max(timestamp_ + 1, now), kLargestTimestamp);
-    std::size_t at = frame.size();
-    buffer[at++] = link_id_;
-    for (std::size_t i = 0; i < kTimestamp_bytes; ++i) {
-        buffer[at++] = static_cast<std::uint8_t>(timestamp_ >> (8 * i));
-    }
-    const Digest signature = digest(ByteView(buffer).first(at));
-    std::copy(signature.begin(), signature.end(), buffer.begin() + static_cast<std::ptrdiff_t>(at));
-    return ByteView(buffer).first(at + kDigest_bytes);
+    buffer[frame.size()] = link_id_;
+    boost::endian::store_little_u48(&buffer[frame.size() + 1], timestamp_);
+    const std::size_t hashed = frame.size() + 1 + kTimestamp_bytes;
+    const Digest signature = digest(ByteView(buffer).first(hashed));
+    std::copy(signature.begin(), signature.end(), &buffer[hashed]);
+    return ByteView(buffer).first(hashed + kDigest_bytes);
 }
 
 Verdict Signing::check(const Frame& frame, std::uint64_t now) {
@@ -95,10 +89,7 @@ Verdict Signing::check(const Frame& frame, std::uint64_t now) {
         return Verdict::wrong_signature;
     }
     const ByteView trailer = frame.bytes.last(kSignature_bytes);
-    std::uint64_t stamped = 0;
-    for (std::size_t i = 0; i < kTimestamp_bytes; ++i) {
-        stamped |= static_cast<std::uint64_t>(trailer[1 + i]) << (8 * i);
-    }
+    const std::uint64_t stamped = boost::endian::load_little_u48(&trailer[1]);
     const auto known = std::span(heard_).first(senders_);
     const auto sender = std::find_if(known.begin(), known.end(), [&](const Heard& heard) {
         return heard.system == frame.system && heard.component == frame.component &&

@@ -8,38 +8,17 @@
 #include <cmath>
 #include <utility>
 
-#include "limpet/core/errors.hpp"
-#include "limpet/mavlink/addressed.hpp"
+#include "limpet/mavlink/numbers.hpp"
 
 namespace limpet::mavlink {
 namespace {
 
-using Stream = TelemetryStream;
-
 constexpr std::chrono::nanoseconds kAtOnce{0};  // who does not listen is not waited for
-constexpr double kSoon_s = 1e-6;                // due now, whatever the last bits of a sum of times
 constexpr int kFramesAnUpdate = 100;            // a peer that floods must not stop the flight
 
 // MAV_CMD
 constexpr std::uint16_t kRequestMessage = 512;
 constexpr std::uint16_t kRequestAutopilotCapabilities = 520;
-
-constexpr std::array<StreamRate, kTelemetryStreams> kStreams = {{
-    {Stream::heartbeat, Heartbeat::kId, 1.0},
-    {Stream::sys_status, SysStatus::kId, 1.0},
-    {Stream::attitude, Attitude::kId, 20.0},
-    {Stream::local_position, LocalPositionNed::kId, 10.0},
-    {Stream::global_position, GlobalPositionInt::kId, 10.0},
-    {Stream::home_position, HomePosition::kId, 0.5},
-    {Stream::battery, BatteryStatus::kId, 2.0},
-    {Stream::distance_left, DistanceSensor::kId, 10.0},
-    {Stream::distance_right, DistanceSensor::kId, 10.0},
-    {Stream::extended_sys_state, ExtendedSysState::kId, 2.0},
-}};
-
-std::size_t index_of(Stream stream) {
-    return static_cast<std::size_t>(stream);
-}
 
 Severity severity_of(EventName name) {
     const bool amiss = name == EventName::contact_lost || name == EventName::retreat_started ||
@@ -49,9 +28,51 @@ Severity severity_of(EventName name) {
 
 }  // namespace
 
-const std::array<StreamRate, kTelemetryStreams>& telemetry_streams() {
-    return kStreams;
-}
+/// Without a valid estimate no position, as PX4 does. Landed when disarmed: so would PX4 say on a
+/// wall, with thrust 0 (px4.md).
+const std::array<Telemetry::Stream, 10> Telemetry::kStreams = {{
+    {Heartbeat::kId, 1.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.post(heartbeat(vehicle.armed, kOffboardFlags, custom_mode(kMainModeOffboard)));
+     }},
+    {SysStatus::kId, 1.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.post(sys_status(vehicle, t.link_.count().damaged));
+     }},
+    {Attitude::kId, 20.0,
+     [](Telemetry& t, const VehicleView& vehicle) { t.post(attitude(vehicle)); }},
+    {LocalPositionNed::kId, 10.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         const Estimate& estimate = vehicle.estimate;
+         t.post(local_position(estimate, vehicle.time_s), estimate.valid);
+     }},
+    {GlobalPositionInt::kId, 10.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.post(global_position(vehicle, t.setup_.origin, t.home_W_m_.value_or(Vector3(0, 0, 0))),
+                vehicle.estimate.valid);
+     }},
+    {HomePosition::kId, 0.5,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.post(
+             home_position(t.home_W_m_.value_or(Vector3(0, 0, 0)), t.setup_.origin, vehicle.time_s),
+             t.home_W_m_.has_value());
+     }},
+    {BatteryStatus::kId, 2.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         const auto& battery = vehicle.readings.battery;
+         t.post(battery_status(battery.value, t.setup_.battery_cells), battery.ever());
+     }},
+    {DistanceSensor::kId, 10.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.send_range(vehicle.readings.lidar_left, 0);
+     }},
+    {DistanceSensor::kId, 10.0,
+     [](Telemetry& t, const VehicleView& vehicle) {
+         t.send_range(vehicle.readings.lidar_right, 1);
+     }},
+    {ExtendedSysState::kId, 2.0,
+     [](Telemetry& t, const VehicleView& vehicle) { t.post(extended_sys_state(vehicle.armed)); }},
+}};
 
 Telemetry::Telemetry(Link& link, const TelemetrySetup& setup,
                      std::vector<ServedParameter> parameters, ParameterServer::Set set)
@@ -59,14 +80,21 @@ Telemetry::Telemetry(Link& link, const TelemetrySetup& setup,
       setup_(setup),
       parameters_(std::move(parameters), std::move(set),
                   [this](std::string_view why) { text(Severity::warning, why); }) {
-    for (const StreamRate& row : kStreams) {
-        timing_[index_of(row.stream)].period_s = 1.0 / row.rate_Hz;
-    }
+    std::transform(kStreams.begin(), kStreams.end(), timing_.begin(),
+                   [](const Stream& stream) { return StreamTiming(stream.rate_Hz); });
 }
 
 template <class Message>
-void Telemetry::post(const Message& message) {
-    (void)link_.send(message, kAtOnce);
+void Telemetry::post(const Message& message, bool known) {
+    if (known) {
+        (void)link_.send(message, kAtOnce);
+    }
+}
+
+void Telemetry::send_range(const Sample<RangeReading>& sample, std::uint8_t id) {
+    post(distance_sensor(sample.value, id, setup_.lidar_minimum_m, setup_.lidar_maximum_m,
+                         boot_ms(sample.time_s)),
+         sample.ever());
 }
 
 void Telemetry::update(const VehicleView& vehicle) {
@@ -80,57 +108,12 @@ void Telemetry::update(const VehicleView& vehicle) {
         }
         handle(*frame, vehicle);
     }
-    for (const StreamRate& row : kStreams) {
-        Timing& timing = timing_[index_of(row.stream)];
-        if (timing.period_s > 0.0 && vehicle.time_s + kSoon_s >= timing.next_s) {
-            send(row.stream, vehicle);
-            timing.next_s += timing.period_s;
-            if (timing.next_s <= vehicle.time_s) {  // no burst for what was missed
-                timing.next_s = vehicle.time_s + timing.period_s;
-            }
+    for (std::size_t i = 0; i < kStreams.size(); ++i) {
+        if (timing_[i].due(vehicle.time_s)) {
+            kStreams[i].send(*this, vehicle);
         }
     }
     parameters_.update(link_);
-}
-
-void Telemetry::send(Stream stream, const VehicleView& vehicle) {
-    const Readings& readings = vehicle.readings;
-    const auto range = [&](const Sample<RangeReading>& sample, std::uint8_t id) {
-        if (sample.ever()) {
-            post(distance_sensor(sample.value, id, setup_.lidar_minimum_m, setup_.lidar_maximum_m,
-                                 boot_ms(sample.time_s)));
-        }
-    };
-    // As PX4 does: no position without one.
-    const bool placed = home_W_m_.has_value() && vehicle.estimate.valid;
-    switch (stream) {
-        case Stream::heartbeat: return post(heartbeat(vehicle));
-        case Stream::sys_status: return post(sys_status(vehicle, link_.count().damaged));
-        case Stream::attitude: return post(attitude(vehicle));
-        case Stream::local_position:
-            if (placed) {
-                post(local_position(vehicle));
-            }
-            return;
-        case Stream::global_position:
-            if (placed) {
-                post(global_position(vehicle, setup_.origin, *home_W_m_));
-            }
-            return;
-        case Stream::home_position:
-            if (home_W_m_) {
-                post(home_position(*home_W_m_, setup_.origin, vehicle.time_s));
-            }
-            return;
-        case Stream::battery:
-            if (readings.battery.ever()) {
-                post(battery_status(readings.battery.value, setup_.battery_cells));
-            }
-            return;
-        case Stream::distance_left: return range(readings.lidar_left, 0);
-        case Stream::distance_right: return range(readings.lidar_right, 1);
-        case Stream::extended_sys_state: return post(extended_sys_state(vehicle));
-    }
 }
 
 void Telemetry::handle(const Frame& frame, const VehicleView& vehicle) {
@@ -160,7 +143,7 @@ void Telemetry::handle(const Frame& frame, const VehicleView& vehicle) {
 }
 
 void Telemetry::answer(const CommandLong& command, const Frame& frame, const VehicleView& vehicle) {
-    Result result = Result::unsupported;
+    std::uint8_t result = MavResult::unsupported;
     if (command.command == kRequestMessage) {
         result = request_message(command.param1, vehicle);
     } else if (command.command == kRequestAutopilotCapabilities) {
@@ -168,45 +151,39 @@ void Telemetry::answer(const CommandLong& command, const Frame& frame, const Veh
     } else if (command.command == kCommandMessageInterval) {
         result = set_interval(command.param1, command.param2);
     }
-    post(CommandAck{.command = command.command,
-                    .result = static_cast<std::uint8_t>(result),
-                    .target_system = frame.system,
-                    .target_component = frame.component});
+    post(acknowledgement(command, result, frame));
 }
 
-Result Telemetry::request_message(float id, const VehicleView& vehicle) {
+MavResult::Value Telemetry::request_message(float id, const VehicleView& vehicle) {
     if (id == static_cast<float>(AutopilotVersion::kId)) {
         post(autopilot_version(setup_.software_version));
-        return Result::accepted;
+        return MavResult::accepted;
     }
-    Result result = Result::unsupported;
-    for (const StreamRate& row : kStreams) {
-        if (static_cast<float>(row.message_id) == id) {
-            send(row.stream, vehicle);
-            result = Result::accepted;
+    MavResult::Value result = MavResult::unsupported;
+    for (const Stream& stream : kStreams) {
+        if (static_cast<float>(stream.message_id) == id) {
+            stream.send(*this, vehicle);
+            result = MavResult::accepted;
         }
     }
     return result;
 }
 
-Result Telemetry::set_interval(float id, float interval_us) {
+MavResult::Value Telemetry::set_interval(float id, float interval_us) {
     constexpr float kDefault = 0.0F;
     constexpr float kOff = -1.0F;
     const bool sane = interval_us == kDefault || interval_us == kOff || interval_us > 0.0F;
-    Result result = Result::unsupported;
-    for (const StreamRate& row : kStreams) {
-        if (static_cast<float>(row.message_id) != id) {
+    MavResult::Value result = MavResult::unsupported;
+    for (std::size_t i = 0; i < kStreams.size(); ++i) {
+        const std::uint32_t known = kStreams[i].message_id;
+        if (static_cast<float>(known) != id) {
             continue;
         }
-        if (!sane || (row.stream == Stream::heartbeat && interval_us != kDefault)) {
-            return Result::denied;  // without its heartbeat the vehicle is lost to everybody
+        if (!sane || (known == Heartbeat::kId && interval_us != kDefault)) {
+            return MavResult::denied;  // without its heartbeat the vehicle is lost to everybody
         }
-        Timing& timing = timing_[index_of(row.stream)];
-        timing.period_s = interval_us == kDefault ? 1.0 / row.rate_Hz
-                          : interval_us == kOff   ? 0.0
-                                                  : 1e-6 * static_cast<double>(interval_us);
-        timing.next_s = 0.0;
-        result = Result::accepted;
+        timing_[i].set_interval(interval_us);
+        result = MavResult::accepted;
     }
     return result;
 }
@@ -249,8 +226,7 @@ void Telemetry::event(const Event& event) {
 }
 
 void Telemetry::text(Severity severity, std::string_view text) {
-    StatusText message;
-    message.severity = static_cast<std::uint8_t>(severity);
+    StatusText message{.severity = severity};
     constexpr std::size_t kChunk = std::tuple_size_v<decltype(message.text)>;
     if (text.size() <= kChunk) {
         set_text(message.text, text);

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/telemetry_messages.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "limpet/mavlink/numbers.hpp"
 
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kQuadrotor = 2;  // MAV_TYPE
-constexpr std::uint8_t kPx4 = 12;       // MAV_AUTOPILOT
 constexpr std::uint8_t kMavlinkVersion = 3;
-// MAV_MODE_FLAG: custom 1, auto 4, guided 8, stabilized 16, as PX4 has it in OFFBOARD
-constexpr std::uint8_t kOffboardFlags = 1 + 4 + 8 + 16;
-constexpr std::uint8_t kStandby = 3, kActive = 4;  // MAV_STATE
-constexpr std::uint8_t kOnGround = 1, kInAir = 2;  // MAV_LANDED_STATE
-constexpr std::uint8_t kLithiumPolymer = 1;        // MAV_BATTERY_TYPE
-constexpr std::uint8_t kForEverything = 1;         // MAV_BATTERY_FUNCTION_ALL
-constexpr std::uint8_t kChargeOk = 1;              // MAV_BATTERY_CHARGE_STATE
 constexpr std::uint16_t kNoCell = 65535;
 constexpr std::int16_t kUnknownTemperature = 32767;
 constexpr double kSilence_s = 1.0;  // assumed: slower than every sensor here, GPS at 5 Hz
@@ -38,27 +27,6 @@ enum SensorBit : std::uint32_t {
     kBattery = 0x2000000,
 };
 
-float number(double value) {
-    return static_cast<float>(value);
-}
-
-/// Rounded, and held to what the wire can carry.
-template <class T>
-T whole(double value) {
-    if (std::isnan(value)) {
-        return 0;
-    }
-    using Limits = std::numeric_limits<T>;
-    return static_cast<T>(std::clamp(std::round(value), static_cast<double>(Limits::lowest()),
-                                     static_cast<double>(Limits::max())));
-}
-
-std::uint16_t heading_cdeg(const Quaternion& q_WB) {
-    const double yaw_deg = degrees(euler_from_quaternion(q_WB).yaw_rad);
-    return static_cast<std::uint16_t>(
-        whole<std::uint16_t>(100.0 * (yaw_deg < 0.0 ? yaw_deg + 360.0 : yaw_deg)) % 36000U);
-}
-
 struct Sensors {
     std::uint32_t present = 0;
     std::uint32_t healthy = 0;
@@ -72,18 +40,13 @@ struct Sensors {
 
 }  // namespace
 
-std::uint32_t boot_ms(double time_s) {
-    return whole<std::uint32_t>(1e3 * time_s);
-}
-
-Heartbeat heartbeat(const VehicleView& vehicle) {
-    return {
-        .type = kQuadrotor,
-        .autopilot = kPx4,
-        .base_mode = static_cast<std::uint8_t>(kOffboardFlags | (vehicle.armed ? kArmedFlag : 0)),
-        .custom_mode = custom_mode(kMainModeOffboard),
-        .system_status = vehicle.armed ? kActive : kStandby,
-        .mavlink_version = kMavlinkVersion};
+Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode) {
+    return {.type = MavType::quadrotor,
+            .autopilot = MavAutopilot::px4,
+            .base_mode = static_cast<std::uint8_t>(mode_flags | (armed ? kArmedFlag : 0)),
+            .custom_mode = custom_mode,
+            .system_status = armed ? MavState::active : MavState::standby,
+            .mavlink_version = kMavlinkVersion};
 }
 
 SysStatus sys_status(const VehicleView& vehicle, std::uint64_t damaged) {
@@ -102,103 +65,75 @@ SysStatus sys_status(const VehicleView& vehicle, std::uint64_t damaged) {
     sensors.add(kBattery, readings.battery, now_s);
     const BatteryReading& battery = readings.battery.value;
     const bool known = readings.battery.ever();
-    SysStatus message;
-    message.onboard_control_sensors_present = sensors.present;
-    message.onboard_control_sensors_enabled = sensors.present;
-    message.onboard_control_sensors_health = sensors.healthy;
-    message.voltage_battery = known ? whole<std::uint16_t>(1e3 * battery.voltage_V) : kNoCell;
-    message.current_battery = whole<std::int16_t>(known ? 1e2 * battery.current_A : -1.0);
-    message.battery_remaining = whole<std::int8_t>(known ? 1e2 * battery.remaining : -1.0);
-    message.errors_comm = whole<std::uint16_t>(static_cast<double>(damaged));
-    return message;
+    return {.onboard_control_sensors_present = sensors.present,
+            .onboard_control_sensors_enabled = sensors.present,
+            .onboard_control_sensors_health = sensors.healthy,
+            .voltage_battery = known ? on_wire<std::uint16_t>(1e3 * battery.voltage_V) : kNoCell,
+            .current_battery = on_wire<std::int16_t>(known ? 1e2 * battery.current_A : -1.0),
+            .battery_remaining = on_wire<std::int8_t>(known ? 1e2 * battery.remaining : -1.0),
+            .errors_comm = on_wire<std::uint16_t>(static_cast<double>(damaged))};
 }
 
 Attitude attitude(const VehicleView& vehicle) {
     const Euler angles = euler_from_quaternion(vehicle.estimate.q_WB);
-    const Vector3& rate = vehicle.estimate.w_WB_B_rad_s;
-    return {.time_boot_ms = boot_ms(vehicle.time_s),
-            .roll = number(angles.roll_rad),
-            .pitch = number(angles.pitch_rad),
-            .yaw = number(angles.yaw_rad),
-            .rollspeed = number(rate.x()),
-            .pitchspeed = number(rate.y()),
-            .yawspeed = number(rate.z())};
+    Attitude message{.time_boot_ms = boot_ms(vehicle.time_s),
+                     .roll = on_wire<float>(angles.roll_rad),
+                     .pitch = on_wire<float>(angles.pitch_rad),
+                     .yaw = on_wire<float>(angles.yaw_rad)};
+    put(vehicle.estimate.w_WB_B_rad_s, message.rollspeed, message.pitchspeed, message.yawspeed);
+    return message;
 }
 
-LocalPositionNed local_position(const VehicleView& vehicle) {
-    const Vector3& p = vehicle.estimate.p_WB_m;
-    const Vector3& v = vehicle.estimate.v_WB_m_s;
-    return {.time_boot_ms = boot_ms(vehicle.time_s),
-            .x = number(p.x()),
-            .y = number(p.y()),
-            .z = number(p.z()),
-            .vx = number(v.x()),
-            .vy = number(v.y()),
-            .vz = number(v.z())};
+LocalPositionNed local_position(const Estimate& estimate, double time_s) {
+    LocalPositionNed message{.time_boot_ms = boot_ms(time_s)};
+    put(estimate.p_WB_m, message.x, message.y, message.z);
+    put(estimate.v_WB_m_s, message.vx, message.vy, message.vz);
+    return message;
 }
 
 GlobalPositionInt global_position(const VehicleView& vehicle, const GeographicOrigin& origin,
                                   const Vector3& home_W_m) {
-    const Vector3& p = vehicle.estimate.p_WB_m;
-    const Vector3 v_cm_s = 100.0 * vehicle.estimate.v_WB_m_s;
-    const GeographicOrigin at = geographic(p, origin);
-    return {.time_boot_ms = boot_ms(vehicle.time_s),
-            .lat = whole<std::int32_t>(1e7 * at.latitude_deg),
-            .lon = whole<std::int32_t>(1e7 * at.longitude_deg),
-            .alt = whole<std::int32_t>(1e3 * at.altitude_m),
-            .relative_alt = whole<std::int32_t>(1e3 * (home_W_m.z() - p.z())),
-            .vx = whole<std::int16_t>(v_cm_s.x()),
-            .vy = whole<std::int16_t>(v_cm_s.y()),
-            .vz = whole<std::int16_t>(v_cm_s.z()),
-            .hdg = heading_cdeg(vehicle.estimate.q_WB)};
+    const Estimate& estimate = vehicle.estimate;
+    GlobalPositionInt message{
+        .time_boot_ms = boot_ms(vehicle.time_s),
+        .relative_alt = on_wire<std::int32_t>(1e3 * (home_W_m.z() - estimate.p_WB_m.z())),
+        .hdg = centidegrees(euler_from_quaternion(estimate.q_WB).yaw_rad)};
+    put(geographic(estimate.p_WB_m, origin), message.lat, message.lon, message.alt);
+    put(100.0 * estimate.v_WB_m_s, message.vx, message.vy, message.vz);
+    return message;
 }
 
 HomePosition home_position(const Vector3& home_W_m, const GeographicOrigin& origin, double time_s) {
-    const GeographicOrigin at = geographic(home_W_m, origin);
-    HomePosition message;
-    message.latitude = whole<std::int32_t>(1e7 * at.latitude_deg);
-    message.longitude = whole<std::int32_t>(1e7 * at.longitude_deg);
-    message.altitude = whole<std::int32_t>(1e3 * at.altitude_m);
-    message.x = number(home_W_m.x());
-    message.y = number(home_W_m.y());
-    message.z = number(home_W_m.z());
-    message.q = {1.0F, 0.0F, 0.0F, 0.0F};
-    message.time_usec = whole<std::uint64_t>(1e6 * time_s);
+    HomePosition message{.q = {1.0F, 0.0F, 0.0F, 0.0F}, .time_usec = boot_us(time_s)};
+    put(geographic(home_W_m, origin), message.latitude, message.longitude, message.altitude);
+    put(home_W_m, message.x, message.y, message.z);
     return message;
 }
 
 BatteryStatus battery_status(const BatteryReading& battery, int cells) {
-    BatteryStatus message;
-    message.battery_function = kForEverything;
-    message.type = kLithiumPolymer;
-    message.temperature = kUnknownTemperature;
+    BatteryStatus message{.battery_function = MavBatteryFunction::all,
+                          .type = MavBatteryType::lipo,
+                          .temperature = kUnknownTemperature,
+                          .current_battery = on_wire<std::int16_t>(1e2 * battery.current_A),
+                          .current_consumed = -1,
+                          .energy_consumed = -1,
+                          .battery_remaining = on_wire<std::int8_t>(1e2 * battery.remaining),
+                          .charge_state = MavBatteryChargeState::ok};
+    const auto cell_mV = on_wire<std::uint16_t>(1e3 * battery.voltage_V / cells);
+    const int most = static_cast<int>(message.voltages.size());
+    const int others = static_cast<int>(message.voltages_ext.size());
     message.voltages.fill(kNoCell);
-    const auto cell_mV = whole<std::uint16_t>(1e3 * battery.voltage_V / cells);
-    const auto count = static_cast<std::size_t>(cells);
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i < message.voltages.size()) {
-            message.voltages[i] = cell_mV;
-        } else if (i - message.voltages.size() < message.voltages_ext.size()) {
-            message.voltages_ext[i - message.voltages.size()] = cell_mV;
-        }
-    }
-    message.current_battery = whole<std::int16_t>(1e2 * battery.current_A);
-    message.current_consumed = -1;
-    message.energy_consumed = -1;
-    message.battery_remaining = whole<std::int8_t>(1e2 * battery.remaining);
-    message.charge_state = kChargeOk;
+    std::fill_n(message.voltages.begin(), std::min(cells, most), cell_mV);
+    std::fill_n(message.voltages_ext.begin(), std::clamp(cells - most, 0, others), cell_mV);
     return message;
 }
 
-ExtendedSysState extended_sys_state(const VehicleView& vehicle) {
-    return {.vtol_state = 0, .landed_state = vehicle.armed ? kInAir : kOnGround};
+ExtendedSysState extended_sys_state(bool in_air) {
+    return {.landed_state = in_air ? MavLandedState::in_air : MavLandedState::on_ground};
 }
 
 AutopilotVersion autopilot_version(std::uint32_t software_version) {
-    AutopilotVersion message;
-    message.capabilities = kCapabilities;
-    message.flight_sw_version = software_version;
-    return message;
+    return {.capabilities = kCapabilities, .flight_sw_version = software_version};
 }
 
 }  // namespace limpet::mavlink

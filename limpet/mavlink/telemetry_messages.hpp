@@ -27,17 +27,20 @@ struct VehicleView {
     bool armed = false;
 };
 
-/// [ms] since the flight's beginning, as messages carry it
-[[nodiscard]] std::uint32_t boot_ms(double time_s);
+/// MAV_MODE_FLAG, as PX4 has it in OFFBOARD: guidance flies by set-points.
+inline constexpr std::uint8_t kOffboardFlags =
+    MavModeFlag::custom_mode_enabled | MavModeFlag::auto_enabled | MavModeFlag::guided_enabled |
+    MavModeFlag::stabilize_enabled;
 
-/// PX4's, a quadrotor, in OFFBOARD: guidance flies it by set-points.
-[[nodiscard]] Heartbeat heartbeat(const VehicleView& vehicle);
+/// PX4's, a quadrotor.
+/// @param mode_flags  MAV_MODE_FLAG but for the one that says whether it is armed
+[[nodiscard]] Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode);
 /// A sensor is present once it has spoken, healthy when its last sample is younger than a second.
 /// The load of a computer that is not simulated is 0.
 /// @param damaged  frames with a wrong checksum so far
 [[nodiscard]] SysStatus sys_status(const VehicleView& vehicle, std::uint64_t damaged);
 [[nodiscard]] Attitude attitude(const VehicleView& vehicle);
-[[nodiscard]] LocalPositionNed local_position(const VehicleView& vehicle);
+[[nodiscard]] LocalPositionNed local_position(const Estimate& estimate, double time_s);
 /// @param home_W_m  above which `relative_alt` counts
 [[nodiscard]] GlobalPositionInt global_position(const VehicleView& vehicle,
                                                 const GeographicOrigin& origin,
@@ -46,8 +49,7 @@ struct VehicleView {
                                          double time_s);
 /// Cells share the voltage alike; what was consumed is not measured.
 [[nodiscard]] BatteryStatus battery_status(const BatteryReading& battery, int cells);
-/// Landed when disarmed: so would PX4 say on a wall, with thrust 0 (px4.md).
-[[nodiscard]] ExtendedSysState extended_sys_state(const VehicleView& vehicle);
+[[nodiscard]] ExtendedSysState extended_sys_state(bool in_air);
 [[nodiscard]] AutopilotVersion autopilot_version(std::uint32_t software_version);
 
 }  // namespace limpet::mavlink

@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/translate.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "limpet/mavlink/numbers.hpp"
 
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kLocalNed = 1;   ///< MAV_FRAME_LOCAL_NED
-constexpr std::uint8_t kBodyFrd = 12;   ///< MAV_FRAME_BODY_FRD
-constexpr std::uint8_t kVision = 2;     ///< MAV_ESTIMATOR_TYPE_VISION
-constexpr std::uint8_t kAutopilot = 8;  ///< MAV_ESTIMATOR_TYPE_AUTOPILOT
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Diagonal of a 6 x 6 covariance sent as the rows of its upper right half.
 constexpr std::array<std::size_t, 6> kDiagonal = {0, 6, 11, 15, 18, 20};
 
-void put(const Vector3& from, float& x, float& y, float& z) {
-    x = static_cast<float>(from.x());
-    y = static_cast<float>(from.y());
-    z = static_cast<float>(from.z());
-}
-
-Vector3 vector(float x, float y, float z) {
-    return {x, y, z};
-}
-
-std::array<float, 4> wire(const Quaternion& q) {
-    return {static_cast<float>(q.w()), static_cast<float>(q.x()), static_cast<float>(q.y()),
-            static_cast<float>(q.z())};
+std::array<float, 4> four(const Quaternion& q) {
+    return {on_wire<float>(q.w()), on_wire<float>(q.x()), on_wire<float>(q.y()),
+            on_wire<float>(q.z())};
 }
 
 /// @return nothing for what is not finite or has no length
@@ -42,71 +29,89 @@ std::optional<Quaternion> quaternion(const std::array<float, 4>& q) {
     return raw.normalized();
 }
 
-std::uint16_t centimetres(double metres) {
-    return static_cast<std::uint16_t>(std::clamp(std::round(metres * 100.0), 0.0, 65535.0));
+/// What goes for every set-point in W.
+SetPositionTargetLocalNed local_target(std::uint16_t type_mask, double yaw_rad,
+                                       std::uint32_t time_boot_ms) {
+    return {.time_boot_ms = time_boot_ms,
+            .coordinate_frame = MavFrame::local_ned,
+            .type_mask = type_mask,
+            .yaw = on_wire<float>(yaw_rad)};
+}
+
+/// @param plain  the mask without feed-forward
+/// @param fed    the mask with it
+template <class Target>
+std::optional<Target> local_set_point(const SetPositionTargetLocalNed& message, std::uint16_t plain,
+                                      std::uint16_t fed, const Vector3& aim,
+                                      const Vector3& feedforward) {
+    const bool is_fed = message.type_mask == fed;
+    const bool known = message.coordinate_frame == MavFrame::local_ned &&
+                       (is_fed || message.type_mask == plain) && aim.allFinite() &&
+                       (!is_fed || feedforward.allFinite()) && std::isfinite(message.yaw);
+    return known ? std::optional(Target{aim, message.yaw, is_fed ? feedforward : Vector3(0, 0, 0)})
+                 : std::nullopt;
 }
 
 }  // namespace
 
 Odometry odometry(const PoseReading& pose, std::uint64_t time_usec) {
-    Odometry message;
-    message.time_usec = time_usec;
-    message.frame_id = kLocalNed;
-    message.child_frame_id = kBodyFrd;
+    Odometry message{.time_usec = time_usec,
+                     .frame_id = MavFrame::local_ned,
+                     .child_frame_id = MavFrame::body_frd,
+                     .q = four(pose.q_WB),
+                     .pose_covariance = {kUnknown},
+                     .velocity_covariance = {kUnknown},
+                     .estimator_type = MavEstimatorType::vision};
     put(pose.p_WB_m, message.x, message.y, message.z);
-    message.q = wire(pose.q_WB);
     message.vx = message.vy = message.vz = kUnknown;
     message.rollspeed = message.pitchspeed = message.yawspeed = kUnknown;
-    message.pose_covariance[0] = message.velocity_covariance[0] = kUnknown;
-    message.estimator_type = kVision;
     return message;
 }
 
 std::optional<PoseReading> pose_reading(const Odometry& odometry) {
     const auto q_WB = quaternion(odometry.q);
-    const PoseReading pose{.p_WB_m = vector(odometry.x, odometry.y, odometry.z),
-                           .q_WB = q_WB.value_or(Quaternion::Identity())};
-    if (odometry.estimator_type != kVision || odometry.frame_id != kLocalNed ||
-        odometry.child_frame_id != kBodyFrd || !q_WB || !pose.p_WB_m.allFinite()) {
+    const Vector3 p_WB_m(odometry.x, odometry.y, odometry.z);
+    if (odometry.estimator_type != MavEstimatorType::vision ||
+        odometry.frame_id != MavFrame::local_ned || odometry.child_frame_id != MavFrame::body_frd ||
+        !q_WB || !p_WB_m.allFinite()) {
         return std::nullopt;
     }
-    return pose;
+    return PoseReading{.p_WB_m = p_WB_m, .q_WB = *q_WB};
 }
 
 Odometry odometry(const Estimate& estimate, std::uint64_t time_usec) {
-    Odometry message;
-    message.time_usec = time_usec;
-    message.frame_id = message.child_frame_id = kLocalNed;
+    Odometry message{.time_usec = time_usec,
+                     .frame_id = MavFrame::local_ned,
+                     .child_frame_id = MavFrame::local_ned,
+                     .q = four(estimate.q_WB),
+                     .estimator_type = MavEstimatorType::autopilot,
+                     .quality = std::int8_t(estimate.valid ? 100 : -1)};
     put(estimate.p_WB_m, message.x, message.y, message.z);
-    message.q = wire(estimate.q_WB);
     put(estimate.v_WB_m_s, message.vx, message.vy, message.vz);
     put(estimate.w_WB_B_rad_s, message.rollspeed, message.pitchspeed, message.yawspeed);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        message.pose_covariance[kDiagonal[axis]] = static_cast<float>(estimate.variance[axis]);
-        message.pose_covariance[kDiagonal[axis + 3]] =
-            static_cast<float>(estimate.variance[axis + 6]);
-        message.velocity_covariance[kDiagonal[axis]] =
-            static_cast<float>(estimate.variance[axis + 3]);
+        const std::size_t at = kDiagonal[axis];
+        message.pose_covariance[at] = on_wire<float>(estimate.variance[axis]);
+        message.pose_covariance[kDiagonal[axis + 3]] = on_wire<float>(estimate.variance[axis + 6]);
+        message.velocity_covariance[at] = on_wire<float>(estimate.variance[axis + 3]);
     }
-    message.estimator_type = kAutopilot;
-    message.quality = estimate.valid ? 100 : -1;
     return message;
 }
 
 std::optional<Estimate> estimate_from(const Odometry& odometry) {
     const auto q_WB = quaternion(odometry.q);
-    const bool in_body = odometry.child_frame_id == kBodyFrd;
-    if (odometry.frame_id != kLocalNed || !(in_body || odometry.child_frame_id == kLocalNed) ||
-        !q_WB) {
+    const bool in_body = odometry.child_frame_id == MavFrame::body_frd;
+    if (odometry.frame_id != MavFrame::local_ned ||
+        !(in_body || odometry.child_frame_id == MavFrame::local_ned) || !q_WB) {
         return std::nullopt;
     }
     Estimate estimate;
     estimate.time_s = 1e-6 * static_cast<double>(odometry.time_usec);
-    estimate.p_WB_m = vector(odometry.x, odometry.y, odometry.z);
+    estimate.p_WB_m = {odometry.x, odometry.y, odometry.z};
     estimate.q_WB = *q_WB;
-    const Vector3 velocity = vector(odometry.vx, odometry.vy, odometry.vz);
+    const Vector3 velocity(odometry.vx, odometry.vy, odometry.vz);
     estimate.v_WB_m_s = in_body ? Vector3(*q_WB * velocity) : velocity;
-    estimate.w_WB_B_rad_s = vector(odometry.rollspeed, odometry.pitchspeed, odometry.yawspeed);
+    estimate.w_WB_B_rad_s = {odometry.rollspeed, odometry.pitchspeed, odometry.yawspeed};
     if (!estimate.p_WB_m.allFinite() || !estimate.v_WB_m_s.allFinite() ||
         !estimate.w_WB_B_rad_s.allFinite()) {
         return std::nullopt;
@@ -123,67 +128,41 @@ std::optional<Estimate> estimate_from(const Odometry& odometry) {
 
 SetPositionTargetLocalNed position_target(const PositionSetpoint& target,
                                           std::uint32_t time_boot_ms) {
-    SetPositionTargetLocalNed message;
-    message.time_boot_ms = time_boot_ms;
-    message.coordinate_frame = kLocalNed;
-    message.type_mask =
-        target.feedforward_v_W_m_s.isZero(0.0) ? kPositionYaw : kPositionVelocityYaw;
+    const bool fed = !target.feedforward_v_W_m_s.isZero(0.0);
+    SetPositionTargetLocalNed message =
+        local_target(fed ? kPositionVelocityYaw : kPositionYaw, target.yaw_rad, time_boot_ms);
     put(target.p_W_m, message.x, message.y, message.z);
     put(target.feedforward_v_W_m_s, message.vx, message.vy, message.vz);
-    message.yaw = static_cast<float>(target.yaw_rad);
     return message;
 }
 
 SetPositionTargetLocalNed position_target(const VelocitySetpoint& target,
                                           std::uint32_t time_boot_ms) {
-    SetPositionTargetLocalNed message;
-    message.time_boot_ms = time_boot_ms;
-    message.coordinate_frame = kLocalNed;
-    message.type_mask =
-        target.feedforward_a_W_m_s2.isZero(0.0) ? kVelocityYaw : kVelocityAccelerationYaw;
+    const bool fed = !target.feedforward_a_W_m_s2.isZero(0.0);
+    SetPositionTargetLocalNed message =
+        local_target(fed ? kVelocityAccelerationYaw : kVelocityYaw, target.yaw_rad, time_boot_ms);
     put(target.v_W_m_s, message.vx, message.vy, message.vz);
     put(target.feedforward_a_W_m_s2, message.afx, message.afy, message.afz);
-    message.yaw = static_cast<float>(target.yaw_rad);
     return message;
 }
 
 SetAttitudeTarget attitude_target(const AttitudeSetpoint& target, std::uint32_t time_boot_ms) {
-    SetAttitudeTarget message;
-    message.time_boot_ms = time_boot_ms;
-    message.type_mask = kAttitudeThrust;
-    message.q = wire(target.q_WB);
-    message.thrust = static_cast<float>(target.thrust);
-    return message;
+    return {.time_boot_ms = time_boot_ms,
+            .type_mask = kAttitudeThrust,
+            .q = four(target.q_WB),
+            .thrust = on_wire<float>(target.thrust)};
 }
 
 std::optional<PositionSetpoint> position_set_point(const SetPositionTargetLocalNed& message) {
-    const bool with_velocity = message.type_mask == kPositionVelocityYaw;
-    PositionSetpoint target{.p_W_m = vector(message.x, message.y, message.z),
-                            .yaw_rad = message.yaw};
-    if (with_velocity) {
-        target.feedforward_v_W_m_s = vector(message.vx, message.vy, message.vz);
-    }
-    if (message.coordinate_frame != kLocalNed ||
-        !(with_velocity || message.type_mask == kPositionYaw) || !target.p_W_m.allFinite() ||
-        !target.feedforward_v_W_m_s.allFinite() || !std::isfinite(target.yaw_rad)) {
-        return std::nullopt;
-    }
-    return target;
+    return local_set_point<PositionSetpoint>(message, kPositionYaw, kPositionVelocityYaw,
+                                             {message.x, message.y, message.z},
+                                             {message.vx, message.vy, message.vz});
 }
 
 std::optional<VelocitySetpoint> velocity_set_point(const SetPositionTargetLocalNed& message) {
-    const bool with_acceleration = message.type_mask == kVelocityAccelerationYaw;
-    VelocitySetpoint target{.v_W_m_s = vector(message.vx, message.vy, message.vz),
-                            .yaw_rad = message.yaw};
-    if (with_acceleration) {
-        target.feedforward_a_W_m_s2 = vector(message.afx, message.afy, message.afz);
-    }
-    if (message.coordinate_frame != kLocalNed ||
-        !(with_acceleration || message.type_mask == kVelocityYaw) || !target.v_W_m_s.allFinite() ||
-        !target.feedforward_a_W_m_s2.allFinite() || !std::isfinite(target.yaw_rad)) {
-        return std::nullopt;
-    }
-    return target;
+    return local_set_point<VelocitySetpoint>(message, kVelocityYaw, kVelocityAccelerationYaw,
+                                             {message.vx, message.vy, message.vz},
+                                             {message.afx, message.afy, message.afz});
 }
 
 std::optional<AttitudeSetpoint> attitude_set_point(const SetAttitudeTarget& message) {
@@ -197,14 +176,13 @@ std::optional<AttitudeSetpoint> attitude_set_point(const SetAttitudeTarget& mess
 DistanceSensor distance_sensor(const RangeReading& range, std::uint8_t id, double minimum_m,
                                double maximum_m, std::uint32_t time_boot_ms) {
     constexpr std::uint8_t kUnknownCovariance = 255;
-    DistanceSensor message;
-    message.time_boot_ms = time_boot_ms;
-    message.min_distance = centimetres(minimum_m);
-    message.max_distance = centimetres(maximum_m);
-    message.current_distance = range.valid ? centimetres(range.distance_m) : std::uint16_t{0};
-    message.id = id;
-    message.covariance = kUnknownCovariance;
-    return message;
+    return {
+        .time_boot_ms = time_boot_ms,
+        .min_distance = on_wire<std::uint16_t>(100.0 * minimum_m),
+        .max_distance = on_wire<std::uint16_t>(100.0 * maximum_m),
+        .current_distance = on_wire<std::uint16_t>(range.valid ? 100.0 * range.distance_m : 0.0),
+        .id = id,
+        .covariance = kUnknownCovariance};
 }
 
 RangeReading range_reading(const DistanceSensor& message) {

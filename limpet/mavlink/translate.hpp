@@ -42,6 +42,9 @@ struct GeographicOrigin {
 };
 /// @return latitude, longitude [deg] and altitude above sea [m] of a point
 [[nodiscard]] GeographicOrigin geographic(const Vector3& p_W_m, const GeographicOrigin& origin);
+/// As messages carry it: [1e-7 deg], [mm].
+void put(const GeographicOrigin& place, std::int32_t& latitude, std::int32_t& longitude,
+         std::int32_t& altitude);
 
 /// HIL_SENSOR::fields_updated
 inline constexpr std::uint32_t kImuFields = 0x3F;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "limpet/mavlink/numbers.hpp"
 #include "limpet/mavlink/translate.hpp"
 
 // What the simulator and the autopilot in its loop tell each other.
@@ -22,13 +22,6 @@ constexpr std::uint16_t kHorizontalError_cm = 90;
 constexpr std::uint16_t kVerticalError_cm = 150;
 constexpr std::uint16_t kUnknownCourse = 65535;
 constexpr std::uint16_t kSlowest_cm_s = 10;  ///< below, a course over ground means nothing
-
-template <class Whole>
-Whole whole(double value) {
-    return static_cast<Whole>(std::clamp(std::round(value),
-                                         static_cast<double>(std::numeric_limits<Whole>::lowest()),
-                                         static_cast<double>(std::numeric_limits<Whole>::max())));
-}
 
 /// North and east of the origin [m].
 Vector3 local(double latitude_deg, double longitude_deg, const GeographicOrigin& origin) {
@@ -63,29 +56,30 @@ GeographicOrigin geographic(const Vector3& p_W_m, const GeographicOrigin& origin
             .altitude_m = origin.altitude_m - p_W_m.z()};
 }
 
+void put(const GeographicOrigin& place, std::int32_t& latitude, std::int32_t& longitude,
+         std::int32_t& altitude) {
+    latitude = on_wire<std::int32_t>(1e7 * place.latitude_deg);
+    longitude = on_wire<std::int32_t>(1e7 * place.longitude_deg);
+    altitude = on_wire<std::int32_t>(1e3 * place.altitude_m);
+}
+
 HilSensor hil_sensor(const Readings& readings, const Readings& last, std::uint64_t time_usec) {
-    const auto number = [](double value) { return static_cast<float>(value); };
+    const auto fields = [&](auto sensor, std::uint32_t bits) {
+        return (readings.*sensor).newer_than(last.*sensor) ? bits : 0U;
+    };
     const ImuReading& imu = readings.imu.value;
-    const Vector3& field = readings.magnetometer.value.field_B_gauss;
     const BarometerReading& barometer = readings.barometer.value;
-    HilSensor message;
-    message.time_usec = time_usec;
-    message.xacc = number(imu.specific_force_B_m_s2.x());
-    message.yacc = number(imu.specific_force_B_m_s2.y());
-    message.zacc = number(imu.specific_force_B_m_s2.z());
-    message.xgyro = number(imu.rate_B_rad_s.x());
-    message.ygyro = number(imu.rate_B_rad_s.y());
-    message.zgyro = number(imu.rate_B_rad_s.z());
-    message.xmag = number(field.x());
-    message.ymag = number(field.y());
-    message.zmag = number(field.z());
-    message.abs_pressure = number(barometer.pressure_Pa / kPascalsPerHectopascal);
-    message.pressure_alt = number(barometer.altitude_m);
-    message.temperature = kTemperature_degC;
-    message.fields_updated =
-        (readings.imu.newer_than(last.imu) ? kImuFields : 0U) |
-        (readings.magnetometer.newer_than(last.magnetometer) ? kMagnetometerFields : 0U) |
-        (readings.barometer.newer_than(last.barometer) ? kBarometerFields : 0U);
+    HilSensor message{
+        .time_usec = time_usec,
+        .abs_pressure = on_wire<float>(barometer.pressure_Pa / kPascalsPerHectopascal),
+        .pressure_alt = on_wire<float>(barometer.altitude_m),
+        .temperature = kTemperature_degC,
+        .fields_updated = fields(&Readings::imu, kImuFields) |
+                          fields(&Readings::magnetometer, kMagnetometerFields) |
+                          fields(&Readings::barometer, kBarometerFields)};
+    put(imu.specific_force_B_m_s2, message.xacc, message.yacc, message.zacc);
+    put(imu.rate_B_rad_s, message.xgyro, message.ygyro, message.zgyro);
+    put(readings.magnetometer.value.field_B_gauss, message.xmag, message.ymag, message.zmag);
     return message;
 }
 
@@ -113,29 +107,19 @@ void take(const HilSensor& message, double time_s, Readings& readings) {
 }
 
 HilGps hil_gps(const GpsReading& gps, const GeographicOrigin& origin, std::uint64_t time_usec) {
-    constexpr double kCentimetres = 100.0;
-    const GeographicOrigin at = geographic(gps.p_WB_m, origin);
-    const Vector3 velocity_cm_s = kCentimetres * gps.v_WB_m_s;
-    HilGps message;
-    message.time_usec = time_usec;
-    message.fix_type = kFix3D;
-    message.lat = whole<std::int32_t>(1e7 * at.latitude_deg);
-    message.lon = whole<std::int32_t>(1e7 * at.longitude_deg);
-    message.alt = whole<std::int32_t>(1e3 * at.altitude_m);
-    message.eph = kHorizontalError_cm;
-    message.epv = kVerticalError_cm;
-    message.vel = whole<std::uint16_t>(velocity_cm_s.head<2>().norm());
-    message.vn = whole<std::int16_t>(velocity_cm_s.x());
-    message.ve = whole<std::int16_t>(velocity_cm_s.y());
-    message.vd = whole<std::int16_t>(velocity_cm_s.z());
-    message.cog = kUnknownCourse;
+    const Vector3 v_cm_s = 100.0 * gps.v_WB_m_s;
+    HilGps message{.time_usec = time_usec,
+                   .fix_type = kFix3D,
+                   .eph = kHorizontalError_cm,
+                   .epv = kVerticalError_cm,
+                   .vel = on_wire<std::uint16_t>(v_cm_s.head<2>().norm()),
+                   .cog = kUnknownCourse,
+                   .satellites_visible = kSatellites};
+    put(geographic(gps.p_WB_m, origin), message.lat, message.lon, message.alt);
+    put(v_cm_s, message.vn, message.ve, message.vd);
     if (message.vel >= kSlowest_cm_s) {
-        const double course_deg = degrees(std::atan2(velocity_cm_s.y(), velocity_cm_s.x()));
-        message.cog = static_cast<std::uint16_t>(
-            whole<std::uint16_t>(100.0 * (course_deg < 0.0 ? course_deg + 360.0 : course_deg)) %
-            36000U);
+        message.cog = centidegrees(std::atan2(v_cm_s.y(), v_cm_s.x()));
     }
-    message.satellites_visible = kSatellites;
     return message;
 }
 
@@ -161,14 +145,13 @@ RotorCommand rotor_command(const HilActuatorControls& controls) {
 }
 
 HilActuatorControls hil_actuator_controls(const RotorCommand& command, std::uint64_t time_usec) {
-    constexpr std::uint8_t kCustomMode = 1;  // MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
     constexpr std::uint64_t kLockstep = 1;
-    HilActuatorControls message;
-    message.time_usec = time_usec;
-    message.mode = command.armed ? kCustomMode | kArmedFlag : kCustomMode;
-    message.flags = kLockstep;
-    for (std::size_t i = 0; i < command.command.size(); ++i) {
-        message.controls[i] = command.armed ? static_cast<float>(command.command[i]) : 0.0F;
+    HilActuatorControls message{
+        .time_usec = time_usec, .mode = MavModeFlag::custom_mode_enabled, .flags = kLockstep};
+    if (command.armed) {
+        message.mode |= kArmedFlag;
+        std::transform(command.command.begin(), command.command.end(), message.controls.begin(),
+                       on_wire<float>);
     }
     return message;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "limpet/wire/transport.hpp"
@@ -11,19 +10,25 @@
 namespace limpet::px4 {
 namespace {
 
-using mavlink::CommandAck;
-using mavlink::CommandLong;
 using mavlink::decode;
-using mavlink::Frame;
-using mavlink::Link;
 using Clock = std::chrono::steady_clock;
-
-constexpr std::uint8_t kReal32 = 9;  ///< MAV_PARAM_TYPE
-constexpr std::uint8_t kInt32 = 6;
 
 mavlink::Link open_hil(const StandInOptions& options) {
     return {open_transport(options.hil, wire::Role::connect),
             {.system = options.system, .component = mavlink::kAutopilotComponent}};
+}
+
+std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& rows) {
+    std::vector<mavlink::ServedParameter> parameters;
+    for (const BoundParameter& row : rows) {
+        parameters.push_back({.name = std::string(row.name),
+                              .value = row.value.get(),
+                              .minimum = row.minimum,
+                              .maximum = row.maximum,
+                              .whole = row.value.is_whole(),
+                              .int32 = row.value.is_whole()});
+    }
+    return parameters;
 }
 
 std::chrono::nanoseconds left_until(Clock::time_point end) {
@@ -34,7 +39,21 @@ std::chrono::nanoseconds left_until(Clock::time_point end) {
 }  // namespace
 
 StandIn::StandIn(autopilot::AutopilotModel model, const StandInOptions& options)
-    : options_(options), model_(std::move(model)), hil_(open_hil(options)) {
+    : options_(options),
+      model_(std::move(model)),
+      // Out of range or of the wrong type it stays as it was, and the answer alone tells so.
+      parameters_(
+          served(wire_parameters(options_.parameters, model_.parameters)),
+          [this](std::string_view name, double value) {
+              for (const BoundParameter& row :
+                   wire_parameters(options_.parameters, model_.parameters)) {
+                  if (row.name == name) {
+                      row.value.set(value);
+                  }
+              }
+          },
+          [](std::string_view) {}),
+      hil_(open_hil(options)) {
     if (options.hil.medium != wire::Medium::serial) {
         onboard_.emplace(open_udp_between(options.onboard, options.onboard_peer), hil_.self());
     }
@@ -42,11 +61,6 @@ StandIn::StandIn(autopilot::AutopilotModel model, const StandInOptions& options)
 
 std::optional<wire::TransportAddress> StandIn::onboard_address() const {
     return onboard_ ? std::optional(onboard_->transport().address()) : std::nullopt;
-}
-
-bool StandIn::for_us(std::uint8_t system, std::uint8_t component) const {
-    return (system == 0 || system == options_.system) &&
-           (component == 0 || component == mavlink::kAutopilotComponent);
 }
 
 void StandIn::boot() {
@@ -58,11 +72,10 @@ void StandIn::boot() {
     ++count_.boots;
     // PX4 asks for the truth, and needs no answer
     constexpr float kTruthInterval_us = 5000.0F;
-    mavlink::CommandLong ask;
-    ask.command = mavlink::kCommandMessageInterval;
-    ask.param1 = static_cast<float>(mavlink::HilStateQuaternion::kId);
-    ask.param2 = kTruthInterval_us;
-    (void)hil_.send(ask);
+    (void)hil_.send(
+        mavlink::CommandLong{.command = mavlink::kCommandMessageInterval,
+                             .param1 = static_cast<float>(mavlink::HilStateQuaternion::kId),
+                             .param2 = kTruthInterval_us});
     (void)hil_.send(heartbeat(flight_));
 }
 
@@ -115,8 +128,9 @@ void StandIn::hear_sensor(const mavlink::HilSensor& sensor) {
     ++sensors_;
     const int boots = lockstep() ? options_.boot_sensors : 0;
     if (sensors_ > boots + options_.quiet_sensors) {
-        send_due(streams_, flight_, onboard_ ? *onboard_ : hil_, ground_station_);
+        send_due(streams_, flight_, telemetry(), ground_station_);
     }
+    parameters_.update(telemetry());
     if (sensors_ > boots) {
         auto answer = mavlink::hil_actuator_controls(flight_.command, sensor.time_usec);
         answer.flags = lockstep() ? 1 : 0;
@@ -126,41 +140,39 @@ void StandIn::hear_sensor(const mavlink::HilSensor& sensor) {
 }
 
 void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
-    constexpr std::uint8_t kGroundStation = 6;  // MAV_TYPE_GCS
     if (frame.system == options_.system && frame.component == mavlink::kAutopilotComponent) {
         return;  // an echo
     }
     if (const auto beat = decode<mavlink::Heartbeat>(frame)) {
-        ground_station_ = ground_station_ || beat->type == kGroundStation;
+        ground_station_ = ground_station_ || beat->type == mavlink::MavType::gcs;
     } else if (const auto command = decode<mavlink::CommandLong>(frame)) {
         hear_command(*command, frame, link);
     } else if (const auto position = decode<mavlink::SetPositionTargetLocalNed>(frame)) {
-        if (for_us(position->target_system, position->target_component)) {
+        if (addressed_to(hil_.self(), *position)) {
             hear(flight_, *position);
         }
     } else if (const auto attitude = decode<mavlink::SetAttitudeTarget>(frame)) {
-        if (for_us(attitude->target_system, attitude->target_component)) {
+        if (addressed_to(hil_.self(), *attitude)) {
             hear(flight_, *attitude);
         }
     } else if (const auto pose = decode<mavlink::Odometry>(frame)) {
         hear(flight_, *pose);
     } else if (const auto origin = decode<mavlink::SetGpsGlobalOrigin>(frame)) {
-        flight_.has_origin = flight_.has_origin || for_us(origin->target_system, 0);
+        flight_.has_origin = flight_.has_origin || origin->target_system == 0 ||
+                             origin->target_system == options_.system;
     } else if (const auto clocks = decode<mavlink::TimeSync>(frame)) {
         if (clocks->tc1 == 0) {
-            mavlink::TimeSync answer;
-            answer.tc1 = static_cast<std::int64_t>(std::llround(1e9 * flight_.time_s));
-            answer.ts1 = clocks->ts1;
-            (void)link.send(answer);
+            (void)link.send(
+                mavlink::TimeSync{.tc1 = std::llround(1e9 * flight_.time_s), .ts1 = clocks->ts1});
         }
     } else {
-        hear_parameters(frame, link);
+        (void)parameters_.handle(frame, link);
     }
 }
 
 void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
                            mavlink::Link& link) {
-    if (!for_us(command.target_system, command.target_component)) {
+    if (!addressed_to(hil_.self(), command)) {
         return;
     }
     CommandResult result = CommandResult::unsupported;
@@ -170,66 +182,7 @@ void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::F
     } else if (const auto obeyed = obey(options_.parameters, flight_, command)) {
         result = *obeyed;
     }
-    mavlink::CommandAck ack;
-    ack.command = command.command;
-    ack.result = static_cast<std::uint8_t>(result);
-    ack.target_system = from.system;
-    ack.target_component = from.component;
-    (void)link.send(ack);
-}
-
-void StandIn::tell(const WireParameter& parameter, mavlink::Link& link) {
-    mavlink::ParamValue message;
-    mavlink::set_text(message.param_id, parameter.name);
-    message.param_value = static_cast<float>(parameter.value);
-    message.param_type = kReal32;
-    if (parameter.is_integer) {  // PX4 sends an integer's bytes in the float
-        const auto whole = static_cast<std::int32_t>(parameter.value);
-        std::memcpy(&message.param_value, &whole, sizeof(whole));
-        message.param_type = kInt32;
-    }
-    message.param_count = wire_parameter_count();
-    message.param_index = parameter.index;
-    (void)link.send(message);
-}
-
-void StandIn::hear_parameters(const mavlink::Frame& frame, mavlink::Link& link) {
-    if (const auto read = decode<mavlink::ParamRequestRead>(frame)) {
-        const auto found =
-            read->param_index < 0
-                ? wire_parameter(parameters(), mavlink::text_of(read->param_id))
-                : wire_parameter(parameters(), static_cast<std::uint16_t>(read->param_index));
-        if (found && for_us(read->target_system, read->target_component)) {
-            tell(*found, link);
-        }
-    } else if (const auto list = decode<mavlink::ParamRequestList>(frame)) {
-        const bool ours = for_us(list->target_system, list->target_component);
-        for (std::uint16_t i = 0; ours && i < wire_parameter_count(); ++i) {
-            tell(*wire_parameter(parameters(), i), link);
-        }
-    } else if (const auto set = decode<mavlink::ParamSet>(frame)) {
-        if (for_us(set->target_system, set->target_component)) {
-            hear_setting(*set, link);
-        }
-    }
-}
-
-void StandIn::hear_setting(const mavlink::ParamSet& set, mavlink::Link& link) {
-    const auto known = wire_parameter(parameters(), mavlink::text_of(set.param_id));
-    if (!known) {
-        return;
-    }
-    double value = set.param_value;
-    if (set.param_type == kInt32) {
-        std::int32_t whole = 0;
-        std::memcpy(&whole, &set.param_value, sizeof(whole));
-        value = whole;
-    }
-    // of the wrong type or out of range it stays as it was, and the answer tells so
-    if ((set.param_type == kInt32) == known->is_integer) {
-        (void)set_wire_parameter(parameters(), known->name, value);
-    }
-    tell(*wire_parameter(parameters(), known->name), link);
+    (void)link.send(mavlink::acknowledgement(command, result, from));
 }
 
 }  // namespace limpet::px4

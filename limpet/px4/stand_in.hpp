@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/parameter_server.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 #include "limpet/px4/stand_in_streams.hpp"
 
@@ -51,6 +52,8 @@ class StandIn {
 public:
     /// @throws InputError when an address cannot be used
     StandIn(autopilot::AutopilotModel model, const StandInOptions& options);
+    StandIn(const StandIn&) = delete;
+    StandIn& operator=(const StandIn&) = delete;
 
     /// Serves what comes within `slice` of wall time.
     /// @return whether a simulator is there
@@ -64,22 +67,18 @@ public:
 
 private:
     [[nodiscard]] bool lockstep() const { return onboard_.has_value(); }
-    [[nodiscard]] WireParameters parameters() {
-        return {.commander = options_.parameters, .autopilot = model_.parameters};
-    }
     void boot();
     void hear_simulator(const mavlink::Frame& frame);
     void hear_sensor(const mavlink::HilSensor& sensor);
     void hear_companion(const mavlink::Frame& frame, mavlink::Link& link);
     void hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
                       mavlink::Link& link);
-    void hear_parameters(const mavlink::Frame& frame, mavlink::Link& link);
-    void hear_setting(const mavlink::ParamSet& set, mavlink::Link& link);
-    void tell(const WireParameter& parameter, mavlink::Link& link);
-    [[nodiscard]] bool for_us(std::uint8_t system, std::uint8_t component) const;
+    /// @return where it tells of itself
+    [[nodiscard]] mavlink::Link& telemetry() { return onboard_ ? *onboard_ : hil_; }
 
     StandInOptions options_;
     autopilot::AutopilotModel model_;
+    mavlink::ParameterServer parameters_;
     mavlink::Link hil_;
     std::optional<mavlink::Link> onboard_;
     StandInFlight flight_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "limpet/mavlink/messages.hpp"
 #include "limpet/px4/stand_in_parameters.hpp"
 
 /// PX4's commander and land detector as far as perching meets them: who may arm, what is in flight,
@@ -34,14 +35,7 @@ enum class FlightMode {
     offboard,
 };
 
-/// MAV_RESULT
-enum class CommandResult : std::uint8_t {
-    accepted = 0,
-    temporarily_rejected = 1,
-    denied = 2,
-    unsupported = 3,
-    failed = 4,
-};
+using CommandResult = mavlink::MavResult::Value;
 
 /// What is said aloud in a step, for STATUSTEXT; literals.
 struct SpokenTexts {

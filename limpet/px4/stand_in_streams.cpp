@@ -3,67 +3,37 @@
 
 #include <cmath>
 
+#include "limpet/mavlink/numbers.hpp"
+#include "limpet/mavlink/telemetry_messages.hpp"
+
 namespace limpet::px4 {
 namespace {
 
-using mavlink::AttitudeQuaternion;
-using mavlink::ExtendedSysState;
-using mavlink::Heartbeat;
-using mavlink::LocalPositionNed;
-using mavlink::Odometry;
-using mavlink::StatusText;
-
-std::uint32_t boot_ms(const StandInFlight& flight) {
-    return static_cast<std::uint32_t>(std::llround(1e3 * flight.time_s));
-}
-
-std::uint64_t boot_us(const StandInFlight& flight) {
-    return static_cast<std::uint64_t>(std::llround(1e6 * flight.time_s));
-}
-
 mavlink::AttitudeQuaternion attitude(const StandInFlight& flight) {
     const Estimate& estimate = flight.autopilot.estimate;
-    mavlink::AttitudeQuaternion message;
-    message.time_boot_ms = boot_ms(flight);
-    message.q1 = static_cast<float>(estimate.q_WB.w());
-    message.q2 = static_cast<float>(estimate.q_WB.x());
-    message.q3 = static_cast<float>(estimate.q_WB.y());
-    message.q4 = static_cast<float>(estimate.q_WB.z());
-    message.rollspeed = static_cast<float>(estimate.w_WB_B_rad_s.x());
-    message.pitchspeed = static_cast<float>(estimate.w_WB_B_rad_s.y());
-    message.yawspeed = static_cast<float>(estimate.w_WB_B_rad_s.z());
+    mavlink::AttitudeQuaternion message{
+        .time_boot_ms = mavlink::boot_ms(flight.time_s),
+        .q1 = mavlink::on_wire<float>(estimate.q_WB.w()),
+    };
+    mavlink::put(estimate.q_WB.vec(), message.q2, message.q3, message.q4);
+    mavlink::put(estimate.w_WB_B_rad_s, message.rollspeed, message.pitchspeed, message.yawspeed);
     return message;
 }
 
-mavlink::LocalPositionNed local_position(const StandInFlight& flight) {
+void send(std::uint32_t id, const StandInFlight& flight, mavlink::Link& link) {
     const Estimate& estimate = flight.autopilot.estimate;
-    mavlink::LocalPositionNed message;
-    message.time_boot_ms = boot_ms(flight);
-    message.x = static_cast<float>(estimate.p_WB_m.x());
-    message.y = static_cast<float>(estimate.p_WB_m.y());
-    message.z = static_cast<float>(estimate.p_WB_m.z());
-    message.vx = static_cast<float>(estimate.v_WB_m_s.x());
-    message.vy = static_cast<float>(estimate.v_WB_m_s.y());
-    message.vz = static_cast<float>(estimate.v_WB_m_s.z());
-    return message;
-}
-
-mavlink::ExtendedSysState landed_state(const StandInFlight& flight) {
-    constexpr std::uint8_t kOnGround = 1;  // MAV_LANDED_STATE
-    constexpr std::uint8_t kInAir = 2;
-    mavlink::ExtendedSysState message;
-    message.landed_state = flight.manners.in_air() ? kInAir : kOnGround;
-    return message;
-}
-
-void send(const TelemetryStream& stream, const StandInFlight& flight, mavlink::Link& link) {
-    switch (stream.id) {
+    const double time_s = flight.time_s;
+    switch (id) {
         case mavlink::Heartbeat::kId: (void)link.send(heartbeat(flight)); break;
-        case mavlink::ExtendedSysState::kId: (void)link.send(landed_state(flight)); break;
+        case mavlink::ExtendedSysState::kId:
+            (void)link.send(mavlink::extended_sys_state(flight.manners.in_air()));
+            break;
         case mavlink::AttitudeQuaternion::kId: (void)link.send(attitude(flight)); break;
-        case mavlink::LocalPositionNed::kId: (void)link.send(local_position(flight)); break;
+        case mavlink::LocalPositionNed::kId:
+            (void)link.send(mavlink::local_position(estimate, time_s));
+            break;
         case mavlink::Odometry::kId:
-            (void)link.send(mavlink::odometry(flight.autopilot.estimate, boot_us(flight)));
+            (void)link.send(mavlink::odometry(estimate, mavlink::boot_us(time_s)));
             break;
         default: break;
     }
@@ -74,31 +44,26 @@ bool tells_the_estimate(std::uint32_t id) {
 }
 
 void send_texts(const SpokenTexts& spoken, mavlink::Link& link) {
-    constexpr std::uint8_t kInformation = 6;  // MAV_SEVERITY
     for (std::size_t i = 0; i < spoken.count; ++i) {
-        mavlink::StatusText message;
-        message.severity = kInformation;
+        mavlink::StatusText message{.severity = mavlink::MavSeverity::info};
         mavlink::set_text(message.text, spoken.texts[i]);
         (void)link.send(message);
     }
 }
 
-TelemetryStream stream(std::uint32_t id, double rate_Hz) {
-    return {.id = id, .default_interval_s = 1.0 / rate_Hz, .interval_s = 1.0 / rate_Hz};
-}
-
 }  // namespace
 
 TelemetryStreams::TelemetryStreams()
-    : streams{stream(mavlink::Heartbeat::kId, 1.0), stream(mavlink::ExtendedSysState::kId, 5.0),
-              stream(mavlink::AttitudeQuaternion::kId, 50.0),
-              stream(mavlink::LocalPositionNed::kId, 30.0), stream(mavlink::Odometry::kId, 30.0)} {}
+    : streams{{{mavlink::Heartbeat::kId, mavlink::StreamTiming(1.0)},
+               {mavlink::ExtendedSysState::kId, mavlink::StreamTiming(5.0)},
+               {mavlink::AttitudeQuaternion::kId, mavlink::StreamTiming(50.0)},
+               {mavlink::LocalPositionNed::kId, mavlink::StreamTiming(30.0)},
+               {mavlink::Odometry::kId, mavlink::StreamTiming(30.0)}}} {}
 
 bool set_interval(TelemetryStreams& streams, double id, double interval_us) {
-    for (TelemetryStream& stream : streams.streams) {
+    for (auto& stream : streams.streams) {
         if (static_cast<double>(stream.id) == id && std::isfinite(interval_us)) {
-            stream.interval_s = interval_us == 0.0 ? stream.default_interval_s : 1e-6 * interval_us;
-            stream.next_s = 0.0;
+            stream.timing.set_interval(interval_us);
             return true;
         }
     }
@@ -107,18 +72,10 @@ bool set_interval(TelemetryStreams& streams, double id, double interval_us) {
 
 void send_due(TelemetryStreams& streams, StandInFlight& flight, mavlink::Link& link,
               bool says_texts) {
-    constexpr double kRounding_s = 1e-6;
-    for (TelemetryStream& stream : streams.streams) {
-        const bool off =
-            stream.interval_s <= 0.0 || (tells_the_estimate(stream.id) && !flight.aligned);
-        if (off || flight.time_s < stream.next_s - kRounding_s) {
-            continue;
-        }
-        send(stream, flight, link);
-        // keeps the mean rate; after a pause it does not catch up
-        stream.next_s += stream.interval_s;
-        if (stream.next_s <= flight.time_s) {
-            stream.next_s = flight.time_s + stream.interval_s;
+    for (auto& stream : streams.streams) {
+        const bool known = flight.aligned || !tells_the_estimate(stream.id);
+        if (known && stream.timing.due(flight.time_s)) {
+            send(stream.id, flight, link);
         }
     }
     if (says_texts) {
@@ -128,24 +85,11 @@ void send_due(TelemetryStreams& streams, StandInFlight& flight, mavlink::Link& l
 }
 
 mavlink::Heartbeat heartbeat(const StandInFlight& flight) {
-    constexpr std::uint8_t kQuadrotor = 2;
-    constexpr std::uint8_t kPx4 = 12;
-    constexpr std::uint8_t kCustomMode = 1;
-    constexpr std::uint8_t kStandby = 3;  // MAV_STATE
-    constexpr std::uint8_t kActive = 4;
-    constexpr std::uint8_t kVersion = 3;
-    const bool armed = flight.manners.armed();
-    mavlink::Heartbeat message;
-    message.type = kQuadrotor;
-    message.autopilot = kPx4;
-    message.base_mode = armed ? kCustomMode | mavlink::kArmedFlag : kCustomMode;
-    message.custom_mode =
+    return mavlink::heartbeat(
+        flight.manners.armed(), mavlink::MavModeFlag::custom_mode_enabled,
         flight.manners.mode == FlightMode::offboard
             ? mavlink::custom_mode(mavlink::kMainModeOffboard)
-            : mavlink::custom_mode(mavlink::kMainModeAuto, mavlink::kSubModeLoiter);
-    message.system_status = armed ? kActive : kStandby;
-    message.mavlink_version = kVersion;
-    return message;
+            : mavlink::custom_mode(mavlink::kMainModeAuto, mavlink::kSubModeLoiter));
 }
 
 }  // namespace limpet::px4

@@ -5,21 +5,19 @@
 #include <cstdint>
 
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/stream_timing.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 
 /// What the stand-in tells of itself, at rates that a peer may change. Simulated time.
 namespace limpet::px4 {
 
-struct TelemetryStream {
-    std::uint32_t id = 0;
-    double default_interval_s = 0.0;
-    double interval_s = 0.0;  ///< <= 0: off
-    double next_s = 0.0;
-};
-
 /// Rates of PX4's onboard mode where px4.md or a peer does not say otherwise.
 struct TelemetryStreams {
-    std::array<TelemetryStream, 5> streams;
+    struct Stream {
+        std::uint32_t id = 0;
+        mavlink::StreamTiming timing;
+    };
+    std::array<Stream, 5> streams;
     TelemetryStreams();
 };
 

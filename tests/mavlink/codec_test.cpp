@@ -297,8 +297,9 @@ TEST(Payloads, OfAnotherMessageAreNotTaken) {
 TEST(FinishFrame, RefusesAPayloadThatNoFrameHolds) {
     Sender from;
     FrameBuffer buffer = {};
-    EXPECT_THROW((void)finish_frame(buffer, 0, 0, 50, from), InternalError);
-    EXPECT_THROW((void)finish_frame(buffer, 256, 0, 50, from), InternalError);
+    EXPECT_THROW((void)finish_frame(buffer, MessageInfo{.payload_bytes = 0}, from), InternalError);
+    EXPECT_THROW((void)finish_frame(buffer, MessageInfo{.payload_bytes = 256}, from),
+                 InternalError);
 }
 
 TEST(Codec, AllocatesNothing) {

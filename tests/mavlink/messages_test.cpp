@@ -24,22 +24,24 @@ const TableRow* row_of(std::uint32_t id) {
 /// As in the table: "name@offset ...".
 template <class Message>
 std::string offsets_of() {
-    constexpr auto& kPlace = kLayout<Message>;
     std::string text;
-    for (const std::size_t i : kPlace.order) {
-        if (!text.empty()) {
-            text += ' ';
-        }
-        text += kPlace.shapes[i].name;
-        text += '@';
-        text += std::to_string(kPlace.offset[i]);
-    }
+    std::size_t offset = 0;
+    Message message;
+    for_each_field(message, [&](std::string_view name, const auto& value) {
+        text += text.empty() ? "" : " ";
+        text += std::string(name) + '@' + std::to_string(offset);
+        offset += sizeof(value);
+    });
     return text;
 }
 
-static_assert(kLayout<HilSensor>.crc_extra == 108, "computed when compiling");
-static_assert(checksum(kChecksumSeed, std::string_view("123456789")) == 0x6F91,
-              "check value of CRC-16/MCRF4XX");
+static_assert(HilSensor::kInfo.crc_extra == 108, "known when compiling");
+
+TEST(FrameChecksum, HasTheCheckValueOfItsCrc) {  // CRC-16/MCRF4XX of 123456789
+    constexpr std::array<std::uint8_t, 9> kBytes = {kStart2, '1', '2', '3', '4',
+                                                    '5',     '6', '7', '8'};
+    EXPECT_EQ(frame_checksum(kBytes, '9'), 0x6F91);
+}
 
 TEST(Messages, LieOnTheWireAsInTheTable) {
     static_assert(std::tuple_size_v<AllMessages> == kTable.size());
@@ -49,8 +51,8 @@ TEST(Messages, LieOnTheWireAsInTheTable) {
         const TableRow* row = row_of(Message::kId);
         ASSERT_NE(row, nullptr);
         EXPECT_EQ(Message::kName, row->name);
-        EXPECT_EQ(kLayout<Message>.payload_bytes, row->payload_bytes);
-        EXPECT_EQ(kLayout<Message>.bytes_without_extensions, row->bytes_without_extensions);
+        EXPECT_EQ(Message::kInfo.payload_bytes, row->payload_bytes);
+        EXPECT_EQ(Message::kInfo.bytes_without_extensions, row->bytes_without_extensions);
         EXPECT_EQ(offsets_of<Message>(), row->offsets);
     });
 }

@@ -41,19 +41,20 @@ std::string json_element(T value) {
 template <class Value>
 std::string json_value(const Value& value) {
     std::string text;
-    using Element = typename WireType<Value>::Element;
-    detail::for_each_element(value, [&](const auto& element) {
-        if constexpr (std::is_same_v<Element, char>) {
+    for_each_element(value, [&](const auto& element) {
+        if constexpr (std::is_same_v<decltype(element), const char&>) {
             text += fmt::format("\\u{:04x}", static_cast<unsigned char>(element));
         } else {
             text += text.empty() ? "" : ",";
             text += json_element(element);
         }
     });
-    if constexpr (std::is_same_v<Element, char>) {
+    if constexpr (std::is_arithmetic_v<Value>) {
+        return text;
+    } else if constexpr (std::is_same_v<typename Value::value_type, char>) {
         return '"' + text + '"';
     } else {
-        return WireType<Value>::kIsArray ? '[' + text + ']' : text;
+        return '[' + text + ']';
     }
 }
 

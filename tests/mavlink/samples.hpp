@@ -59,7 +59,7 @@ template <class Message>
     Message message;
     int count = 0;
     for_each_field(message, [&](std::string_view, auto& value) {
-        detail::for_each_element(value, [&](auto& element) {
+        for_each_element(value, [&](auto& element) {
             element = sample_value<std::remove_reference_t<decltype(element)>>(filling, count++);
         });
     });

@@ -21,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 TEST_F(Watched, SendsEveryStreamAtItsRateOfSimulatedTime) {
     fly(501);  // 0 to 10 s, both ends included
     std::map<std::uint32_t, double> wanted;
-    for (const StreamRate& row : telemetry_streams()) {
+    for (const Telemetry::Stream& row : Telemetry::kStreams) {
         wanted[row.message_id] += 10.0 * row.rate_Hz + 1.0;
     }
     std::map<std::uint32_t, double> heard;
