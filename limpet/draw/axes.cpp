@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/draw/axes.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include "limpet/draw/chart_parts.hpp"
 
 namespace limpet::draw {
 namespace {
@@ -77,9 +77,7 @@ Range y_axis(const ChartPanel& panel) {
     }
     Extent extent{panel.log_y};
     for (const ChartSeries& series : panel.series) {
-        if (series.mark != Mark::none) {
-            extent.show(series.y);
-        }
+        extent.show(series.y);
         extent.show(series.low);
         extent.show(series.high);
     }
@@ -156,8 +154,7 @@ ChartSeries thinned(const ChartSeries& series, const Range& x, std::size_t bins)
         // false.
         for (std::size_t i = first; i < end; ++i) {
             if (gap || std::find(kept.begin(), kept.end(), i) != kept.end()) {
-                thin.x.push_back(series.x[i]);
-                thin.y.push_back(series.y[i]);
+                thin.add(series.x[i], series.y[i]);
             }
         }
         first = end;

@@ -29,17 +29,33 @@ struct ChartSeries {
         steps,   ///< holds each value until the next
         points,  ///< each series with a shape of its own
         bars,    ///< from 0 up or down; several series stand side by side
-        none,    ///< the band or the intervals alone
     };
     std::string name = {};  ///< in the legend; without one it is not there
     Mark mark = Mark::line;
     std::vector<double> x = {};
     std::vector<double> y = {};
-    std::vector<double> low = {};   ///< lower ends of intervals, or empty
+    std::vector<double> low = {};   ///< lower ends of intervals around points or bars, or empty
     std::vector<double> high = {};  ///< upper ends
-    bool band = false;              ///< intervals as a band instead of error bars
     std::string colour = {};        ///< "#RRGGBB" (colours.hpp); empty: the palette's next
     double width = 2.0;             ///< of the line
+
+    void add(double at_x, double at_y) {
+        x.push_back(at_x);
+        y.push_back(at_y);
+    }
+    void add(double at_x, double at_y, const Range& interval) {
+        add(at_x, at_y);
+        low.push_back(interval.low);
+        high.push_back(interval.high);
+    }
+    /// A function's values at the ends of so many equal parts of a range.
+    template <class Function>
+    void add(const Range& range, int parts, const Function& function) {
+        for (int i = 0; i <= parts; ++i) {
+            const double at_x = range.low + (range.high - range.low) * i / parts;
+            add(at_x, function(at_x));
+        }
+    }
 };
 
 /// A line across the panel that means something.
@@ -71,6 +87,12 @@ struct ChartPanel {
     bool from_zero = false;    ///< it begins at 0
     bool x_numbers = true;     ///< false: they stand under the panel below
     double height_px = 280.0;  ///< of the plot itself
+
+    /// Adds a category. @return its x
+    double category(const std::string& name) {
+        categories.push_back(name);
+        return static_cast<double>(categories.size() - 1);
+    }
 };
 
 /// A marked place on a map; not shown where it lies beside it.
@@ -78,22 +100,20 @@ struct HeatPoint {
     double x = 0.0;
     double y = 0.0;
     std::string label = {};
-    bool filled = true;  ///< hollow where not: two kinds of places
 };
 
-/// A value over a grid as colours, with contour lines. Colours run from blue below 0 over white at
-/// 0 to orange above it; for values that have no sign from white to blue.
+/// A value over a grid as colours, with contour lines, a thick one at 0. Colours run from blue
+/// below 0 over white at 0 to orange above it.
 struct HeatPanel {
     std::string title = {};
     std::string x_label = {};
     std::string y_label = {};
-    std::string z_label = {};           ///< over the colour bar
-    std::vector<double> x = {};         ///< ascending, at least two, evenly spaced
-    std::vector<double> y = {};         ///< likewise
-    std::vector<double> z = {};         ///< value of (x[i], y[j]) at j * x.size() + i; NaN: grey
-    std::vector<double> levels = {};    ///< contour lines, with their values
-    bool signed_values = true;          ///< with a thick contour at 0
-    std::optional<Range> z_range = {};  ///< of the colours; without: what the values need
+    std::string z_label = {};         ///< over the colour bar
+    std::vector<double> x = {};       ///< ascending, at least two, evenly spaced
+    std::vector<double> y = {};       ///< likewise
+    std::vector<double> z = {};       ///< value of (x[i], y[j]) at j * x.size() + i
+    std::vector<double> levels = {};  ///< contour lines, with their values; without that of 0
+    double z_most = 1.0;              ///< colours end here, below 0 and above
     std::vector<HeatPoint> points = {};
     double height_px = 380.0;
 };

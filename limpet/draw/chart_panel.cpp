@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/draw/axes.hpp"
 #include "limpet/draw/chart_parts.hpp"
 #include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
@@ -32,6 +31,8 @@ void check(const ChartPanel& panel) {
         require(s.x.size() == s.y.size(), "a series has as many x as y");
         require(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()),
                 "a series has an interval for each point, or none");
+        require(s.low.empty() || s.mark == Mark::points || s.mark == Mark::bars,
+                "intervals stand around points and bars");
     }
     for (const auto& range : {panel.x_range, panel.y_range}) {
         require(!range || range->low < range->high, "a range has a low end and a high end");
@@ -61,9 +62,8 @@ std::size_t count_of(const ChartPanel& panel, Mark mark, std::size_t before) {
 
 bool has_number(const ChartPanel& panel) {
     return std::any_of(panel.series.begin(), panel.series.end(), [&panel](const ChartSeries& s) {
-        const auto& y = s.mark == Mark::none ? s.high : s.y;
-        for (std::size_t i = 0; i < y.size(); ++i) {
-            if (drawable(s.x[i], panel.log_x) && drawable(y[i], panel.log_y)) {
+        for (std::size_t i = 0; i < s.y.size(); ++i) {
+            if (drawable(s.x[i], panel.log_x) && drawable(s.y[i], panel.log_y)) {
                 return true;
             }
         }
@@ -97,24 +97,28 @@ Key key_of(const ChartPanel& panel, double width_px) {
             static_cast<std::size_t>(std::ceil(entries / columns))};
 }
 
+/// Those within an axis, ascending.
+std::vector<ChartLine> within(std::vector<ChartLine> lines, const Range& axis, bool logarithmic) {
+    const auto outside = [&](const ChartLine& line) {
+        return !drawable(line.at, logarithmic) || line.at < axis.low || line.at > axis.high;
+    };
+    lines.erase(std::remove_if(lines.begin(), lines.end(), outside), lines.end());
+    std::stable_sort(lines.begin(), lines.end(),
+                     [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
+    return lines;
+}
+
 /// Moments within the axes from left to right, with room for their names.
 struct MomentNames {
-    std::vector<ChartLine> lines;
-    std::vector<double> at_px;  ///< from the plot's left
-    bool slanted = false;       ///< they do not fit beside each other, each at its line's right
+    std::vector<ChartLine> lines = {};
+    std::vector<double> at_px = {};  ///< from the plot's left
+    bool slanted = false;  ///< they do not fit beside each other, each at its line's right
     double height_px = 0.0;
 };
 
 MomentNames moments_of(const ChartPanel& panel, double width_px) {
-    MomentNames names;
     const Range x = x_axis(panel);
-    for (const ChartLine& moment : panel.moments) {
-        if (drawable(moment.at, panel.log_x) && moment.at >= x.low && moment.at <= x.high) {
-            names.lines.push_back(moment);
-        }
-    }
-    std::stable_sort(names.lines.begin(), names.lines.end(),
-                     [](const ChartLine& a, const ChartLine& b) { return a.at < b.at; });
+    MomentNames names{.lines = within(panel.moments, x, panel.log_x)};
     double longest = 0.0, taken = 0.0;
     for (const ChartLine& line : names.lines) {
         names.at_px.push_back(share_of(line.at, x, panel.log_x) * width_px);
@@ -226,31 +230,17 @@ private:
 
     /// Lines at their heights, names at the right, moved apart where they would touch.
     void levels() {
-        std::vector<ChartLine> shown;
-        std::copy_if(panel_.levels.begin(), panel_.levels.end(), std::back_inserter(shown),
-                     [this](const ChartLine& level) {
-                         return drawable(level.at, panel_.log_y) && level.at >= y_.low &&
-                                level.at <= y_.high;
-                     });
-        std::sort(shown.begin(), shown.end(),
-                  [](const ChartLine& a, const ChartLine& b) { return a.at > b.at; });
+        std::vector<ChartLine> shown = within(panel_.levels, y_, panel_.log_y);
+        std::reverse(shown.begin(), shown.end());  // from the top
         std::vector<double> wanted;
-        std::vector<std::vector<std::string>> names;
-        std::size_t most = 1;
         for (const ChartLine& level : shown) {
-            names.push_back(wrapped(level.label, kChartSmall_px, kLevelNames_px));
-            most = std::max(most, names.back().size());
             const double y = wanted.emplace_back(y_px(level.at));
             sketch_.line(box_.left_px, y, box_.right_px, y, colours::kLevel, 1.2, "back dt (8,5)");
         }
-        const auto placed =
-            spread(wanted, kLevelLine_px * static_cast<double>(most), box_.top_px, box_.bottom_px);
+        const auto placed = spread(wanted, kLevelLine_px, box_.top_px, box_.bottom_px);
         for (std::size_t i = 0; i < shown.size(); ++i) {
-            double y = placed[i] - 0.5 * kLevelLine_px * static_cast<double>(names[i].size() - 1);
-            for (const std::string& line : names[i]) {
-                sketch_.label(box_.right_px + 10.0, y, line, kChartSmall_px, colours::kLevel);
-                y += kLevelLine_px;
-            }
+            sketch_.label(box_.right_px + 10.0, placed[i], shown[i].label, kChartSmall_px,
+                          colours::kLevel);
         }
     }
 
@@ -326,25 +316,8 @@ private:
                         0.5 * (y_.low + y_.high));
             return;
         }
-        std::vector<int> blocks;
         for (std::size_t i = 0; i < panel_.series.size(); ++i) {
-            const ChartSeries& all = panel_.series[i];
-            const bool line = (all.mark == Mark::line || all.mark == Mark::dashes) &&
-                              all.low.empty() && std::is_sorted(all.x.begin(), all.x.end());
-            // More points cannot be told apart on the page.
-            const auto bins = static_cast<std::size_t>(line ? box_.width_px() : 1e9);
-            const ChartSeries s = thinned(all, x_, bins);
-            blocks.push_back(s.low.empty() ? data_.add({&s.x, &s.y})
-                                           : data_.add({&s.x, &s.y, &s.low, &s.high}));
-            if (s.band && !s.low.empty()) {
-                clause(blocks[i], "1:3:4",
-                       fmt::format("filledcurves fs noborder fc rgb '#B0{}'",
-                                   colour_of(panel_, i).substr(1)),
-                       s.mark == Mark::none ? s.name : "");
-            }
-        }
-        for (std::size_t i = 0; i < panel_.series.size(); ++i) {
-            series(i, blocks[i]);
+            series(i);
         }
         sketch_.add("plot {}\n", clauses_);
     }
@@ -357,24 +330,25 @@ private:
                                 title.empty() ? "notitle" : "title " + gnuplot::literal(title));
     }
 
-    void series(std::size_t index, int block) {
-        const ChartSeries& s = panel_.series[index];
+    void series(std::size_t index) {
+        const ChartSeries& all = panel_.series[index];
+        const bool line = (all.mark == Mark::line || all.mark == Mark::dashes) &&
+                          std::is_sorted(all.x.begin(), all.x.end());
+        // More points cannot be told apart on the page.
+        const ChartSeries s =
+            line ? thinned(all, x_, static_cast<std::size_t>(box_.width_px())) : all;
+        const bool errors = !s.low.empty();
+        const int block =
+            errors ? data_.add({&s.x, &s.y, &s.low, &s.high}) : data_.add({&s.x, &s.y});
         const std::string colour = colour_of(panel_, index);
-        const bool errors = !s.low.empty() && !s.band;
         // An interval that reaches below a logarithmic axis ends on it.
         const std::string low =
             panel_.log_y ? fmt::format("($3>{0:.10g}?$3:{0:.10g})", y_.low) : "3";
         const std::string pen = fmt::format("lc rgb '{}' lw {}", colour, s.width);
-        std::string x = "1";
         switch (s.mark) {
-            case Mark::line: clause(block, "1:2", "lines " + pen, s.name); break;
-            case Mark::dashes: clause(block, "1:2", "lines dt (9,5) " + pen, s.name); break;
-            case Mark::steps: clause(block, "1:2", "steps " + pen, s.name); break;
-            case Mark::bars:
-                x = fmt::format("($1+{:.10g})", bar_shift(index));
-                clause(block, fmt::format("{}:2:({:.10g})", x, 0.94 * bar_width()),
-                       fmt::format("boxes fs solid noborder fc rgb '{}'", colour), s.name);
-                break;
+            case Mark::line: clause(block, "1:2", "lines " + pen, s.name); return;
+            case Mark::dashes: clause(block, "1:2", "lines dt (9,5) " + pen, s.name); return;
+            case Mark::steps: clause(block, "1:2", "steps " + pen, s.name); return;
             case Mark::points:
                 clause(
                     block, errors ? "1:2:" + low + ":4" : "1:2",
@@ -384,13 +358,16 @@ private:
                                 colour),
                     s.name);
                 return;
-            case Mark::none: break;
+            case Mark::bars: break;
         }
+        const std::string x = fmt::format("($1+{:.10g})", bar_shift(index));
+        clause(block, fmt::format("{}:2:({:.10g})", x, 0.94 * bar_width()),
+               fmt::format("boxes fs solid noborder fc rgb '{}'", colour), s.name);
         if (errors) {
-            clause(block, fmt::format("{}:{}:(0):($4-{})", x, low, low == "3" ? "$3" : low),
-                   fmt::format("vectors heads size screen 0.005,90 lw 1.6 lc rgb '{}'",
-                               s.mark == Mark::bars ? colours::kInk : colour.c_str()),
-                   s.mark == Mark::none ? s.name : "");
+            clause(
+                block, fmt::format("{}:{}:(0):($4-{})", x, low, low == "3" ? "$3" : low),
+                fmt::format("vectors heads size screen 0.005,90 lw 1.6 lc rgb '{}'", colours::kInk),
+                "");
         }
     }
 
@@ -431,11 +408,9 @@ double right_px(const ChartPanel& panel) {
     check(panel);
     double names = 6.0;
     for (const ChartLine& level : panel.levels) {
-        for (const std::string& line : wrapped(level.label, kChartSmall_px, kLevelNames_px)) {
-            names = std::max(names, text_width_px(line, kChartSmall_px));
-        }
+        names = std::max(names, text_width_px(level.label, kChartSmall_px));
     }
-    return names + 10.0;
+    return std::min(names, kLevelNames_px) + 10.0;
 }
 
 double head_px(const ChartPanel& panel, double width_px) {

@@ -13,7 +13,6 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <vector>
 
 #include "limpet/core/errors.hpp"
 
@@ -22,27 +21,6 @@ namespace {
 
 constexpr const char* kScript = "script.gp";
 constexpr const char* kLog = "gnuplot.log";
-
-/// Where the child runs, and where its words go.
-class FileActions {
-public:
-    explicit FileActions(const std::filesystem::path& folder) {
-        posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
-        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, kLog,
-                                         O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
-    }
-    ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-    FileActions(const FileActions&) = delete;
-    FileActions& operator=(const FileActions&) = delete;
-
-    [[nodiscard]] const posix_spawn_file_actions_t* get() const { return &actions_; }
-
-private:
-    posix_spawn_file_actions_t actions_{};
-};
 
 std::string read_text(const std::filesystem::path& path) {
     std::ifstream file(path);
@@ -97,13 +75,20 @@ void run(const std::filesystem::path& folder, const std::string& script) {
     if (!file) {
         throw InputError(fmt::format("cannot write {}", (folder / kScript).string()));
     }
-    const FileActions actions(folder);
+    // Where the child runs, and where its words go.
+    posix_spawn_file_actions_t actions{};
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, kLog, O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     // -d: the user's own start-up files shall not colour the figures.
     std::string words[] = {"gnuplot", "-d", kScript};
-    std::vector<char*> arguments = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+    char* const arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
     pid_t child = 0;
-    const int problem =
-        posix_spawnp(&child, "gnuplot", actions.get(), nullptr, arguments.data(), environ);
+    const int problem = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
     if (problem == ENOENT || problem == EACCES) {
         throw InputError("gnuplot is not installed (apt-get install gnuplot-nox)");
     }

@@ -2,33 +2,17 @@
 #include "limpet/draw/html.hpp"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
 #include <cctype>
 #include <cstdint>
 #include <cstdio>
+#include <regex>
 
 #include "limpet/core/errors.hpp"
 
 namespace limpet::draw::html {
 namespace {
-
-/// Turns pairs of a mark into an element.
-std::string paired(const std::string& text, const std::string& mark, const std::string& element) {
-    std::string out;
-    std::size_t from = 0;
-    while (true) {
-        const std::size_t open = text.find(mark, from);
-        const std::size_t close =
-            open == text.npos ? text.npos : text.find(mark, open + mark.size());
-        if (close == text.npos) {
-            return out + text.substr(from);
-        }
-        const std::size_t begin = open + mark.size();
-        out += text.substr(from, open - from);
-        out += fmt::format("<{0}>{1}</{0}>", element, text.substr(begin, close - begin));
-        from = close + mark.size();
-    }
-}
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -56,7 +40,9 @@ std::string escaped(std::string_view text) {
 }
 
 std::string marked_up(std::string_view text) {
-    return paired(paired(escaped(text), "**", "strong"), "`", "code");
+    static const std::regex bold(R"(\*\*([^]*?)\*\*)"), code("`([^]*?)`");
+    const std::string strong = std::regex_replace(escaped(text), bold, "<strong>$1</strong>");
+    return std::regex_replace(strong, code, "<code>$1</code>");
 }
 
 std::string link(std::string_view relative_path) {
@@ -71,19 +57,10 @@ std::string link(std::string_view relative_path) {
 }
 
 std::string base64(std::string_view bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = bytes.size() - i;
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            word = word << 8u | (k < left ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            out += k <= left ? kDigits[word >> (18u - 6u * k) & 63u] : '=';
-        }
-    }
+    std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');  // and a zero behind it
+    out.resize(static_cast<std::size_t>(EVP_EncodeBlock(
+        reinterpret_cast<unsigned char*>(out.data()),
+        reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()))));
     return out;
 }
 

@@ -4,17 +4,6 @@
 #include <algorithm>
 
 namespace limpet::draw {
-namespace {
-
-/// Area that two boxes share.
-double shared_px2(const Box& a, const Box& b) {
-    const double wide = std::min(a.right_px, b.right_px) - std::max(a.left_px, b.left_px);
-    const double high = std::min(a.bottom_px, b.bottom_px) - std::max(a.top_px, b.top_px);
-    return std::max(0.0, wide) * std::max(0.0, high);
-}
-
-}  // namespace
-
 std::vector<double> spread(const std::vector<double>& wanted, double gap, double low, double high) {
     const std::size_t count = wanted.size();
     if (count == 0) {
@@ -55,30 +44,6 @@ double text_width_px(std::string_view text, double size_px) {
         return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // UTF-8: counts first bytes
     });
     return kMeanWidth * size_px * static_cast<double>(letters);
-}
-
-Box beside(double x_px, double y_px, double width_px, double height_px, double gap_px,
-           const std::vector<Box>& taken, const Box& page) {
-    const double up = 0.5 * height_px, side = 0.5 * width_px;
-    const Box places[] = {
-        {x_px + gap_px, y_px - up, x_px + gap_px + width_px, y_px + up},
-        {x_px - gap_px - width_px, y_px - up, x_px - gap_px, y_px + up},
-        {x_px - side, y_px - gap_px - height_px, x_px + side, y_px - gap_px},
-        {x_px - side, y_px + gap_px, x_px + side, y_px + gap_px + height_px},
-    };
-    const Box* best = nullptr;
-    double least_px2 = 0.0;
-    for (const Box& place : places) {
-        double bad_px2 = width_px * height_px - shared_px2(place, page);
-        for (const Box& other : taken) {
-            bad_px2 += shared_px2(place, other);
-        }
-        if (best == nullptr || bad_px2 < least_px2 - 1e-6) {
-            best = &place;
-            least_px2 = bad_px2;
-        }
-    }
-    return *best;
 }
 
 std::vector<std::string> wrapped(std::string_view text, double size_px, double width_px) {

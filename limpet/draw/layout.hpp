@@ -38,12 +38,6 @@ struct Box {
     [[nodiscard]] double height_px() const { return bottom_px - top_px; }
 };
 
-/// A place for a name beside a mark: right of it, left, above or below, the first that lies within
-/// `page` and covers nothing that is taken; the least bad one where none does.
-/// @param gap_px  from the mark's centre to the name
-[[nodiscard]] Box beside(double x_px, double y_px, double width_px, double height_px, double gap_px,
-                         const std::vector<Box>& taken, const Box& page);
-
 /// Breaks a text at spaces into lines that fit; a word that is longer than a line stays whole.
 /// @return at least one line
 [[nodiscard]] std::vector<std::string> wrapped(std::string_view text, double size_px,

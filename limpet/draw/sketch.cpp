@@ -49,7 +49,7 @@ void Sketch::forget() {
     add("unset label\nunset arrow\nunset object\n");
 }
 
-std::string Sketch::script(const std::string& stem) const {
+std::string Sketch::script(const std::string& stem, bool svg) const {
     for (const char c : stem) {
         require(std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-',
                 "a picture's name is of letters, digits, '_' and '-'");
@@ -59,17 +59,21 @@ std::string Sketch::script(const std::string& stem) const {
     const std::string body = text_ + "unset multiplot\nunset output\n";
     // Fonts are measured in points of 1/72 in at 96 dpi in a PNG, in pixels in an SVG, where marks
     // are larger as well.
-    return fmt::format("DATA = '{}.txt'\nMARK = 1.0\n", stem) + preparation_ +
-           fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size,
-                       stem) +
-           body + "reset\nMARK = 0.65\n" +
-           fmt::format("set terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
+    std::string script =
+        fmt::format("DATA = '{}.txt'\nMARK = 1.0\n", stem) + preparation_ +
+        fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size, stem) +
+        body;
+    if (svg) {
+        script += "reset\nMARK = 0.65\n" +
+                  fmt::format("set terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
+    }
+    return script;
 }
 
 std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string& data,
                                         const std::string& stem,
-                                        const std::filesystem::path& folder) {
-    const std::string script = sketch.script(stem);
+                                        const std::filesystem::path& folder, bool svg) {
+    const std::string script = sketch.script(stem, svg);
     std::ofstream file(folder / (stem + ".txt"), std::ios::binary);
     file << data;
     file.close();
@@ -77,7 +81,11 @@ std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string&
         throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
     }
     gnuplot::run(folder, script);
-    return {folder / (stem + ".png"), folder / (stem + ".svg")};
+    std::vector<std::filesystem::path> drawn = {folder / (stem + ".png")};
+    if (svg) {
+        drawn.push_back(folder / (stem + ".svg"));
+    }
+    return drawn;
 }
 
 }  // namespace limpet::draw

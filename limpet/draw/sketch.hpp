@@ -48,7 +48,7 @@ public:
     /// @return a script that draws STEM.png and STEM.svg with STEM.txt as DATA; sizes of
     /// marks are in units of MARK
     /// @param stem  of letters, digits, '_' and '-'
-    [[nodiscard]] std::string script(const std::string& stem) const;
+    [[nodiscard]] std::string script(const std::string& stem, bool svg = true) const;
 
 private:
     Canvas canvas_;
@@ -58,10 +58,12 @@ private:
 };
 
 /// Runs a sketch in `folder`, with `data` as STEM.txt there.
+/// @param svg  false: of photographs only a PNG is made
 /// @return STEM.png and STEM.svg
 /// @throws InputError when the folder cannot be written or gnuplot is not installed
 [[nodiscard]] std::vector<std::filesystem::path> draw(const Sketch& sketch, const std::string& data,
                                                       const std::string& stem,
-                                                      const std::filesystem::path& folder);
+                                                      const std::filesystem::path& folder,
+                                                      bool svg = true);
 
 }  // namespace limpet::draw

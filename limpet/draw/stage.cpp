@@ -44,16 +44,6 @@ private:
     void (*warning_)(const char*);
 };
 
-struct DeleteData {
-    void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-/// @return address in qpos, or -1
-int joint_address(const mjModel& model, const char* name) {
-    const int id = mj_name2id(&model, mjOBJ_JOINT, name);
-    return id < 0 ? -1 : model.jnt_qposadr[id];
-}
-
 int base_address(const mjModel& model) {
     const int body = mj_name2id(&model, mjOBJ_BODY, "base");
     const int joint = body < 0 ? -1 : model.body_jntadr[body];
@@ -90,7 +80,8 @@ struct Stage::Parts {
     ErrorHooks hooks;
     OffscreenContext screen;
     MujocoModel model;
-    std::unique_ptr<mjData, DeleteData> data;
+    std::unique_ptr<mjData, decltype(&mj_deleteData)> data{nullptr, mj_deleteData};
+    double* base;  ///< place and attitude, in qpos
     mjvScene scene;
     mjrContext renderer;
     mjvOption option;
@@ -99,12 +90,13 @@ struct Stage::Parts {
 
     Parts(const std::string& mjcf, int width, int height)
         : model(compile_mjcf(mjcf)), width_px(width), height_px(height) {
-        (void)base_address(*model);
+        const int base_at = base_address(*model);
         model->vis.global.offwidth = kOversampling * width;
         model->vis.global.offheight = kOversampling * height;
         model->vis.global.fovy = static_cast<float>(kAngleOfSight_deg);
         model->vis.quality.offsamples = kSamples;
         data.reset(mj_makeData(model.get()));
+        base = data->qpos + base_at;
         mjv_defaultOption(&option);
         mjv_defaultScene(&scene);
         mjr_defaultContext(&renderer);
@@ -133,9 +125,9 @@ struct Stage::Parts {
     }
 
     void set_joint(const char* name, double value) {
-        const int address = joint_address(*model, name);
-        if (address >= 0) {
-            data->qpos[address] = value;
+        const int id = mj_name2id(model.get(), mjOBJ_JOINT, name);
+        if (id >= 0) {
+            data->qpos[model->jnt_qposadr[id]] = value;
         }
     }
 
@@ -147,11 +139,10 @@ struct Stage::Parts {
     }
 
     void set(const Pose& pose) {
-        double* base = data->qpos + base_address(*model);
-        std::copy_n(pose.position_m.data(), 3, base);
         const Quaternion& q = pose.attitude;
         const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
-        std::copy(std::begin(wxyz), std::end(wxyz), base + 3);
+        std::copy_n(pose.position_m.data(), 3, base);
+        std::copy_n(wxyz, 4, base + 3);
         set_joint("slider", pose.slider_m);
         set_joint("cup_pitch", pose.cup_pitch_rad);
         set_joint("cup_yaw", pose.cup_yaw_rad);

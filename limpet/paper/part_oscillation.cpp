@@ -85,7 +85,7 @@ report::PageFigure map_figure(const std::vector<StabilityMap>& maps,
         panel.y = map.pivot_m;
         panel.z = map.growth_1_s;
         panel.levels = {-0.4, -0.2, 0.2, 0.4};
-        panel.z_range = draw::Range{-0.6, 0.6};
+        panel.z_most = 0.6;
         if (map.gains.empty()) {
             for (const MapPoint& sample : samples) {
                 panel.points.push_back({.x = 1000.0 * sample.lag_s,

@@ -15,12 +15,8 @@ std::string number(double value, bool with_sign) {
         return "not a number";
     }
     const double shown = value + 0.0;  // no negative zero
-    std::string text;
-    if (std::abs(shown) >= 1e4 && std::abs(shown) < 1e9) {
-        text = fmt::format("{:.0f}", shown);
-    } else {
-        text = fmt::format("{:.4g}", shown);
-    }
+    const bool long_one = std::abs(shown) >= 1e4 && std::abs(shown) < 1e9;
+    const std::string text = long_one ? fmt::format("{:.0f}", shown) : fmt::format("{:.4g}", shown);
     if (text[0] == '-') {
         return "−" + text.substr(1);
     }

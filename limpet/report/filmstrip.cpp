@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
-#include "limpet/draw/layout.hpp"
+#include "limpet/draw/sketch.hpp"
 #include "limpet/draw/stage.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/report/moments.hpp"
@@ -23,6 +23,9 @@ constexpr int kGap_px = 16;
 constexpr int kMargin_px = 32;
 constexpr int kTitle_px = 84;
 constexpr int kCaption_px = 84;
+constexpr double kFont_px = 80.0 / 3.0;
+constexpr double kTitleFont_px = 104.0 / 3.0;
+constexpr double kSmallFont_px = 24.0;
 
 /// The camera: from the vehicle's right, a little behind and above, so that the wall's face shows.
 constexpr double kTowardsWall_rad = radians(11.0);
@@ -71,75 +74,41 @@ struct Sheet {
     }
 };
 
-void paste(const draw::Image& image, int left_px, int top_px, draw::Image& canvas) {
-    const std::size_t bytes = 3u * static_cast<std::size_t>(image.width_px);
+/// Into a page of so many pixels across.
+void paste(const draw::Image& image, int left_px, int top_px, int across_px, std::string& page) {
+    const std::ptrdiff_t bytes = 3 * image.width_px;
     for (int row = 0; row < image.height_px; ++row) {
-        const auto from = image.rgb.begin() + static_cast<std::ptrdiff_t>(bytes) * row;
-        const auto to = canvas.rgb.begin() + 3 * ((top_px + row) * canvas.width_px + left_px);
-        std::copy_n(from, bytes, to);
+        std::copy_n(image.rgb.begin() + bytes * row, bytes,
+                    page.begin() + 3 * ((top_px + row) * across_px + left_px));
     }
-}
-
-draw::Image blank(const draw::Canvas& page) {
-    draw::Image image{page.width_px, page.height_px, {}};
-    image.rgb.assign(
-        3u * static_cast<std::size_t>(page.width_px) * static_cast<std::size_t>(page.height_px),
-        0xFF);
-    return image;
-}
-
-std::string label(const draw::Canvas& page, double x_px, double y_px, const std::string& text,
-                  int size, const char* colour, const char* face = "") {
-    return fmt::format(
-        "set label {} at screen {:.5f}, screen {:.5f} left font 'DejaVu Sans{},{}' textcolor rgb "
-        "'{}' front\n",
-        draw::gnuplot::literal(text), page.x(x_px), page.y(y_px), face, size, colour);
 }
 
 /// The photographs go as raw pixels, the letters by gnuplot over them.
-std::string script_of(const record::Recording& recording, const std::vector<Moment>& moments,
-                      const Sheet& sheet, const std::string& title, const std::string& stem) {
-    const draw::Canvas& page = sheet.page;
-    std::string script = fmt::format(
-        "set terminal pngcairo size {0},{1} noenhanced font 'DejaVu Sans,20' background "
-        "'#FFFFFF'\nset output '{2}.png'\nset encoding utf8\nunset key\nunset tics\nunset border\n"
-        "set lmargin at screen 0\nset rmargin at screen 1\nset bmargin at screen 0\n"
-        "set tmargin at screen 1\nset xrange [-0.5:{0}-0.5]\nset yrange [-0.5:{1}-0.5]\n",
-        page.width_px, page.height_px, stem);
-    script += label(page, kMargin_px, 0.5 * kTitle_px, title, 26, "#222B33");
-    for (std::size_t i = 0; i < moments.size(); ++i) {
-        const double x = sheet.left_px(i), y = sheet.top_px(i) + kFrameHeight_px;
-        script += label(page, x + 2.0, y + 22.0, fmt::format("{}  {}", i + 1, moments[i].name), 20,
-                        "#222B33");
-        script +=
-            label(page, x + 2.0, y + 52.0, caption_at(recording, moments[i].time_s), 18, "#6B7680");
-    }
-    script += fmt::format(
-        "plot '{}.rgb' binary array=({},{}) flipy format='%uchar%uchar%uchar' using 1:2:3 with "
-        "rgbimage\nunset output\n",
-        stem, page.width_px, page.height_px);
-    return script;
-}
-
 std::filesystem::path make_film(const record::Recording& recording, draw::Stage& stage,
                                 const std::vector<Moment>& moments, const std::string& title,
                                 const std::string& stem, const std::filesystem::path& folder) {
     const Sheet sheet(moments.size());
-    draw::Image canvas = blank(sheet.page);
+    const auto& [width_px, height_px] = sheet.page;
+    draw::Sketch sketch(sheet.page, kFont_px);
+    sketch.label(kMargin_px, 0.5 * kTitle_px, title, kTitleFont_px, draw::colours::kInk);
+    std::string pixels(
+        3u * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), '\xFF');
     for (std::size_t i = 0; i < moments.size(); ++i) {
+        const double x = sheet.left_px(i) + 2.0, y = sheet.top_px(i) + kFrameHeight_px;
+        sketch.label(x, y + 22.0, fmt::format("{}  {}", i + 1, moments[i].name), kFont_px,
+                     draw::colours::kInk);
+        sketch.label(x, y + 52.0, caption_at(recording, moments[i].time_s), kSmallFont_px,
+                     "#6B7680");
         const draw::Pose pose = pose_at(recording, moments[i].time_s);
         paste(stage.photograph(pose, view_of(pose, stage.wall())), sheet.left_px(i),
-              sheet.top_px(i), canvas);
+              sheet.top_px(i), width_px, pixels);
     }
-    std::ofstream pixels(folder / (stem + ".rgb"), std::ios::binary);
-    pixels.write(reinterpret_cast<const char*>(canvas.rgb.data()),
-                 static_cast<std::streamsize>(canvas.rgb.size()));
-    pixels.close();
-    if (!pixels) {
-        throw InputError(fmt::format("cannot write in {}: is the disk full?", folder.string()));
-    }
-    draw::gnuplot::run(folder, script_of(recording, moments, sheet, title, stem));
-    return folder / (stem + ".png");
+    sketch.frame({0.0, 0.0, static_cast<double>(width_px), static_cast<double>(height_px)});
+    sketch.add("unset key\nunset tics\nunset border\nset xrange [-0.5:{0}-0.5]\n", width_px);
+    sketch.add("set yrange [-0.5:{1}-0.5]\nplot DATA binary array=({0},{1}) flipy ", width_px,
+               height_px);
+    sketch.add("format='%uchar%uchar%uchar' using 1:2:3 with rgbimage\n");
+    return draw::draw(sketch, pixels, stem, folder, false).front();
 }
 
 std::string title_of(const record::Recording& recording, const char* what) {

@@ -22,10 +22,8 @@ std::optional<double> value_at(const record::Recording& recording, std::string_v
                                std::string_view column, double time_s) {
     const record::Table* table = find_table(recording, topic);
     const record::Column* found = table == nullptr ? nullptr : table->find(column);
-    if (found == nullptr) {
-        return std::nullopt;
-    }
-    return found->values[nearest_row(*table, time_s)];
+    return found == nullptr ? std::nullopt
+                            : std::optional(found->values[nearest_row(*table, time_s)]);
 }
 
 std::optional<double> pitch_at(const record::Recording& recording, double time_s) {
@@ -59,14 +57,12 @@ public:
             moments_.back().name = std::move(name);
         }
     }
-    /// The first of that name from an instant on, no later than another.
-    const record::RecordedEvent* add_event(std::string_view name, double after_s,
-                                           double before_s = 1e300) {
+    /// The first of that name from an instant on.
+    const record::RecordedEvent* add_event(std::string_view name, double after_s) {
         const record::RecordedEvent* event = first_event(recording_, name, after_s);
-        if (event == nullptr || event->time_s > before_s) {
-            return nullptr;
+        if (event != nullptr) {
+            add(event->time_s, record::words(name));
         }
-        add(event->time_s, record::words(name));
         return event;
     }
     void add_pitches(double from_s, double to_s, const char* name) {
@@ -121,16 +117,16 @@ std::vector<Moment> perching_moments(const record::Recording& recording) {
         return story.told();
     }
     story.add_event("attached", impact->time_s);
-    const record::RecordedEvent* landing =
-        first_event(recording, "landing_started", impact->time_s);
-    const record::RecordedEvent* perched =
-        landing == nullptr ? nullptr : story.add_event("perched", landing->time_s);
-    if (perched != nullptr) {
+    const auto* landing = first_event(recording, "landing_started", impact->time_s);
+    if (landing == nullptr) {
+        return story.told();
+    }
+    if (const auto* perched = story.add_event("perched", landing->time_s)) {
         story.add_pitches(landing->time_s, perched->time_s, "landing");
         if (const auto* off = first_event(recording, "motors_off", perched->time_s)) {
             story.add(off->time_s + 1.0, "at rest, motors off");
         }
-    } else if (landing != nullptr) {
+    } else {
         story.add(landing->time_s, "landing started");
     }
     return story.told();

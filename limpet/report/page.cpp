@@ -9,8 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/html.hpp"
-#include "limpet/report/page_check.hpp"
-#include "limpet/report/page_style.hpp"
+#include "limpet/report/page_parts.hpp"
 
 namespace limpet::report {
 namespace {
@@ -39,13 +38,15 @@ const char* sign_of(Verdict verdict) {
     throw InternalError("verdict out of range");
 }
 
-std::string class_of(Verdict verdict) {
-    return verdict == Verdict::not_modelled ? "not-modelled" : to_text(verdict);
-}
-
 std::string badge(Verdict verdict, const std::string& text) {
     return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{} </span>{}</span>",
-                       class_of(verdict), sign_of(verdict), text);
+                       verdict == Verdict::not_modelled ? "not-modelled" : to_text(verdict),
+                       sign_of(verdict), text);
+}
+
+/// A text in its element; nothing of nothing.
+std::string if_any(const char* format, const std::string& text) {
+    return text.empty() ? "" : fmt::vformat(format, fmt::make_format_args(text));
 }
 
 bool is_number(const Quantity& quantity) {
@@ -54,8 +55,8 @@ bool is_number(const Quantity& quantity) {
 
 std::string with_unit(const Quantity& quantity, const std::string& unit, bool with_sign = false) {
     std::string text = draw::html::marked_up(to_text(quantity, with_sign));
-    if (is_number(quantity) && !unit.empty()) {
-        text += fmt::format(" <span class=\"unit\">{}</span>", escaped(unit));
+    if (is_number(quantity)) {
+        text += if_any(" <span class=\"unit\">{}</span>", escaped(unit));
     }
     return text;
 }
@@ -90,11 +91,9 @@ private:
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
             "<link rel=\"icon\" href=\"data:,\">\n";
         add("<title>{}</title>\n", escaped(page_.title));
-        text_ += std::string("<style>") + page_style() + "</style>\n</head>\n<body>\n<main>\n";
+        text_ += std::string("<style>") + kPageStyle + "</style>\n</head>\n<body>\n<main>\n";
         add("<header>\n<h1>{}</h1>\n", escaped(page_.title));
-        if (!page_.subtitle.empty()) {
-            add("<p class=\"subtitle\">{}</p>\n", draw::html::marked_up(page_.subtitle));
-        }
+        text_ += if_any("<p class=\"subtitle\">{}</p>\n", draw::html::marked_up(page_.subtitle));
         verdicts();
         for (const std::string& paragraph : page_.summary) {
             block(paragraph);
@@ -172,9 +171,7 @@ private:
             text_ += "</tr>\n";
         }
         text_ += "</tbody>\n</table>\n</div>\n";
-        if (!table.caption.empty()) {
-            add("<p class=\"caption\">{}</p>\n", draw::html::marked_up(table.caption));
-        }
+        text_ += if_any("<p class=\"caption\">{}</p>\n", draw::html::marked_up(table.caption));
     }
 
     void block(const PageFigure& figure) {
@@ -192,17 +189,15 @@ private:
         add("<figcaption><strong>{}</strong> {} <span class=\"files\">", escaped(figure.title),
             draw::html::marked_up(figure.caption));
         add("<a href=\"{}\">PNG</a>", draw::html::link(figure.png.generic_string()));
-        if (!figure.svg.empty()) {
-            add(" <a href=\"{}\">SVG</a>", draw::html::link(figure.svg.generic_string()));
-        }
+        text_ += if_any(" <a href=\"{}\">SVG</a>", draw::html::link(figure.svg.generic_string()));
         text_ += "</span></figcaption>\n</figure>\n";
     }
 
     [[nodiscard]] draw::html::Embedded picture(const PageFigure& figure) const {
         std::string bytes = read_bytes(folder_ / (figure.svg.empty() ? figure.png : figure.svg));
         if (!figure.svg.empty() && bytes.size() > kMostSvg_bytes) {
-            std::string other = read_bytes(folder_ / figure.png);
-            bytes = other.size() < bytes.size() ? std::move(other) : std::move(bytes);
+            const std::string other = read_bytes(folder_ / figure.png);
+            bytes = other.size() < bytes.size() ? other : bytes;
         }
         return draw::html::embedded(std::move(bytes));
     }
@@ -237,31 +232,20 @@ private:
         cell("id", claim.id, false);
         cell("where", escaped(claim.section), false);
         add("<th role=\"rowheader\" scope=\"row\">{}", draw::html::marked_up(claim.statement));
-        if (!claim.note.empty()) {
-            add("<span class=\"note\">{}</span>", draw::html::marked_up(claim.note));
-        }
-        text_ += "</th>";
+        text_ +=
+            if_any("<span class=\"note\">{}</span>", draw::html::marked_up(claim.note)) + "</th>";
         cell("paper", with_unit(claim.paper, claim.unit));
         cell("simulated", with_unit(claim.simulated, claim.unit));
         cell("difference", with_unit(claim.difference, claim.unit, true));
         cell("verdict",
              badge(claim.verdict, to_text(claim.verdict)) +
-                 (claim.basis.empty()
-                      ? ""
-                      : fmt::format("<span class=\"basis\">{}</span>", escaped(claim.basis))) +
-                 (claim.accepted.empty() ? ""
-                                         : fmt::format("<span class=\"basis\">accepted {}</span>",
-                                                       escaped(claim.accepted))),
+                 if_any("<span class=\"basis\">{}</span>", escaped(claim.basis)) +
+                 if_any("<span class=\"basis\">accepted {}</span>", escaped(claim.accepted)),
              false);
-        std::string links;
-        if (!claim.figure.empty()) {
-            links += fmt::format("<a href=\"#{}\">figure</a>", claim.figure);
-        }
-        if (!claim.recording.empty()) {
-            links +=
-                fmt::format(" <a href=\"{}\">recording</a>", draw::html::link(claim.recording));
-        }
-        cell("see", links, false);
+        cell("see",
+             if_any("<a href=\"#{}\">figure</a>", claim.figure) +
+                 if_any(" <a href=\"{}\">recording</a>", draw::html::link(claim.recording)),
+             false);
         text_ += "</tr>\n";
     }
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/report/page_check.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <set>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/report/page_parts.hpp"
 
 namespace limpet::report {
 namespace {
@@ -18,14 +15,8 @@ void promise(bool holds, const std::string& what) {
     }
 }
 
-bool blank(const std::string& text) {
-    return std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return std::isspace(c) != 0; });
-}
-
 bool blank(const Quantity& quantity) {
-    const auto* words = std::get_if<std::string>(&quantity);
-    return words != nullptr && blank(*words);
+    return to_text(quantity).find_first_not_of(" \t\r\n\v\f") == std::string::npos;
 }
 
 class Checker {
@@ -47,11 +38,9 @@ public:
 
 private:
     void id(const std::string& text) {
-        promise(!text.empty() && std::all_of(text.begin(), text.end(),
-                                             [](unsigned char c) {
-                                                 return c < 0x80 && (std::isalnum(c) != 0 ||
-                                                                     c == '_' || c == '-');
-                                             }),
+        constexpr const char* kLetters =
+            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+        promise(!text.empty() && text.find_first_not_of(kLetters) == text.npos,
                 fmt::format("'{}' is no id", text));
         promise(ids_.insert(text).second, fmt::format("id {} is there twice", text));
     }

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/report/page.hpp"
-#include "limpet/report/page_check.hpp"
+#include "limpet/report/page_parts.hpp"
 
 namespace limpet::report {
 namespace {

@@ -72,24 +72,6 @@ TEST(Wrapped, breaks_at_spaces_where_a_line_is_full) {
                 ElementsAre("x", "muchlongerthanaline", "y"));
 }
 
-TEST(Beside, takes_the_first_side_that_is_free) {
-    const Box page{0, 0, 100, 100};
-    const auto left_of = [&](const std::vector<Box>& taken) {
-        return beside(50.0, 50.0, 30.0, 10.0, 5.0, taken, page);
-    };
-    EXPECT_DOUBLE_EQ(left_of({}).left_px, 55.0);
-    const Box right{60, 40, 70, 60};
-    EXPECT_DOUBLE_EQ(left_of({right}).right_px, 45.0);
-    const Box left{20, 40, 40, 60};
-    EXPECT_DOUBLE_EQ(left_of({right, left}).bottom_px, 45.0) << "above";
-    const Box above{0, 0, 100, 40};
-    EXPECT_DOUBLE_EQ(left_of({right, left, above}).top_px, 55.0) << "below";
-}
-
-TEST(Beside, stays_on_the_page) {
-    EXPECT_DOUBLE_EQ(beside(90.0, 50.0, 30.0, 10.0, 5.0, {}, {0, 0, 100, 100}).right_px, 85.0);
-}
-
 TEST(Canvas, has_the_origin_of_gnuplot_at_the_bottom_left) {
     const Canvas page{200, 100};
     EXPECT_DOUBLE_EQ(page.x(50.0), 0.25);

@@ -20,21 +20,15 @@ inline const std::string kLongWord =
 
 /// Draws into `folder`: success.png and .svg, growth.png and .svg.
 inline void draw_samples(const std::filesystem::path& folder) {
-    draw::ChartSeries fit{.name = "logistic fit", .band = true, .colour = draw::colours::kOrange};
+    draw::ChartSeries fit{.name = "logistic fit", .colour = draw::colours::kOrange};
     draw::ChartSeries trials{.name = "trials",
                              .mark = draw::ChartSeries::Mark::points,
                              .colour = draw::colours::kDarkBlue};
     for (int i = 0; i <= 28; ++i) {
         const double v = 0.05 * i, p = 1.0 / (1.0 + std::exp(-8.0 * (v - 0.8)));
-        fit.x.push_back(v);
-        fit.y.push_back(p);
-        fit.low.push_back(p - 0.25 * p * (1.0 - p));
-        fit.high.push_back(p + 0.25 * p * (1.0 - p));
+        fit.add(v, p);
         if (i % 2 == 1) {
-            trials.x.push_back(v);
-            trials.y.push_back(p);
-            trials.low.push_back(0.85 * p);
-            trials.high.push_back(0.85 * p + 0.15);
+            trials.add(v, p, {0.85 * p, 0.85 * p + 0.15});
         }
     }
     (void)draw::draw_chart(
