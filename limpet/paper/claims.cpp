@@ -9,15 +9,12 @@
 namespace limpet::paper {
 namespace {
 
-/// Evidence that is 1 or 0.
-constexpr const char* kYesNo = "yes/no";
-
-report::Quantity shown(double value, const std::string& unit) {
+report::Quantity shown(double value, bool yes_no) {
     if (!std::isfinite(value)) {
-        return std::string("did not come to pass");
+        return "did not come to pass";
     }
-    if (unit == kYesNo) {
-        return std::string(value > 0.5 ? "yes" : "no");
+    if (yes_no) {
+        return value > 0.5 ? "yes" : "no";
     }
     // Six figures: what is behind them is the noise of the arithmetic.
     return std::stod(fmt::format("{:.6g}", value));
@@ -26,7 +23,7 @@ report::Quantity shown(double value, const std::string& unit) {
 /// "0.8 … 1.4", "at least 2", "2"
 std::string accepted_text(const PaperStatement& statement) {
     const draw::Range& range = statement.accepted;
-    if (statement.unit == kYesNo) {
+    if (statement.yes_no) {
         return "yes";
     }
     if (!std::isfinite(range.high)) {
@@ -43,48 +40,37 @@ double rounded(double difference, double scale) {
 }
 
 /// Simulated less paper, where that means something.
-report::Quantity difference(const PaperStatement& statement, double value, bool holds) {
+report::Quantity difference(const report::Quantity& said, double value, bool holds) {
     if (!std::isfinite(value)) {
-        return std::string("no value");
+        return "no value";
     }
-    if (const double* paper = std::get_if<double>(&statement.paper)) {
+    if (const double* paper = std::get_if<double>(&said)) {
         return rounded(value - *paper, *paper);
     }
-    if (const draw::Range* range = std::get_if<draw::Range>(&statement.paper)) {
+    if (const draw::Range* range = std::get_if<draw::Range>(&said)) {
         const double below = value - range->low, above = value - range->high;
         if (below >= 0.0 && above <= 0.0) {
-            return std::string("inside");
+            return "inside";
         }
         return below < 0.0 ? rounded(below, range->low) : rounded(above, range->high);
     }
-    return std::string(holds ? "as said" : "not as said");
+    return holds ? "as said" : "not as said";
 }
 
 }  // namespace
 
 report::Claim judge(const PaperStatement& statement, const Evidence& evidence) {
-    report::Claim claim{.id = statement.id,
-                        .section = statement.section,
-                        .statement = statement.text,
-                        .paper = statement.paper,
-                        .simulated = std::string("not simulated"),
-                        .unit = statement.unit == kYesNo ? "" : statement.unit,
-                        .difference = std::string("not compared"),
-                        .verdict = report::Verdict::not_modelled,
-                        .basis = statement.basis,
-                        .note = statement.note,
-                        .figure = statement.figure};
-    if (!statement.flight.empty()) {
-        claim.recording = fmt::format("flights/{}/flight.mcap", statement.flight);
-    }
+    report::Claim claim = statement.claim;
     if (statement.evidence.empty()) {
+        claim.simulated = "not simulated";
+        claim.difference = "not compared";
         return claim;
     }
-    claim.accepted = accepted_text(statement);
     const double value = evidence.get(statement.evidence);
     const bool holds = value >= statement.accepted.low && value <= statement.accepted.high;
-    claim.simulated = shown(value, statement.unit);
-    claim.difference = difference(statement, value, holds);
+    claim.accepted = accepted_text(statement);
+    claim.simulated = shown(value, statement.yes_no);
+    claim.difference = difference(claim.paper, value, holds);
     claim.verdict = holds ? report::Verdict::reproduced : report::Verdict::differs;
     return claim;
 }

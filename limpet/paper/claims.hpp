@@ -12,19 +12,13 @@ namespace limpet::paper {
 
 /// A statement of the paper and what would bear it out. The verdict is not in it: judge() finds it.
 struct PaperStatement {
-    std::string id = {};
-    std::string section = {};
-    std::string text = {};
-    report::Quantity paper = {};  ///< its number, range or words
-    std::string unit = {};
+    /// What the paper says, the bounds' reasons, where to see it; its basis is "as set" (read from
+    /// the configuration), "recovered" (measured, from what was set), "by the method" (its own
+    /// limits and orders), "measured", or empty when not modelled.
+    report::Claim claim = {};
     std::string evidence = {};  ///< name in Evidence; empty: the simulation has no such thing
     draw::Range accepted = {};  ///< of the evidence, ends included
-    std::string note = {};      ///< where the bounds come from, what is assumed
-    std::string figure = {};
-    std::string flight = {};  ///< whose recording shows it
-    /// "as set" (read from the configuration), "recovered" (measured, from what was set), "by the
-    /// method" (its own limits and orders), "measured"; empty when not modelled
-    std::string basis = {};
+    bool yes_no = false;        ///< of the evidence: 1 is yes
 };
 
 /// Every number and qualitative statement of the paper's text, in its order: a file like

@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace limpet::paper {
 
@@ -19,13 +18,7 @@ public:
         return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
     }
     [[nodiscard]] bool has(const std::string& name) const { return values_.count(name) > 0; }
-    [[nodiscard]] std::vector<std::string> names() const {
-        std::vector<std::string> all;
-        for (const auto& [name, value] : values_) {
-            all.push_back(name);
-        }
-        return all;
-    }
+    [[nodiscard]] const std::map<std::string, double>& all() const { return values_; }
 
 private:
     std::map<std::string, double> values_;

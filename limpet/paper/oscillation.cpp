@@ -18,6 +18,7 @@
 namespace limpet::paper {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWatch_s = 20.0;
 constexpr double kSample_s = 0.01;
 constexpr double kTooFar_deg = 15.0;  ///< beyond, nothing is linear any more
@@ -27,18 +28,15 @@ Overrides joined(Overrides first, const Overrides& second) {
     return first;
 }
 
-bool holds(std::string_view text, std::string_view part) {
-    return text.find(part) != std::string_view::npos;
-}
-
 /// Nothing random: a kick alone is to be seen.
 void silence(scenario::Scenario& scenario) {
     for (const BoundParameter& row : sensor_rows(scenario.sensors)) {
-        if (holds(row.name, "_noise") || holds(row.name, "_bias") || holds(row.name, "_walk") ||
-            holds(row.name, "_dropout")) {
-            if (row.minimum <= 0.0 && !holds(row.name, "_tau")) {
-                row.value.set(0.0);
-            }
+        const auto has = [name = std::string_view(row.name)](const char* part) {
+            return name.find(part) != name.npos;
+        };
+        if ((has("_noise") || has("_bias") || has("_walk") || has("_dropout")) &&
+            row.minimum <= 0.0 && !has("_tau")) {
+            row.value.set(0.0);
         }
     }
     scenario.environment = {};
@@ -64,14 +62,6 @@ double pitch_deg(const simulation::Flight& flight) {
 
 bool waits(const simulation::Flight& flight) {
     return !flight.ended() && flight.state().guidance.state == guidance::PerchingState::releasing;
-}
-
-/// Flies to the moment at which the vehicle begins to wait for the release.
-void fly_to_release(simulation::Flight& flight) {
-    while (!waits(flight)) {
-        require(!flight.ended(), "a flight that comes to its release");
-        flight.tick();
-    }
 }
 
 struct Extreme {
@@ -114,8 +104,8 @@ Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
 KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
                           double floor_deg) {
     constexpr std::size_t kFewest = 4;
-    KickedSwing swing{.growth_1_s = std::numeric_limits<double>::quiet_NaN(),
-                      .frequency_Hz = std::numeric_limits<double>::quiet_NaN(),
+    KickedSwing swing{.growth_1_s = kNone,
+                      .frequency_Hz = kNone,
                       .time_s = std::move(time_s),
                       .pitch_deg = std::move(pitch_deg)};
     std::vector<Extreme> turns = extremes(swing.time_s, swing.pitch_deg, floor_deg);
@@ -151,7 +141,10 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     const double frequency_Hz =
         std::max(kLeast_Hz, pitch_mode(LevelOnCup(model).modes()).frequency_Hz);
     simulation::Flight twin(model);
-    fly_to_release(twin);
+    while (!waits(twin)) {
+        require(!twin.ended(), "a flight that comes to its release");
+        twin.tick();
+    }
     simulation::Flight kicked(model);
     simulation::Snapshot snapshot = twin.save();
     plant::MujocoPlant plant(model->plant);
@@ -198,13 +191,11 @@ void fill(StabilityMap& map, int jobs) {
 }
 
 double SwingMissions::quantile(double share) const {
-    return pitch_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
-                             : limpet::campaign::quantile(pitch_deg, share);
+    return pitch_deg.empty() ? kNone : campaign::quantile(pitch_deg, share);
 }
 
 double SwingMissions::median_swing_deg() const {
-    return swing_deg.empty() ? std::numeric_limits<double>::quiet_NaN()
-                             : limpet::campaign::quantile(swing_deg, 0.5);
+    return swing_deg.empty() ? kNone : campaign::quantile(swing_deg, 0.5);
 }
 
 SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,

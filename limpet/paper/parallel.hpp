@@ -4,42 +4,33 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <future>
 #include <vector>
 
 namespace limpet::paper {
 
-/// Calls work(0), ..., work(count - 1) on `jobs` threads; each writes to a place of its own. The
-/// first exception stops what has not begun and is thrown here.
+/// Calls work(0), ..., work(count - 1) on `jobs` threads; each writes to a place of its own. An
+/// exception stops what has not begun and is thrown here.
 template <class Work>
 void for_each_index(std::size_t count, int jobs, const Work& work) {
     std::atomic<std::size_t> next = 0;
-    std::exception_ptr problem;
-    std::mutex mutex;
     const auto take = [&] {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
+        try {
+            for (std::size_t i = next++; i < count; i = next++) {
                 work(i);
-            } catch (...) {
-                const std::lock_guard lock(mutex);
-                problem = problem ? problem : std::current_exception();
-                next = count;
             }
+        } catch (...) {
+            next = count;
+            throw;
         }
     };
-    std::vector<std::thread> threads;
+    std::vector<std::future<void>> threads;
     const auto wanted = std::min(count, static_cast<std::size_t>(std::max(1, jobs)));
-    for (std::size_t i = 1; i < wanted; ++i) {
-        threads.emplace_back(take);
+    for (std::size_t i = 0; i < wanted; ++i) {
+        threads.push_back(std::async(std::launch::async, take));
     }
-    take();
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    if (problem) {
-        std::rethrow_exception(problem);
+    for (std::future<void>& thread : threads) {
+        thread.get();  // the others end before their futures do
     }
 }
 

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "limpet/campaign/folder_lock.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/paper/claims.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 
@@ -42,29 +44,20 @@ void require_ours(const std::filesystem::path& folder) {
     }
 }
 
-std::set<std::string> figure_ids(const std::vector<report::PageSection>& sections) {
-    std::set<std::string> ids;
-    for (const report::PageSection& section : sections) {
-        for (const report::PageBlock& block : section.blocks) {
-            if (const auto* figure = std::get_if<report::PageFigure>(&block)) {
-                ids.insert(figure->id);
-            }
-        }
-    }
-    return ids;
-}
-
 /// All of them; of a part alone those that it has evidence for.
-std::vector<report::Claim> judged(const std::vector<PaperStatement>& statements, const Study& study,
+std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPart>& parts,
                                   bool all) {
-    const std::set<std::string> figures = figure_ids(study.sections);
+    std::set<std::string> shown;
+    for (const StudyPart& part : parts) {
+        shown.insert(part.shows.begin(), part.shows.end());
+    }
     std::vector<report::Claim> claims;
-    for (const PaperStatement& statement : statements) {
+    for (const PaperStatement& statement : study.statements) {
         if (!all && !study.evidence.has(statement.evidence)) {
             continue;
         }
-        report::Claim claim = judge(statement, study.evidence);
-        if (figures.count(claim.figure) == 0) {
+        report::Claim& claim = claims.emplace_back(judge(statement, study.evidence));
+        if (shown.count(claim.figure) == 0) {
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
             claim.figure.clear();
         }
@@ -72,34 +65,24 @@ std::vector<report::Claim> judged(const std::vector<PaperStatement>& statements,
             require(!all, "the recording of a statement is there");
             claim.recording.clear();
         }
-        claims.push_back(std::move(claim));
     }
     return claims;
 }
 
-std::ptrdiff_t with_basis(const std::vector<report::Claim>& claims, const std::string& basis) {
-    return std::count_if(claims.begin(), claims.end(), [&](const report::Claim& claim) {
-        return claim.verdict == report::Verdict::reproduced && claim.basis == basis;
-    });
-}
-
-std::vector<std::string> summary_of(const Reproduction& result) {
-    return {
-        fmt::format("**{} of the paper's statements are reproduced, {} differ, {} are not "
-                    "modelled.** Each verdict is computed from the simulation: the measured "
-                    "value lies within the accepted range or it does not.",
-                    result.count(report::Verdict::reproduced),
-                    result.count(report::Verdict::differs),
-                    result.count(report::Verdict::not_modelled)),
-        fmt::format("Of those reproduced, {} are numbers of the paper that the simulation was set "
-                    "to (as set), {} were recovered by measuring what was set so, {} are made true "
-                    "by the method itself, and {} came out (measured).",
-                    with_basis(result.page.claims, "as set"),
-                    with_basis(result.page.claims, "recovered"),
-                    with_basis(result.page.claims, "by the method"),
-                    with_basis(result.page.claims, "measured")),
-        "The paper gives no cup diameter, slider, arm length, motor lag or gains. Ours are "
-        "assumed, marked so, and can all be set; where a claim rests on one, its note says so."};
+/// What the summary tells of: statements by their verdict, those reproduced by their basis.
+Evidence counted(const std::vector<report::Claim>& claims) {
+    Evidence counts;
+    for (const std::string& name : kSummaryCounts) {
+        const std::string key = record::words(name.substr(name.find('.') + 1));
+        counts.set(name, static_cast<double>(std::count_if(
+                             claims.begin(), claims.end(), [&](const report::Claim& claim) {
+                                 const bool reproduced =
+                                     claim.verdict == report::Verdict::reproduced;
+                                 return key == to_text(claim.verdict) ||
+                                        (reproduced && key == claim.basis);
+                             })));
+    }
+    return counts;
 }
 
 }  // namespace
@@ -122,6 +105,10 @@ std::filesystem::path statements_file() {
     return scenario::data_root() / "paper" / "statements.yaml";
 }
 
+std::filesystem::path page_text_file() {
+    return scenario::data_root() / "paper" / "page.yaml";
+}
+
 std::vector<std::string> measured_names() {
     std::vector<std::string> names;
     for (const StudyPart& part : parts()) {
@@ -132,46 +119,43 @@ std::vector<std::string> measured_names() {
 
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
     const std::vector<StudyPart> chosen = wanted(options.only);
-    const std::vector<PaperStatement> statements =
-        load_statements(statements_file(), measured_names());
+    const auto statements = load_statements(statements_file(), measured_names());
+    PageText text = load_page_text(page_text_file(), parts());
     require_ours(options.folder);
     const campaign::FolderLock lock(options.folder);
-    Study study;
-    study.stop = watch.stop;
-    study.folder = options.folder;
-    study.quick = options.quick;
-    study.jobs = options.jobs;
-    study.tell = watch.on_work;
+    Study study{.folder = options.folder,
+                .quick = options.quick,
+                .jobs = options.jobs,
+                .tell = watch.on_work,
+                .stop = watch.stop,
+                .statements = statements};
+    Reproduction result;
+    report::Page& page = result.page;
+    page.title = text.title;
+    page.subtitle = text.subtitle;
+    page.sections.push_back({.id = "claims",
+                             .title = "What the paper says, line by line",
+                             .blocks = {report::ClaimTable{}}});
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         study.say("");
         if (watch.on_part) {
             watch.on_part(i + 1, chosen.size(), chosen[i].title);
         }
+        study.blocks = std::move(text.blocks[chosen[i].name]);
         chosen[i].run(study);
-        for (const std::string& name : chosen[i].measures) {
-            require(study.evidence.has(name), "a part measures what it says");
-        }
-        study.sections.back().title = chosen[i].title;
+        page.sections.push_back(study.section(chosen[i]));
     }
-    Reproduction result;
-    report::Page& page = result.page;
-    page.title = "Perching with a suction cup, reproduced";
-    page.subtitle =
-        "Simulation and Experimental Validation of an Autonomous Perching and Takeoff Method for a "
-        "Multirotor UAV on Vertical Surfaces using a Suction Cup: every table, figure and claim";
-    page.claims = judged(statements, study, options.only.empty());
-    page.summary = summary_of(result);
-    page.sections.push_back({.id = "claims",
-                             .title = "What the paper says, line by line",
-                             .blocks = {report::ClaimTable{}}});
-    for (report::PageSection& section : study.sections) {
-        page.sections.push_back(std::move(section));
+    page.claims = judged(study, chosen, options.only.empty());
+    const Evidence counts = counted(page.claims);
+    for (const std::string& paragraph : text.summary) {
+        page.summary.push_back(
+            filled(paragraph, [&](const std::string& name) { return counts.get(name); }));
     }
     page.environment = {
         {"version", std::string(kVersion)},
         {"seed", static_cast<double>(scenario::load_scenario("perch_concrete").seed)},
-        {"mode", std::string(options.quick ? "quick" : "full")},
-        {"compiler", std::string(__VERSION__)},
+        {"mode", options.quick ? "quick" : "full"},
+        {"compiler", __VERSION__},
         {"command", options.command}};
     result.files = write_page(page, options.folder);
     return result;

@@ -38,8 +38,10 @@ struct Reproduction {
 /// Names of the parts that `only` takes, with their titles.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> part_titles();
 
-/// The paper's statements among the data, and what evidence all parts together will have.
+/// The paper's statements and the page's texts among the data, and what evidence all parts together
+/// will have.
 [[nodiscard]] std::filesystem::path statements_file();
+[[nodiscard]] std::filesystem::path page_text_file();
 [[nodiscard]] std::vector<std::string> measured_names();
 
 /// Flies the paper's experiments, measures them, judges its statements and writes

@@ -66,26 +66,18 @@ double free_body_error() {
                      std::abs(energy_end - energy) / energy});
 }
 
-enum class Direction {
-    away,
-    along,
-    tilt,
-};
-
 /// Moves a sealed cup until it lets go.
-CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, Direction direction) {
-    constexpr double kStep_s = 1e-3, kSpeed_m_s = 2e-3, kTurn_rad_s = 0.02, kLongest_s = 60.0;
+CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, const Vector3& v_T_m_s,
+                    const Vector3& w_C_rad_s) {
+    constexpr double kStep_s = 1e-3, kLongest_s = 60.0;
     const suction::CupModel model{.parameters = scenario.cup, .wall = scenario.wall.geometry};
     suction::CupState state;
     state.status.phase = CupPhase::attached;
     state.touches = 1;
-    Kinematics cup{.p_WF_m = model.wall.p_WT_m, .q_WF = Quaternion(model.wall.R_WT)};
-    const Vector3 out_W = -model.wall.R_WT.col(0), down_W = model.wall.R_WT.col(2);
-    if (direction == Direction::tilt) {
-        cup.w_WF_F_rad_s = kTurn_rad_s * Vector3::UnitY();
-    } else {
-        cup.v_WF_W_m_s = kSpeed_m_s * (direction == Direction::away ? out_W : down_W);
-    }
+    Kinematics cup{.p_WF_m = model.wall.p_WT_m,
+                   .q_WF = Quaternion(model.wall.R_WT),
+                   .v_WF_W_m_s = model.wall.R_WT * v_T_m_s,
+                   .w_WF_F_rad_s = w_C_rad_s};
     for (double time_s = 0.0; time_s < kLongest_s; time_s += kStep_s) {
         state.mean_pressure_Pa = pressure_Pa;
         const CupStatus before = state.status;
@@ -103,28 +95,23 @@ CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, Dire
 }
 
 BreakOff break_off(const char* surface, const scenario::Scenario& scenario, double pressure_Pa) {
+    const Vector3 still = Vector3::Zero(), away_m_s(-2e-3, 0.0, 0.0), down_m_s(0.0, 0.0, 2e-3),
+                  tilt_rad_s(0.0, 0.02, 0.0);
     BreakOff load{.surface = surface,
                   .pressure_Pa = pressure_Pa,
-                  .pull_N = last_hold(scenario, pressure_Pa, Direction::away).pull_N,
-                  .shear_N = last_hold(scenario, pressure_Pa, Direction::along).shear_N,
-                  .peel_N_m = last_hold(scenario, pressure_Pa, Direction::tilt).peel_N_m};
+                  .pull_N = last_hold(scenario, pressure_Pa, away_m_s, still).pull_N,
+                  .shear_N = last_hold(scenario, pressure_Pa, down_m_s, still).shear_N,
+                  .peel_N_m = last_hold(scenario, pressure_Pa, still, tilt_rad_s).peel_N_m};
     load.pull_in_weights = load.pull_N / (scenario.airframe.mass_kg * kGravity_m_s2);
     return load;
 }
 
-double battery_Wh(const vehicle::Airframe& airframe) {
-    constexpr double kCell_V = 3.7;  // nominal
-    return airframe.battery.cells * airframe.battery.capacity_Ah * kCell_V;
-}
-
 EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
                     const vehicle::Airframe& airframe) {
+    constexpr double kCell_V = 3.7;  // nominal
+    const double battery_Wh = airframe.battery.cells * airframe.battery.capacity_Ah * kCell_V;
     const double power_W = energy_Wh * 3600.0 / time_s;
-    EnergyUse use;
-    use.what = what;
-    use.power_W = power_W;
-    use.endurance_h = battery_Wh(airframe) / power_W;
-    return use;
+    return {.what = what, .power_W = power_W, .endurance_h = battery_Wh / power_W};
 }
 
 }  // namespace

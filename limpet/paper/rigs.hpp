@@ -27,7 +27,7 @@ struct BreakOff {
 
 /// Power from the battery, mean over a flight's part.
 struct EnergyUse {
-    std::string what;
+    std::string what = {};
     double power_W = 0.0;
     double endurance_h = 0.0;       ///< on a full battery
     double getting_there_Wh = 0.0;  ///< approach and landing

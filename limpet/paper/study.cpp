@@ -1,19 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/study.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "limpet/core/errors.hpp"
 #include "limpet/core/interrupted.hpp"
+#include "limpet/paper/reproduce.hpp"
 
 namespace limpet::paper {
+namespace {
 
-report::PageFigure Study::figure(const draw::Chart& chart, const std::string& id,
-                                 const std::string& caption, const std::string& alt) const {
+namespace fs = std::filesystem;
+
+/// The block of this kind and id.
+template <class Block>
+Block& find(std::vector<report::PageBlock>& blocks, const std::string& id) {
+    const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const auto& block) {
+        const Block* one = std::get_if<Block>(&block);
+        return one != nullptr && one->id == id;
+    });
+    require(found != blocks.end(), "a part shows what it says");
+    return std::get<Block>(*found);
+}
+
+}  // namespace
+
+std::pair<double, double> Study::said(const std::string& name) const {
+    const auto found = std::find_if(statements.begin(), statements.end(),
+                                    [&](const PaperStatement& s) { return s.evidence == name; });
+    const double* number =
+        found == statements.end() ? nullptr : std::get_if<double>(&found->claim.paper);
+    if (number == nullptr) {
+        throw InputError(statements_file().string() + ": no statement gives a number for " + name);
+    }
+    return {*number, found->accepted.high - *number};
+}
+
+void Study::draw(const std::string& id, draw::Chart chart) {
+    chart.title = find<report::PageFigure>(blocks, id).title;
     (void)draw_chart(chart, id, folder / "figures");
-    return {.id = id,
-            .title = chart.title,
-            .caption = caption,
-            .alt = alt,
-            .png = std::filesystem::path("figures") / (id + ".png"),
-            .svg = std::filesystem::path("figures") / (id + ".svg")};
+}
+
+void Study::picture(const std::string& id, const std::string& flight, const std::string& picture) {
+    report::PageFigure& figure = find<report::PageFigure>(blocks, id);
+    fs::create_directories(folder / "figures");
+    const fs::path from = folder / "flights" / flight / picture;
+    fs::copy_file(from.string() + ".png", folder / figure.png,
+                  fs::copy_options::overwrite_existing);
+    if (fs::exists(from.string() + ".svg")) {
+        fs::copy_file(from.string() + ".svg", folder / figure.svg,
+                      fs::copy_options::overwrite_existing);
+    } else {
+        figure.svg.clear();
+    }
+}
+
+void Study::table(const std::string& id, TableRows rows) {
+    find<report::PageTable>(blocks, id).rows = std::move(rows);
 }
 
 void Study::say(const std::string& what) const {
@@ -25,20 +70,21 @@ void Study::say(const std::string& what) const {
     }
 }
 
-report::PageFigure Study::flight_figure(const std::string& flight, const std::string& picture,
-                                        report::PageFigure page_figure) const {
-    namespace fs = std::filesystem;
-    fs::create_directories(folder / "figures");
-    for (const std::string ending : {".png", ".svg"}) {
-        const fs::path from = folder / "flights" / flight / (picture + ending);
-        const fs::path to = fs::path("figures") / (page_figure.id + ending);
-        if (fs::exists(from)) {
-            fs::copy_file(from, folder / to, fs::copy_options::overwrite_existing);
-            (ending == ".png" ? page_figure.png : page_figure.svg) = to;
+report::PageSection Study::section(const StudyPart& part) {
+    for (const std::string& name : part.measures) {
+        require(evidence.has(name), "a part measures what it says");
+    }
+    for (report::PageBlock& block : blocks) {
+        if (auto* paragraph = std::get_if<std::string>(&block)) {
+            *paragraph =
+                filled(*paragraph, [this](const std::string& name) { return evidence.get(name); });
         }
     }
-    page_figure.wide = true;
-    return page_figure;
+    return {.id = "part-" + part.name, .title = part.title, .blocks = std::exchange(blocks, {})};
+}
+
+report::Quantity number_or(double value, const char* words) {
+    return std::isfinite(value) ? report::Quantity(value) : report::Quantity(words);
 }
 
 const std::vector<StudyPart>& parts() {

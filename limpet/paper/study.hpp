@@ -6,13 +6,19 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "limpet/draw/chart.hpp"
+#include "limpet/paper/claims.hpp"
 #include "limpet/paper/evidence.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {
+
+struct StudyPart;
+using TableRows = std::vector<std::vector<report::Quantity>>;
 
 /// One reproduction as it goes: where it writes, how thorough it is, what it has found so far.
 struct Study {
@@ -22,21 +28,23 @@ struct Study {
     std::function<void(const std::string& what)> tell = {};  ///< long work, as it goes
     const std::atomic<bool>* stop = nullptr;
 
-    Evidence evidence;
-    std::vector<report::PageSection> sections;
+    std::vector<PaperStatement> statements = {};
+    Evidence evidence = {};
+    std::vector<report::PageBlock> blocks = {};  ///< of the part that runs, from paper/page.yaml
 
-    /// Draws a chart into figures/ and gives it back as a figure of the page.
-    [[nodiscard]] report::PageFigure figure(const draw::Chart& chart, const std::string& id,
-                                            const std::string& caption,
-                                            const std::string& alt) const;
-    /// Copies a picture of a flight, FOLDER/flights/FLIGHT/PICTURE.png and .svg if there is one,
-    /// into figures/.
-    [[nodiscard]] report::PageFigure flight_figure(const std::string& flight,
-                                                   const std::string& picture,
-                                                   report::PageFigure figure) const;
+    /// The paper's number on what a part measures, and its tolerance.
+    [[nodiscard]] std::pair<double, double> said(const std::string& name) const;
+    /// Draws a figure of the part's into figures/, under its title there.
+    void draw(const std::string& id, draw::Chart chart);
+    /// Takes FOLDER/flights/FLIGHT/PICTURE.png, and .svg if there is one, for a figure of the
+    /// part's.
+    void picture(const std::string& id, const std::string& flight, const std::string& picture);
+    void table(const std::string& id, TableRows rows);
     /// Tells what comes next; before that it stops where it was asked to.
     /// @throws Interrupted
     void say(const std::string& what) const;
+    /// What has come of the part that ran last, its paragraphs filled in.
+    [[nodiscard]] report::PageSection section(const StudyPart& part);
 };
 
 /// A part of the paper that can be reproduced by itself: `limpet reproduce --only NAME`.
@@ -44,12 +52,16 @@ struct StudyPart {
     std::string name;   ///< "rotors"
     std::string title;  ///< of its section
     void (*run)(Study& study);
-    /// Names of the evidence that it will have measured: statements are held to them before
-    /// anything flies.
+    /// Names of the evidence that it will have measured: statements and texts are held to them
+    /// before anything flies.
     std::vector<std::string> measures;
+    std::vector<std::string> shows;  ///< ids of the tables and figures that it brings
 };
 
-// Each adds its section and its evidence.
+/// @param words  where there is no number
+[[nodiscard]] report::Quantity number_or(double value, const char* words);
+
+// Each brings its tables, figures and evidence.
 [[nodiscard]] StudyPart rotors_part();       ///< Table I
 [[nodiscard]] StudyPart suction_part();      ///< Table II, Fig. 2
 [[nodiscard]] StudyPart trials_part();       ///< Fig. 3
@@ -58,5 +70,31 @@ struct StudyPart {
 [[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
 /// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();
+
+/// What the page says around its numbers.
+struct PageText {
+    std::string title = {};
+    std::string subtitle = {};
+    std::vector<std::string> summary = {};
+    /// By part: paragraphs not filled in, tables without rows, figures that are not drawn.
+    std::map<std::string, std::vector<report::PageBlock>> blocks = {};
+};
+
+/// Counts of statements that the summary may name.
+inline const std::vector<std::string> kSummaryCounts = {
+    "statements.reproduced", "statements.differs",       "statements.not_modelled",
+    "statements.as_set",     "statements.by_the_method", "statements.recovered",
+    "statements.measured"};
+
+/// A file like paper/page.yaml, whose head says what its keys are.
+/// @param parts  all that there are; what they show and the file's tables and figures are the same
+/// @throws InputError for what is not so: an unknown key, a part, table or figure without a text or
+/// the other way about, a number that nobody measures, a format that is none
+[[nodiscard]] PageText load_page_text(const std::filesystem::path& file,
+                                      const std::vector<StudyPart>& parts);
+
+/// A text with its numbers in place of {NAME:FORMAT}.
+[[nodiscard]] std::string filled(std::string_view text,
+                                 const std::function<double(const std::string& name)>& number);
 
 }  // namespace limpet::paper

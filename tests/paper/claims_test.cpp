@@ -4,24 +4,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <set>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/paper/paper_tables.hpp"
 #include "limpet/paper/reproduce.hpp"
+#include "limpet/paper/study.hpp"
 
 namespace limpet::paper {
 namespace {
 
 PaperStatement number(double paper, draw::Range accepted) {
-    return {.id = "x",
-            .section = "I",
-            .text = "x is so much",
-            .paper = paper,
-            .unit = "s",
+    return {.claim = {.id = "x",
+                      .section = "I",
+                      .statement = "x is so much",
+                      .paper = paper,
+                      .unit = "s"},
             .evidence = "x_s",
             .accepted = accepted};
 }
@@ -62,7 +62,7 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
     EXPECT_EQ(std::get<double>(judge(number(12.0, {0, 20}), with(12.0 + 2e-15)).difference), 0.0)
         << "noise of the last digit";
     PaperStatement range = number(0.0, {1.0, 1.2});
-    range.paper = draw::Range{1.0, 1.2};
+    range.claim.paper = draw::Range{1.0, 1.2};
     EXPECT_EQ(std::get<std::string>(judge(range, with(1.1)).difference), "inside");
     EXPECT_NEAR(std::get<double>(judge(range, with(1.5)).difference), 0.3, 1e-6);
     EXPECT_NEAR(std::get<double>(judge(range, with(0.9)).difference), -0.1, 1e-6);
@@ -75,14 +75,14 @@ std::vector<PaperStatement> statements() {
 
 TEST(Statements, AreCompleteAndAppearOnce) {
     std::set<std::string> ids;
-    for (const PaperStatement& statement : statements()) {
-        EXPECT_TRUE(ids.insert(statement.id).second) << statement.id;
-        EXPECT_FALSE(statement.section.empty()) << statement.id;
-        EXPECT_FALSE(statement.text.empty()) << statement.id;
-        EXPECT_FALSE(report::to_text(statement.paper).empty()) << statement.id;
-        EXPECT_LE(statement.accepted.low, statement.accepted.high) << statement.id;
-        if (statement.evidence.empty()) {
-            EXPECT_FALSE(statement.note.empty()) << statement.id << ": say why not";
+    for (const auto& [claim, evidence, accepted, yes_no] : statements()) {
+        EXPECT_TRUE(ids.insert(claim.id).second) << claim.id;
+        EXPECT_FALSE(claim.section.empty()) << claim.id;
+        EXPECT_FALSE(claim.statement.empty()) << claim.id;
+        EXPECT_FALSE(report::to_text(claim.paper).empty()) << claim.id;
+        EXPECT_LE(accepted.low, accepted.high) << claim.id;
+        if (evidence.empty()) {
+            EXPECT_FALSE(claim.note.empty()) << claim.id << ": say why not";
         }
     }
 }
@@ -90,44 +90,36 @@ TEST(Statements, AreCompleteAndAppearOnce) {
 /// A paper's own number outside of what is accepted as it would be a slip of ours.
 TEST(Statements, AcceptThePapersOwnNumbers) {
     for (const PaperStatement& statement : statements()) {
-        if (const double* paper = std::get_if<double>(&statement.paper)) {
-            EXPECT_GE(*paper, statement.accepted.low) << statement.id;
-            EXPECT_LE(*paper, statement.accepted.high) << statement.id;
+        if (const double* paper = std::get_if<double>(&statement.claim.paper)) {
+            EXPECT_GE(*paper, statement.accepted.low) << statement.claim.id;
+            EXPECT_LE(*paper, statement.accepted.high) << statement.claim.id;
         }
     }
 }
 
 /// The parts put the tables' numbers into pictures and tables of the page.
 TEST(Statements, HoldBothTables) {
-    std::map<std::string, PaperStatement> by_evidence;
-    int rows = 0;
-    for (const PaperStatement& statement : statements()) {
-        by_evidence[statement.evidence] = statement;
-        rows += statement.section == "II-D, Table II" || statement.section == "II-C, Table I";
-    }
+    Study study;
+    study.statements = statements();
+    const auto rows = std::count_if(
+        study.statements.begin(), study.statements.end(), [](const PaperStatement& statement) {
+            const std::string& section = statement.claim.section;
+            return section == "II-D, Table II" || section == "II-C, Table I";
+        });
     EXPECT_EQ(rows, 18);
-    const auto expect = [&](const std::string& evidence, double paper, double tolerance) {
-        const PaperStatement& statement = by_evidence[evidence];
-        ASSERT_TRUE(std::holds_alternative<double>(statement.paper)) << evidence;
-        EXPECT_EQ(std::get<double>(statement.paper), paper) << evidence;
-        EXPECT_NEAR(statement.accepted.low, paper - tolerance, 1e-9 * paper) << evidence;
-        EXPECT_NEAR(statement.accepted.high, paper + tolerance, 1e-9 * paper) << evidence;
-    };
-    for (const TableOne& column : kTableOne) {
-        const std::string key = std::string("rotor.") + column.vehicle;
-        for (const auto& [name, paper] :
-             {std::pair(".motor_constant_kg_m", column.motor_constant_kg_m),
-              std::pair(".moment_constant_m", column.moment_constant_m),
-              std::pair(".drag_constant_kg", column.drag_constant_kg)}) {
-            expect(key + name, paper, 0.02 * paper);
+    for (const StudyPart& part : {rotors_part(), suction_part()}) {
+        for (const std::string& name : part.measures) {
+            if (name.rfind("rotor.", 0) == 0 || name.rfind("press_", 0) == 0) {
+                const auto [paper, tolerance] = study.said(name);
+                EXPECT_GT(paper, 0.0) << name;
+                EXPECT_GT(tolerance, 0.0) << name;
+            }
         }
     }
-    for (const TableTwo& column : kTableTwo) {
-        const std::string key = column.scenario;
-        expect(key + ".vacuum_hPa", column.vacuum_hPa, 10.0);
-        expect(key + ".tau_1_s", column.tau_1_s, column.tau_1_tolerance_s);
-        expect(key + ".tau_2_s", column.tau_2_s, column.tau_2_tolerance_s);
-    }
+    EXPECT_EQ(study.said("rotor.iris.drag_constant_kg").first, 1.75e-4);
+    EXPECT_EQ(study.said("press_metal.tau_2_s").first, 16.0);
+    EXPECT_NEAR(study.said("press_metal.tau_2_s").second, 1.0, 1e-9);
+    EXPECT_THROW((void)study.said("press_metal.tau_3_s"), InputError);
 }
 
 class StatementsFile : public testing::Test {
@@ -156,12 +148,12 @@ TEST_F(StatementsFile, IsReadAsItStands) {
                                 "b:\n  section: II\n  says: words\n  paper: [1, 2]\n  note: no\n";
     const auto read = load_statements(file_, {"x.first_s"});
     ASSERT_EQ(read.size(), 2U);
-    EXPECT_EQ(read[0].id, "a");
-    EXPECT_EQ(std::get<double>(read[0].paper), 1.0);
-    EXPECT_EQ(read[0].basis, "as set");
+    EXPECT_EQ(read[0].claim.id, "a");
+    EXPECT_EQ(std::get<double>(read[0].claim.paper), 1.0);
+    EXPECT_EQ(read[0].claim.basis, "as set");
     EXPECT_EQ(read[0].accepted.low, 2.0);
     EXPECT_TRUE(std::isinf(read[0].accepted.high));
-    EXPECT_EQ(std::get<draw::Range>(read[1].paper).high, 2.0);
+    EXPECT_EQ(std::get<draw::Range>(read[1].claim.paper).high, 2.0);
     EXPECT_TRUE(read[1].evidence.empty());
 }
 
@@ -183,6 +175,55 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
     EXPECT_EQ(error_of(good_), "1: a: has no note");
     EXPECT_EQ(error_of(good_ + "  notes: none\n"), "5: a.notes: unknown key, did you mean note?");
     EXPECT_THAT(error_of(good_ + "  note: none\n" + good_), testing::StartsWith("6: a: "));
+}
+
+TEST(PageText, IsThatOfTheParts) {
+    const PageText text = load_page_text(page_text_file(), parts());
+    EXPECT_EQ(text.blocks.size(), parts().size());
+    EXPECT_EQ(text.summary.size(), 3U);
+}
+
+TEST(PageText, PutsNumbersInTheirPlaces) {
+    const auto number = [](const std::string& name) { return name == "x.first_s" ? 1.25 : 3.0; };
+    EXPECT_EQ(filled("a {x.first_s:.1f} b {y:.0f}, c", number), "a 1.2 b 3, c");
+    EXPECT_EQ(filled("nothing", number), "nothing");
+}
+
+/// Of a part that measures x.first_s and shows the table t and the figure f.
+class PageTextFile : public testing::Test {
+protected:
+    std::string error_of(const std::string& blocks) const {
+        std::ofstream(file_) << "title: a\nsubtitle: b\nsummary: [c]\npart:\n" + blocks;
+        try {
+            (void)load_page_text(file_, {{"part", "Part", nullptr, {"x.first_s"}, {"t", "f"}}});
+        } catch (const InputError& error) {
+            const std::string what = error.what();
+            return what.substr(what.find(".yaml:") + 6);
+        }
+        return "";
+    }
+    void TearDown() override { std::filesystem::remove(file_); }
+
+    const std::string good_ =
+        "  t: {title: table, columns: [a, b]}\n  f: {title: figure, alt: what it shows}\n";
+    const std::filesystem::path file_ =
+        std::filesystem::path(testing::TempDir()) /
+        (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+};
+
+TEST_F(PageTextFile, StopsAtOnceAtWhatIsNotRight) {
+    EXPECT_EQ(error_of(good_ + "  p: so many {x.first_s:.1f}\n"), "");
+    EXPECT_EQ(error_of(good_ + "  p: so many {x.frist_s:.1f}\n"),
+              "7: part.p: \"x.frist_s\" is measured by no part, did you mean x.first_s?");
+    EXPECT_THAT(error_of(good_ + "  p: so many {x.first_s:.1q}\n"),
+                testing::StartsWith("7: part.p: has a format that is none: "));
+    EXPECT_EQ(error_of("  t: {title: table, columns: [a, b]}\n"), "4: part: has no f");
+    EXPECT_THAT(error_of(good_ + "  g: {title: figure, alt: what}\n"),
+                testing::StartsWith("7: part.g: \"g\" is shown by no part"));
+    EXPECT_EQ(error_of("  t: {title: table, columns: a}\n  f: {title: f, alt: a}\n"),
+              "5: part.t.columns: must be a list");
+    EXPECT_EQ(error_of("  t: {title: table, columns: [a]}\n  f: {title: f}\n"),
+              "6: part.f: has no alt");
 }
 
 }  // namespace

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "limpet/paper/claims.hpp"
+#include "limpet/paper/study.hpp"
+#include "limpet/scenario/suggestion.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet::paper {
+namespace {
+
+const scenario::YamlNode& wanted(const scenario::YamlNode& map, std::string_view key) {
+    const scenario::YamlNode* node = map.find(key);
+    if (node == nullptr) {
+        fail(map, fmt::format("has no {}", key));
+    }
+    return *node;
+}
+
+double number(const scenario::YamlNode& node) {
+    const std::optional<double> value = number_in(node);
+    if (!value) {
+        fail(node, "must be a number");
+    }
+    return *value;
+}
+
+draw::Range range(const scenario::YamlNode& node) {
+    if (node.kind != scenario::YamlNode::Kind::list || node.children.size() != 2) {
+        fail(node, "must be a range, as in [0.8, 1.4]");
+    }
+    const draw::Range read{number(node.children[0]), number(node.children[1])};
+    if (!(read.low <= read.high)) {
+        fail(node, "must begin with its lower end");
+    }
+    return read;
+}
+
+report::Quantity quantity(const scenario::YamlNode& node) {
+    if (node.kind == scenario::YamlNode::Kind::list) {
+        return range(node);
+    }
+    const std::optional<double> value = number_in(node);
+    return value ? report::Quantity(*value) : report::Quantity(read_text(node));
+}
+
+std::string text_or_nothing(const scenario::YamlNode& map, std::string_view key) {
+    const scenario::YamlNode* node = map.find(key);
+    return node == nullptr ? "" : read_text(*node);
+}
+
+/// @throws InputError when it is none of `names`
+template <class Names>
+void check_name(const scenario::YamlNode& node, const std::string& text, const Names& names,
+                std::string_view otherwise) {
+    if (std::find(names.begin(), names.end(), text) == names.end()) {
+        fail(node, fmt::format("\"{}\" {}{}", scenario::shown(text), otherwise,
+                               scenario::hint(text, {names.begin(), names.end()})));
+    }
+}
+
+std::string one_of(const scenario::YamlNode& node, const std::vector<std::string_view>& names,
+                   std::string_view otherwise) {
+    const std::string text = read_text(node);
+    check_name(node, text, names, otherwise);
+    return text;
+}
+
+/// The keys that say what bears a statement out, or none of them.
+void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_view>& measured,
+                   PaperStatement& statement) {
+    const scenario::YamlNode* evidence = map.find("evidence");
+    if (evidence == nullptr) {
+        for (const char* key : {"unit", "accepted", "at_least", "basis"}) {
+            if (const scenario::YamlNode* node = map.find(key)) {
+                fail(*node, "stands without evidence");
+            }
+        }
+        (void)wanted(map, "note");  // why not
+        return;
+    }
+    statement.evidence = one_of(*evidence, measured, "is measured by no part");
+    statement.claim.basis = one_of(
+        wanted(map, "basis"), {"as set", "recovered", "by the method", "measured"}, "is no basis");
+    const scenario::YamlNode* least = map.find("at_least");
+    if (least != nullptr && map.find("accepted") != nullptr) {
+        fail(*least, "stands beside accepted, one of the two");
+    }
+    statement.accepted = least == nullptr
+                             ? range(wanted(map, "accepted"))
+                             : draw::Range{number(*least), std::numeric_limits<double>::infinity()};
+}
+
+/// A paragraph whose numbers will be there.
+std::string paragraph(const scenario::YamlNode& node, const std::vector<std::string>& measured) {
+    const std::string text = read_text(node);
+    try {
+        (void)filled(text, [&](const std::string& name) {
+            check_name(node, name, measured, "is measured by no part");
+            return 0.0;
+        });
+    } catch (const fmt::format_error& error) {
+        fail(node, fmt::format("has a format that is none: {}", error.what()));
+    }
+    return text;
+}
+
+std::vector<std::string> texts(const scenario::YamlNode& list) {
+    if (list.kind != scenario::YamlNode::Kind::list) {
+        fail(list, "must be a list");
+    }
+    std::vector<std::string> read;
+    for (const scenario::YamlNode& item : list.children) {
+        read.push_back(read_text(item));
+    }
+    return read;
+}
+
+report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& part) {
+    if (node.kind == scenario::YamlNode::Kind::scalar) {
+        return paragraph(node, part.measures);
+    }
+    check_name(node, node.key, part.shows, "is shown by no part");
+    const std::string title = read_text(wanted(node, "title"));
+    if (const scenario::YamlNode* columns = node.find("columns")) {
+        check_keys(node, {"title", "columns", "caption"});
+        return report::PageTable{.id = node.key,
+                                 .title = title,
+                                 .columns = texts(*columns),
+                                 .caption = text_or_nothing(node, "caption")};
+    }
+    check_keys(node, {"title", "caption", "alt", "wide"});
+    const scenario::YamlNode* wide = node.find("wide");
+    return report::PageFigure{.id = node.key,
+                              .title = title,
+                              .caption = text_or_nothing(node, "caption"),
+                              .alt = read_text(wanted(node, "alt")),
+                              .png = "figures/" + node.key + ".png",
+                              .svg = "figures/" + node.key + ".svg",
+                              .wide = wide != nullptr && read_flag(*wide)};
+}
+
+}  // namespace
+
+std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
+                                            const std::vector<std::string>& measured) {
+    const scenario::YamlNode root = scenario::parse_yaml_file(file);
+    const std::vector<std::string_view> names(measured.begin(), measured.end());
+    std::vector<PaperStatement> statements;
+    if (!is_section(&root)) {
+        return statements;
+    }
+    for (const scenario::YamlNode& map : root.children) {
+        if (!is_section(&map)) {
+            fail(map, "is empty");
+        }
+        check_keys(map, {"section", "says", "paper", "unit", "evidence", "accepted", "at_least",
+                         "basis", "note", "figure", "flight"});
+        PaperStatement& statement = statements.emplace_back();
+        const std::string unit = text_or_nothing(map, "unit"),
+                          flight = text_or_nothing(map, "flight");
+        statement.yes_no = unit == "yes/no";
+        statement.claim = {
+            .id = map.key,
+            .section = read_text(wanted(map, "section")),
+            .statement = read_text(wanted(map, "says")),
+            .paper = quantity(wanted(map, "paper")),
+            .unit = statement.yes_no ? "" : unit,
+            .note = text_or_nothing(map, "note"),
+            .figure = text_or_nothing(map, "figure"),
+            .recording = flight.empty() ? "" : fmt::format("flights/{}/flight.mcap", flight)};
+        read_evidence(map, names, statement);
+    }
+    return statements;
+}
+
+PageText load_page_text(const std::filesystem::path& file, const std::vector<StudyPart>& parts) {
+    const scenario::YamlNode root = scenario::parse_yaml_file(file);
+    std::vector<std::string_view> keys = {"title", "subtitle", "summary"};
+    for (const StudyPart& part : parts) {
+        keys.push_back(part.name);
+    }
+    check_keys(root, keys);
+    PageText page{.title = read_text(wanted(root, "title")),
+                  .subtitle = read_text(wanted(root, "subtitle")),
+                  .summary = texts(wanted(root, "summary"))};
+    for (const scenario::YamlNode& node : wanted(root, "summary").children) {
+        (void)paragraph(node, kSummaryCounts);
+    }
+    for (const StudyPart& part : parts) {
+        const scenario::YamlNode& section = wanted(root, part.name);
+        for (const std::string& id : part.shows) {
+            (void)wanted(section, id);
+        }
+        for (const scenario::YamlNode& node : section.children) {
+            page.blocks[part.name].push_back(read_block(node, part));
+        }
+    }
+    return page;
+}
+
+std::string filled(std::string_view text,
+                   const std::function<double(const std::string& name)>& number) {
+    std::string out;
+    while (true) {
+        const std::size_t open = text.find('{'), close = text.find('}', open);
+        if (close == text.npos) {
+            return out += text;
+        }
+        const std::string_view place = text.substr(open + 1, close - open - 1);
+        const std::size_t colon = std::min(place.find(':'), place.size());
+        const double value = number(std::string(place.substr(0, colon)));
+        out += text.substr(0, open);
+        out +=
+            fmt::vformat(fmt::format("{{{}}}", place.substr(colon)), fmt::make_format_args(value));
+        text.remove_prefix(close + 1);
+    }
+}
+
+}  // namespace limpet::paper
