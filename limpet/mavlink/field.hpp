@@ -25,6 +25,8 @@ struct Field {
     std::string_view name;
     Value Message::*member;
 };
+template <class Message, class Value>
+Field(std::string_view, Value Message::*) -> Field<Message, Value>;
 
 /// Calls visit(name, value) for each field, in the order of the wire.
 template <class Message, class Visit>
