@@ -21,11 +21,10 @@ namespace {
 constexpr double kRounding_s = 1e-6;
 
 mavlink::OffboardOptions options_of(const CompanionConfig& config) {
-    const CompanionLimits& limits = config.limits;
     return {.target_system = static_cast<std::uint8_t>(config.system),
-            .set_point_rate_Hz = limits.guidance_rate_Hz,
-            .estimate_limit_s = limits.estimate_limit_s,
-            .silence_limit_s = limits.silence_limit_s,
+            .set_point_rate_Hz = config.limits.guidance_rate_Hz,
+            .estimate_limit_s = config.limits.estimate_limit_s,
+            .silence_limit_s = config.limits.silence_limit_s,
             .asks_for_mode = config.asks_for_mode,
             .hears_texts = config.hears_texts,
             .sets_origin = config.sets_origin};

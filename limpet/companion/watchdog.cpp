@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/watchdog.hpp"
 
-#include <algorithm>
 #include <array>
 
 #include "limpet/core/errors.hpp"
@@ -19,6 +18,7 @@ struct Row {
 // GCC 10 has no `using enum`.
 using A = Action;
 
+/// In the order of Cause.
 constexpr std::array kTable = {
     //                                        in_air  pressed  leaving  on_cup  at_rest
     Row{Cause::mode_taken,
@@ -52,10 +52,7 @@ constexpr std::array kTable = {
 };
 
 const Row& row_of(Cause cause) {
-    const auto row = std::find_if(kTable.begin(), kTable.end(),
-                                  [cause](const Row& each) { return each.cause == cause; });
-    require(row != kTable.end(), "every cause has a row");
-    return *row;
+    return kTable.at(static_cast<std::size_t>(cause));
 }
 
 }  // namespace

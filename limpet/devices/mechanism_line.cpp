@@ -37,15 +37,11 @@ std::optional<double> number(std::string_view text) {
 }
 
 bool set(std::optional<double>& field, double value) {
-    const bool first = !field.has_value();
-    field = value;
-    return first;
+    return !std::exchange(field, value).has_value();
 }
 
 bool set(std::optional<bool>& field, double value) {
-    const bool right = !field.has_value() && (value == 0.0 || value == 1.0);
-    field = value == 1.0;
-    return right;
+    return !std::exchange(field, value == 1.0).has_value() && (value == 0.0 || value == 1.0);
 }
 
 bool take_field(std::string_view field, MechanismLine& line) {

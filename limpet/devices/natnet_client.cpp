@@ -31,10 +31,9 @@ void NatNetClient::update(double time_s) {
     }
     said_s_ = time_s;
     NatNetBuffer packet;
-    const bool known = server_.has_value();
     // Nobody there is no fault: it is asked again, and the frames tell.
     (void)command_->send(
-        known ? encode_keep_alive(packet) : encode_connect(options_.version, packet),
+        server_ ? encode_keep_alive(packet) : encode_connect(options_.version, packet),
         std::chrono::milliseconds(10));
 }
 

@@ -29,7 +29,6 @@ public:
         : address_(address),
           role_(role),
           there_(boost::asio::ip::make_address_v4(address.host), address.port),
-          io_(1),
           socket_(io_, udp::v4()) {
         close_on_exec(socket_.native_handle());
         socket_.non_blocking(true);
@@ -57,8 +56,7 @@ public:
         const auto buffer = boost::asio::buffer(bytes.data(), bytes.size());
         while (peer_known_) {
             error_code error;
-            (void)(connected_ ? socket_.send(buffer, 0, error)
-                              : socket_.send_to(buffer, peer_, 0, error));
+            socket_.send_to(buffer, peer_, 0, error);
             if (!error) {
                 return {TransferStatus::done, bytes.size()};
             }
@@ -159,7 +157,6 @@ private:
             if (error) {
                 refuse_address(address_, error.value());
             }
-            connected_ = true;
             return;
         }
         if (group() && !address_.interface.empty()) {
@@ -204,12 +201,11 @@ private:
     Role role_;
     udp::endpoint there_;
     udp::endpoint peer_;
-    boost::asio::io_context io_;
+    boost::asio::io_context io_{1};
     udp::socket socket_;
     TransportStatistics statistics_;
     std::chrono::steady_clock::time_point spoke_;  ///< when the peer did last
     bool peer_known_ = false;
-    bool connected_ = false;
     bool heard_ = false;
     bool keeps_first_ = false;
     bool closed_ = false;
