@@ -12,19 +12,10 @@
 namespace limpet::app {
 namespace {
 
-std::vector<scenario::CatalogueEntry> entries(const std::string& kind) {
-    const auto root = scenario::data_root();
-    if (kind == "scenarios") {
-        return scenario::list_scenarios(root);
-    }
-    if (kind == "campaigns") {
-        return scenario::list_campaigns(root);
-    }
-    return kind == "vehicles" ? scenario::list_vehicles(root) : scenario::list_surfaces(root);
-}
-
 void print(const std::string& kind) {
-    const auto rows = entries(kind);
+    const auto root = scenario::data_root();
+    const auto rows =
+        kind == "surfaces" ? scenario::list_surfaces(root) : scenario::list_files(root / kind);
     std::size_t width = 0;
     for (const scenario::CatalogueEntry& row : rows) {
         width = std::max(width, row.name.size());

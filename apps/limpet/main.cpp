@@ -7,7 +7,6 @@
 #include <string>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "limpet/core/version.hpp"
 #include "verbs.hpp"
 

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/companion/parameters.hpp"
-#include "limpet/scenario/catalogue.hpp"
+#include "limpet/companion/config.hpp"
+#include "limpet/scenario/sections.hpp"
 
 namespace limpet::app {
 namespace {
@@ -18,34 +19,35 @@ struct ParamsOptions {
     std::string format = "text";
 };
 
-/// Those of scenarios, and those of companions, whose sections begin with "companion".
-std::vector<ParameterInfo> rows_of(const std::string& room) {
-    std::vector<ParameterInfo> companions = companion::companion_parameters();
-    if (room.empty()) {
-        std::vector<ParameterInfo> all = scenario::all_parameters();
-        all.insert(all.end(), companions.begin(), companions.end());
-        return all;
+/// What is printed as the defaults.
+struct Defaults {
+    scenario::Scenario scenario;
+    companion::CompanionConfig companion;
+};
+
+/// Those of scenarios, and those of companions, whose names begin with "companion".
+std::vector<scenario::Section> sections_in(const std::string& room, Defaults& defaults) {
+    std::vector<scenario::Section> all = scenario_sections(defaults.scenario);
+    for (scenario::Section& section : companion_sections(defaults.companion)) {
+        all.push_back(std::move(section));
     }
-    std::erase_if(companions, [&room](const ParameterInfo& row) {
-        return row.section != room && row.section.rfind(room + ".", 0) != 0;
-    });
-    return companions.empty() ? scenario::parameters_of(room) : companions;
+    return sections_of(room, std::move(all));
 }
 
-std::string default_of(const ParameterInfo& row) {
-    return !row.is_switch             ? fmt::format("{:g}", row.default_value)
-           : row.default_value != 0.0 ? "true"
-                                      : "false";
+std::string default_of(const BoundParameter& row) {
+    return row.value.is_switch() ? scenario::value_text(row.value)
+                                 : fmt::format("{:g}", row.value.get());
 }
 
-std::string range(const ParameterInfo& row) {
-    return row.is_switch ? "true, false" : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
+std::string range(const BoundParameter& row) {
+    return row.value.is_switch() ? "true, false"
+                                 : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
 }
 
 /// Keys that take a name, after those that take a number.
-void print_choices(const std::string& room, bool markdown) {
-    for (const scenario::Choice& choice : scenario::choices_of(room)) {
-        const std::string title = choice.section + "." + choice.key;
+void print_choices(const scenario::Section& section, bool markdown) {
+    for (const scenario::Choice& choice : section.choices) {
+        const std::string title = fmt::format("{}.{}", section.name, choice.key);
         if (markdown) {
             fmt::print("\n## {}\n\n| name | what |\n|---|---|\n", title);
         } else {
@@ -62,38 +64,36 @@ void print_choices(const std::string& room, bool markdown) {
     }
 }
 
-void print_text(const std::vector<ParameterInfo>& rows) {
-    std::string section;
+void print_text(const std::vector<scenario::Section>& sections) {
     std::size_t width = 0;
-    for (const ParameterInfo& row : rows) {
-        width = std::max(width, row.name.size());
-    }
-    for (const ParameterInfo& row : rows) {
-        if (row.section != section) {
-            fmt::print("{}{}:\n", section.empty() ? "" : "\n", row.section);
-            section = row.section;
+    for (const scenario::Section& section : sections) {
+        for (const BoundParameter& row : section.rows) {
+            width = std::max(width, row.name.size());
         }
-        fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width, default_of(row),
-                   row.unit, range(row), row.description, row.source);
+    }
+    for (const scenario::Section& section : sections) {
+        fmt::print("{}{}:\n", &section == &sections.front() ? "" : "\n", section.name);
+        for (const BoundParameter& row : section.rows) {
+            fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width,
+                       default_of(row), row.unit, range(row), row.description, row.source);
+        }
     }
 }
 
-void print_markdown(const std::vector<ParameterInfo>& rows) {
+void print_markdown(const std::vector<scenario::Section>& sections) {
     fmt::print(
         "# Parameters\n\nMade by `limpet params --format markdown`. Set them in a scenario, "
         "or by `--set section.name=value`; "
         "those of `companion` in a companion's file, without that word.\n");
-    std::string section;
-    for (const ParameterInfo& row : rows) {
-        if (row.section != section) {
-            section = row.section;
-            fmt::print(
-                "\n## {}\n\n| name | default | unit | allowed | what | source |\n"
-                "|---|---|---|---|---|---|\n",
-                section);
+    for (const scenario::Section& section : sections) {
+        fmt::print(
+            "\n## {}\n\n| name | default | unit | allowed | what | source |\n"
+            "|---|---|---|---|---|---|\n",
+            section.name);
+        for (const BoundParameter& row : section.rows) {
+            fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", row.name, default_of(row), row.unit,
+                       range(row), row.description, row.source);
         }
-        fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", row.name, default_of(row), row.unit,
-                   range(row), row.description, row.source);
     }
 }
 
@@ -114,9 +114,13 @@ Verb params_verb() {
                          {.one_of = {"text", "markdown"}}}},
             .footer = "Columns: name, default, unit, allowed range, what it does, [source].\n",
             .run = [options](const Given&) {
-                const auto rows = rows_of(options->room);
-                options->format == "text" ? print_text(rows) : print_markdown(rows);
-                print_choices(options->room, options->format == "markdown");
+                Defaults defaults;
+                const auto sections = sections_in(options->room, defaults);
+                const bool markdown = options->format == "markdown";
+                markdown ? print_markdown(sections) : print_text(sections);
+                for (const scenario::Section& section : sections) {
+                    print_choices(section, markdown);
+                }
                 return ExitCode::ok;
             }};
 }

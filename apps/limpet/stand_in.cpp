@@ -32,7 +32,7 @@ struct Options {
 
 /// A vehicle flies as in the scenario `hover`.
 scenario::Scenario scenario_of(const std::string& what) {
-    const auto vehicles = scenario::list_vehicles(scenario::data_root());
+    const auto vehicles = scenario::list_files(scenario::data_root() / "vehicles");
     const bool vehicle =
         std::any_of(vehicles.begin(), vehicles.end(),
                     [&](const scenario::CatalogueEntry& entry) { return entry.name == what; });

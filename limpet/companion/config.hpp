@@ -10,6 +10,7 @@
 #include "limpet/companion/parameters.hpp"
 #include "limpet/devices/mocap_axes.hpp"
 #include "limpet/guidance/perching.hpp"
+#include "limpet/scenario/sections.hpp"
 #include "limpet/wire/address.hpp"
 
 namespace limpet::companion {
@@ -70,6 +71,9 @@ struct CompanionConfig {
 [[nodiscard]] const ParameterTable<CompanionConfig>& motion_capture_table();
 /// Numbers of section `autopilot`.
 [[nodiscard]] const ParameterTable<CompanionConfig>& autopilot_wire_table();
+/// All numbers of a companion's file, "companion.limits", ..., each bound to its value in `config`,
+/// for `limpet params`.
+[[nodiscard]] std::vector<scenario::Section> companion_sections(CompanionConfig& config);
 
 /// @return whether any wire is a serial port: its clock cannot be turned faster
 [[nodiscard]] bool has_serial(const CompanionConfig& config);

@@ -87,15 +87,10 @@ const ParameterTable<CompanionConfig>& autopilot_wire_table() {
     return table;
 }
 
-std::vector<ParameterInfo> companion_parameters() {
-    CompanionConfig config;
-    std::vector<ParameterInfo> all =
-        describe("companion.limits", bind(companion_limits_table(), config.limits));
-    for (auto& more : {describe("companion.motion_capture", bind(motion_capture_table(), config)),
-                       describe("companion.autopilot", bind(autopilot_wire_table(), config))}) {
-        all.insert(all.end(), more.begin(), more.end());
-    }
-    return all;
+std::vector<scenario::Section> companion_sections(CompanionConfig& config) {
+    return {{"companion.limits", bind(companion_limits_table(), config.limits)},
+            {"companion.motion_capture", bind(motion_capture_table(), config)},
+            {"companion.autopilot", bind(autopilot_wire_table(), config)}};
 }
 
 }  // namespace limpet::companion

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "limpet/core/parameters.hpp"
 
 namespace limpet::companion {
@@ -30,8 +28,5 @@ struct CompanionLimits {
     double hover_s = 20.0;            ///< of mission hover
 };
 [[nodiscard]] const ParameterTable<CompanionLimits>& companion_limits_table();
-
-/// All numbers of a companion's file for `limpet params`: sections "companion.limits", ...
-[[nodiscard]] std::vector<ParameterInfo> companion_parameters();
 
 }  // namespace limpet::companion

@@ -9,16 +9,6 @@
 
 namespace limpet::companion {
 
-std::string_view to_string(SessionPhase phase) {
-    switch (phase) {
-        case SessionPhase::waiting: return "waiting";
-        case SessionPhase::ready: return "ready";
-        case SessionPhase::flying: return "flying";
-        case SessionPhase::handed_back: return "handed_back";
-    }
-    throw InternalError("phase out of range");
-}
-
 PerchingSession::PerchingSession(const SessionSetup& setup, CompanionWatch watch)
     : setup_(setup), watch_(std::move(watch)), task_(setup.task), asked_(!setup.by_request) {}
 

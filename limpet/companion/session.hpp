@@ -8,6 +8,7 @@
 
 #include "limpet/companion/parameters.hpp"
 #include "limpet/companion/watchdog.hpp"
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/guidance/perching.hpp"
@@ -35,7 +36,9 @@ enum class SessionPhase {
     flying,       ///< guidance
     handed_back,  ///< set-points have stopped
 };
-[[nodiscard]] std::string_view to_string(SessionPhase phase);
+[[nodiscard]] inline std::string_view to_string(SessionPhase phase) {
+    return name_of(phase);
+}
 
 /// Why control went back.
 enum class CompanionEnd {

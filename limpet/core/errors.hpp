@@ -20,6 +20,13 @@ public:
     using std::logic_error::logic_error;
 };
 
+/// Ctrl-C or SIGTERM before there was anything to conclude; one line that says what was going on.
+/// The command line turns it into exit code 130.
+class Interrupted : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 /// Always-armed check of a programmer's promise.
 /// @throws InternalError naming the place when `holds` is false
 inline void require(bool holds, const char* promise, const char* file = __builtin_FILE(),

@@ -29,7 +29,7 @@ void with_members(T& value, Each&& each) {
     using Plain = std::remove_const_t<T>;
     static_assert(std::is_aggregate_v<Plain>, "a state is plain, or has visit_members()");
     constexpr std::size_t kCount = member_count<Plain>();
-    static_assert(kCount <= 24, "a state this wide is better in parts");
+    static_assert(kCount <= 20, "a state this wide is better in parts");
     if constexpr (kCount == 1) {
         auto& [a] = value;
         each(a);
@@ -90,18 +90,6 @@ void with_members(T& value, Each&& each) {
     } else if constexpr (kCount == 20) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = value;
         each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
-    } else if constexpr (kCount == 21) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = value;
-        each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
-    } else if constexpr (kCount == 22) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = value;
-        each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v);
-    } else if constexpr (kCount == 23) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = value;
-        each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w);
-    } else if constexpr (kCount == 24) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = value;
-        each(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
     }
 }
 

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <functional>
-#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "limpet/core/type_list.hpp"
 
 namespace limpet {
 
@@ -82,6 +84,12 @@ struct BoundParameter {
     }
 };
 
+[[nodiscard]] inline std::vector<BoundParameter> joined(std::vector<BoundParameter> first,
+                                                        const std::vector<BoundParameter>& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 /// @param values  must outlive what is returned
 template <class Struct>
 [[nodiscard]] std::vector<BoundParameter> bind(const ParameterTable<Struct>& table,
@@ -95,21 +103,16 @@ template <class Struct>
     return rows;
 }
 
-/// A row without its struct: for printing and for documentation.
-struct ParameterInfo {
-    std::string section;  ///< where in a scenario it is set, "guidance"
-    std::string name;
-    std::string unit;
-    double minimum = 0.0;
-    double maximum = 0.0;
-    double default_value = 0.0;
-    bool is_switch = false;
-    std::string description;
-    std::string source;
-};
-
-/// @param rows  bound to a fresh struct, whose values are the defaults
-[[nodiscard]] std::vector<ParameterInfo> describe(std::string_view section,
-                                                  const std::vector<BoundParameter>& rows);
+/// Rows of all types of a registry, in its order.
+/// @param values  must outlive what is returned
+template <class... Types>
+[[nodiscard]] std::vector<BoundParameter> bind_all(TypeList<Types...> /*list*/,
+                                                   ParametersOf<TypeList<Types...>>& values) {
+    std::vector<BoundParameter> rows;
+    ((rows = joined(std::move(rows),
+                    bind(Types::table(), static_cast<typename Types::Parameters&>(values)))),
+     ...);
+    return rows;
+}
 
 }  // namespace limpet

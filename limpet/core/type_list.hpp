@@ -26,11 +26,4 @@ struct ParametersOf;
 template <class... Types>
 struct ParametersOf<TypeList<Types...>> : Types::Parameters... {};
 
-/// Calls `visit(table, numbers)` for the parameters of each type.
-template <class... Types, class Visit>
-void for_each_table(TypeList<Types...> /*list*/, ParametersOf<TypeList<Types...>>& all,
-                    Visit&& visit) {
-    (visit(Types::table(), static_cast<typename Types::Parameters&>(all)), ...);
-}
-
 }  // namespace limpet

@@ -25,18 +25,11 @@
 // A pointer or a view in a state does not compile: it would mean nothing in another process.
 namespace limpet {
 
-template <class T>
-inline constexpr bool kIsOptional = false;
-template <class T>
-inline constexpr bool kIsOptional<std::optional<T>> = true;
-template <class T>
-inline constexpr bool kIsVariant = false;
-template <class... T>
-inline constexpr bool kIsVariant<std::variant<T...>> = true;
-template <class T>
-inline constexpr bool kIsVector = false;
-template <class T>
-inline constexpr bool kIsVector<std::vector<T>> = true;
+/// Whether T is of a template: an optional, a variant, a vector.
+template <class T, template <class...> class Of>
+inline constexpr bool kIsA = false;
+template <class... T, template <class...> class Of>
+inline constexpr bool kIsA<Of<T...>, Of> = true;
 
 /// Makes a variant hold its alternative number `index`; one that does so already keeps its value.
 template <class... T>
@@ -66,7 +59,7 @@ void visit_leaves(T& value, Leaf&& leaf) {
         for (auto* number = value.data(); number != value.data() + value.size(); ++number) {
             leaf(*number);
         }
-    } else if constexpr (kIsOptional<Plain>) {
+    } else if constexpr (kIsA<Plain, std::optional>) {
         bool there = value.has_value();
         leaf(there);
         if constexpr (kWrites) {
@@ -77,15 +70,15 @@ void visit_leaves(T& value, Leaf&& leaf) {
         if (value) {
             visit_leaves(*value, leaf);
         }
-    } else if constexpr (kIsVariant<Plain>) {
+    } else if constexpr (kIsA<Plain, std::variant>) {
         std::size_t which = value.index();
         leaf(which);
         if constexpr (kWrites) {
             hold(value, which);
         }
         std::visit(each, value);
-    } else if constexpr (kIsVector<Plain> || requires { std::begin(value); }) {
-        if constexpr (kIsVector<Plain>) {
+    } else if constexpr (kIsA<Plain, std::vector> || requires { std::begin(value); }) {
+        if constexpr (kIsA<Plain, std::vector>) {
             std::size_t count = value.size();
             leaf(count);
             if constexpr (kWrites) {

@@ -41,11 +41,8 @@ double Result::metric(std::string_view name) const {
     const auto found = std::find_if(metrics.begin(), metrics.end(),
                                     [&](const Metric& metric) { return metric.name == name; });
     if (found == metrics.end()) {
-        std::vector<std::string> names;
-        for (const Metric& metric : metrics) {
-            names.push_back(metric.name);
-        }
-        throw InputError(scenario::unknown_name(std::string(name), "metric", names));
+        throw InputError(
+            scenario::unknown_name(std::string(name), "metric", scenario::names_of(metrics)));
     }
     return found->value;
 }

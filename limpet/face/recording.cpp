@@ -2,6 +2,7 @@
 #include "limpet/recording.hpp"
 
 #include "limpet/face/inside.hpp"
+#include "limpet/scenario/data_folder.hpp"
 
 namespace limpet {
 
@@ -28,11 +29,7 @@ std::vector<std::string> Recording::topics() const {
 }
 
 std::vector<std::string> Recording::columns(std::string_view topic) const {
-    std::vector<std::string> names;
-    for (const auto& column : inside_->recording.table(topic).columns) {
-        names.push_back(column.name);
-    }
-    return names;
+    return scenario::names_of(inside_->recording.table(topic).columns);
 }
 
 Series Recording::series(std::string_view topic, std::string_view column) const {

@@ -14,10 +14,6 @@ std::string_view library_version() {
     return kVersion;
 }
 
-}  // namespace limpet
-
-namespace limpet {
-
 Scenario::Scenario(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
 
 const std::string& Scenario::name() const {

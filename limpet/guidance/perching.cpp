@@ -182,30 +182,6 @@ bool looks_at_wall(PerchingState state) {
 
 }  // namespace
 
-std::string_view to_string(PerchingState state) {
-    switch (state) {
-        case S::hovering: return "hovering";
-        case S::pre_positioning: return "pre_positioning";
-        case S::aligning: return "aligning";
-        case S::approaching: return "approaching";
-        case S::holding: return "holding";
-        case S::deciding: return "deciding";
-        case S::retreating: return "retreating";
-        case S::pitching_up: return "pitching_up";
-        case S::unloading: return "unloading";
-        case S::standing: return "standing";
-        case S::resting: return "resting";
-        case S::spinning_up: return "spinning_up";
-        case S::pitching_down: return "pitching_down";
-        case S::levelled: return "levelled";
-        case S::releasing: return "releasing";
-        case S::resealing: return "resealing";
-        case S::backing_off: return "backing_off";
-        case S::finished: return "finished";
-    }
-    throw InternalError("perching state out of range");
-}
-
 void EventList::add(const Event& event) {
     require(count < events.size(), "an update reports at most eight events");
     events[count++] = event;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/short_text.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/event.hpp"
@@ -71,7 +72,9 @@ enum class PerchingState {
     backing_off,
     finished,
 };
-[[nodiscard]] std::string_view to_string(PerchingState state);
+[[nodiscard]] inline std::string_view to_string(PerchingState state) {
+    return name_of(state);
+}
 
 /// What the flight is for.
 struct PerchingTask {

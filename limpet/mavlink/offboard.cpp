@@ -39,17 +39,6 @@ std::string_view command_name(std::uint16_t command) {
 
 }  // namespace
 
-std::string_view to_string(OffboardState state) {
-    switch (state) {
-        case OffboardState::silent: return "silent";
-        case OffboardState::unready: return "unready";
-        case OffboardState::streaming: return "streaming";
-        case OffboardState::engaged: return "engaged";
-        case OffboardState::taken_away: return "taken_away";
-    }
-    throw InternalError("offboard state out of range");
-}
-
 Offboard::Offboard(const OffboardOptions& options) : options_(options) {}
 
 void Offboard::hear(const Frame& frame, double time_s) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/setpoint.hpp"
@@ -27,7 +28,9 @@ enum class OffboardState {
     engaged,     ///< it flies our set-points
     taken_away,  ///< an operator or a fail-safe chose another mode; set-points have stopped
 };
-[[nodiscard]] std::string_view to_string(OffboardState state);
+[[nodiscard]] inline std::string_view to_string(OffboardState state) {
+    return name_of(state);
+}
 
 struct OffboardOptions {
     std::uint8_t target_system = 1;

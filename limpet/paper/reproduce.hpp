@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "limpet/core/interrupted.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 
 namespace limpet::px4 {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/cad_section.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -10,6 +9,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/models/cad_model.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/parts.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::scenario {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/checks.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +6,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/scenario/derived.hpp"
-#include "limpet/scenario/sections.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -82,10 +80,11 @@ void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
 }
 
 /// A vehicle may be such that what follows from it is out of range: too heavy to hover.
-void check_derived(const std::vector<Section>& sections, const YamlNode& root) {
+void check_derived(const Scenario& scenario, const std::vector<Section>& sections,
+                   const YamlNode& root) {
     for (const Section& section : sections) {
         for (const BoundParameter& row : section.rows) {
-            if (!row.allows(row.value.get()) && is_derived(section.name, row.name)) {
+            if (!row.allows(row.value.get()) && derived(section.name, row.name, scenario)) {
                 fail_at(root, "vehicle",
                         fmt::format("{}.{} follows from it as {:.4g}, allowed {}", section.name,
                                     row.name, row.value.get(), allowed_text(row)));
@@ -109,7 +108,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_aiding(scenario, root);
     Scenario bound = scenario;  // sections bind to what may be written
     const std::vector<Section> sections = scenario_sections(bound);
-    check_derived(sections, root);
+    check_derived(scenario, sections, root);
     check_mission(scenario, root);
     check_environment(scenario.environment, root);
     check_steps(scenario.simulation, root);

@@ -2,73 +2,81 @@
 #include "limpet/scenario/derived.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
+#include <iterator>
 
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::scenario {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kDerived = {{
-    {"guidance", "lidar_separation_m"},
-    {"guidance", "lidar_x_m"},
-    {"guidance", "joint_x_m"},
-    {"guidance", "joint_z_m"},
-    {"guidance", "hover_thrust"},
-    {"guidance", "zero_thrust"},
-    {"guidance", "drag_1_s"},
-    {"autopilot", "MPC_THR_HOVER"},
-    {"autopilot", "mag_field_north_gauss"},
-    {"autopilot", "mag_field_east_gauss"},
-    {"autopilot", "mag_field_down_gauss"},
-    {"suction", "radius_m"},
-    {"guidance", "valve_fitted"},
-}};
-
-void derive_from_vehicle(const vehicle::Airframe& airframe, Scenario& scenario) {
-    const vehicle::RotorParameters& rotor = airframe.rotor;
-    const double hover_thrust = hover_command(airframe);
-    const double hover_speed_rad_s =
-        rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_thrust;
-    scenario.guidance.lidar_separation_m = airframe.lidar_separation_m;
-    scenario.guidance.lidar_x_m = airframe.lidar_x_m;
-    scenario.guidance.joint_x_m = airframe.cup.joint_x_m;
-    scenario.guidance.joint_z_m = airframe.cup.joint_z_m;
-    scenario.guidance.hover_thrust = hover_thrust;
-    scenario.guidance.zero_thrust = -rotor.speed_offset_rad_s / rotor.speed_scale_rad_s;
-    scenario.guidance.drag_1_s =
-        kRotors * rotor.drag_constant_kg * hover_speed_rad_s / airframe.mass_kg;
-    scenario.autopilot.MPC_THR_HOVER = hover_thrust;
-    scenario.cup.lip.radius_m = airframe.cup.radius_m;
+double zero_thrust(const Scenario& scenario) {
+    const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
+    return -rotor.speed_offset_rad_s / rotor.speed_scale_rad_s;
 }
 
-/// The world model that PX4 would look the field up in.
-void derive_from_earth(const sensors::SensorParameters& sensors,
-                       autopilot::AutopilotParameters& autopilot) {
+double drag_1_s(const Scenario& scenario) {
+    const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
+    const double hover_speed_rad_s =
+        rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_command(scenario.airframe);
+    return kRotors * rotor.drag_constant_kg * hover_speed_rad_s / scenario.airframe.mass_kg;
+}
+
+/// The earth's, that PX4 would look up in its world model.
+Vector3 field_W_gauss(const sensors::SensorParameters& sensors) {
     const double dip_rad = radians(sensors.mag_inclination_deg);
     const double east_of_x_rad = radians(sensors.mag_declination_deg);
     const double level_gauss = sensors.mag_field_gauss * std::cos(dip_rad);
-    autopilot.mag_field_north_gauss = level_gauss * std::cos(east_of_x_rad);
-    autopilot.mag_field_east_gauss = level_gauss * std::sin(east_of_x_rad);
-    autopilot.mag_field_down_gauss = sensors.mag_field_gauss * std::sin(dip_rad);
+    return {level_gauss * std::cos(east_of_x_rad), level_gauss * std::sin(east_of_x_rad),
+            sensors.mag_field_gauss * std::sin(dip_rad)};
 }
+
+using S = const Scenario&;
+
+struct DerivedKey {
+    std::string_view section;
+    std::string_view name;
+    double (*value)(S scenario);
+};
+
+constexpr DerivedKey kDerived[] = {
+    {"suction", "radius_m", [](S s) { return s.airframe.cup.radius_m; }},
+    {"guidance", "lidar_separation_m", [](S s) { return s.airframe.lidar_separation_m; }},
+    {"guidance", "lidar_x_m", [](S s) { return s.airframe.lidar_x_m; }},
+    {"guidance", "joint_x_m", [](S s) { return s.airframe.cup.joint_x_m; }},
+    {"guidance", "joint_z_m", [](S s) { return s.airframe.cup.joint_z_m; }},
+    {"guidance", "hover_thrust", [](S s) { return hover_command(s.airframe); }},
+    {"guidance", "zero_thrust", &zero_thrust},
+    {"guidance", "drag_1_s", &drag_1_s},
+    {"guidance", "valve_fitted", [](S s) { return s.cup.valve_fitted ? 1.0 : 0.0; }},
+    {"autopilot", "MPC_THR_HOVER", [](S s) { return hover_command(s.airframe); }},
+    {"autopilot", "mag_field_north_gauss", [](S s) { return field_W_gauss(s.sensors).x(); }},
+    {"autopilot", "mag_field_east_gauss", [](S s) { return field_W_gauss(s.sensors).y(); }},
+    {"autopilot", "mag_field_down_gauss", [](S s) { return field_W_gauss(s.sensors).z(); }},
+};
 
 }  // namespace
 
+std::optional<double> derived(std::string_view section, std::string_view name,
+                              const Scenario& scenario) {
+    const auto found = std::find_if(
+        std::begin(kDerived), std::end(kDerived),
+        [&](const DerivedKey& key) { return key.section == section && key.name == name; });
+    return found == std::end(kDerived) ? std::nullopt : std::optional(found->value(scenario));
+}
+
+void derive(const Section& section, const Scenario& scenario) {
+    for (const BoundParameter& row : section.rows) {
+        if (const auto value = derived(section.name, row.name, scenario)) {
+            row.value.set(*value);
+        }
+    }
+}
+
 void derive(Scenario& scenario) {
-    derive_from_vehicle(scenario.airframe, scenario);
-    derive_from_earth(scenario.sensors, scenario.autopilot);
-    derive_from_suction(scenario);
-}
-
-void derive_from_suction(Scenario& scenario) {
-    scenario.guidance.valve_fitted = scenario.cup.valve_fitted;
-}
-
-bool is_derived(std::string_view section, std::string_view name) {
-    return std::find(kDerived.begin(), kDerived.end(), std::pair(section, name)) != kDerived.end();
+    for (const Section& section : scenario_sections(scenario)) {
+        derive(section, scenario);
+    }
 }
 
 }  // namespace limpet::scenario

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/loader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <string_view>
 
-#include "limpet/scenario/checks.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/parts.hpp"
-#include "limpet/scenario/sections.hpp"
-#include "limpet/scenario/suggestion.hpp"
-#include "limpet/scenario/writer.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::scenario {
@@ -21,68 +15,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Mission read_mission(const YamlNode& node) {
-    const std::string word = read_text(node);
-    const auto mission = mission_from(word);
-    if (!mission) {
-        fail(node, fmt::format("\"{}\" is none of hover, perch, perch_and_take_off", shown(word)));
-    }
-    return *mission;
-}
-
-vehicle::Mount read_mount(const YamlNode& node) {
-    const std::string word = read_text(node);
-    const auto mount = vehicle::mount_from(word);
-    if (!mount) {
-        fail(node, fmt::format("\"{}\" is none of free, pendulum, press_rig", shown(word)));
-    }
-    return *mount;
-}
-
-/// One of a registry by its name.
-/// @param kind     "engine", for the message
-/// @param entries  pointers to what has a name
-template <class Entries>
-auto read_choice(const YamlNode& node, std::string_view kind, const Entries& entries) {
-    const std::string word = read_text(node);
-    std::vector<std::string> names;
-    for (const auto* entry : entries) {
-        if (entry->name == word) {
-            return entry;
-        }
-        names.emplace_back(entry->name);
-    }
-    fail(node, unknown_name(word, kind, names));
-}
-
 bool says_none(const YamlNode* node) {
     return node == nullptr || node->kind == YamlNode::Kind::null ||
            (node->kind == YamlNode::Kind::scalar && node->text == "none");
 }
 
-void read_wall(const YamlNode* node, const fs::path& root, WallSetup& wall) {
+/// @param section  bound to `wall`
+void read_wall(const YamlNode* node, const fs::path& root, const Section& section,
+               WallSetup& wall) {
     wall.present = !says_none(node);
     if (!wall.present) {
         return;
     }
-    read_rows(node, bind(wall_table(), wall), {"shape", "surface", "first_touches"});
-    if (const YamlNode* shape = node->find("shape")) {
-        wall.geometry.shape = read_choice(*shape, "shape of a wall", wall_shapes());
-    }
+    read_section(node, section, {"surface", "first_touches"});
     const YamlNode* surface = node->find("surface");
     if (surface == nullptr) {
         fail(*node, "has no surface, as in `surface: porous_concrete`");
     }
     wall.surface = surface_from(*surface, root);
     const YamlNode* touches = node->find("first_touches");
-    if (touches == nullptr || touches->kind == YamlNode::Kind::null) {
-        return;
-    }
-    if (touches->kind != YamlNode::Kind::list) {
-        fail(*touches, "must be a list of surfaces, as in [spalled_concrete]");
-    }
-    for (const YamlNode& touch : touches->children) {
-        wall.first_touches.push_back(surface_from(touch, root));
+    if (touches != nullptr && touches->kind != YamlNode::Kind::null) {
+        for (const YamlNode& touch :
+             read_list(*touches, "a list of surfaces, as in [spalled_concrete]")) {
+            wall.first_touches.push_back(surface_from(touch, root));
+        }
     }
 }
 
@@ -95,45 +51,33 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     check_keys(root, {"description", "mission", "mount", "vehicle", "seed", "wall", "pendulum",
                       "press_rig", "environment", "suction", "guidance", "autopilot", "sensors",
                       "simulation"});
-    if (const YamlNode* node = root.find("description")) {
-        scenario.description = read_text(*node);
-    }
-    if (const YamlNode* node = root.find("mission")) {
-        scenario.mission = read_mission(*node);
-    }
-    if (const YamlNode* node = root.find("mount")) {
-        scenario.mount = read_mount(*node);
-    }
-    if (const YamlNode* node = root.find("seed")) {
-        scenario.seed = read_count(*node);
-    }
+    read_given(root, "description", scenario.description);
+    read_given(root, "mission", scenario.mission);
+    read_given(root, "mount", scenario.mount);
+    read_given(root, "seed", scenario.seed);
     const YamlNode* vehicle = root.find("vehicle");
     if (vehicle == nullptr) {
         fail(root, "vehicle: is missing, as in `vehicle: perching_uav`");
     }
     scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
-    read_wall(root.find("wall"), data, scenario.wall);
     const std::vector<Section> sections = scenario_sections(scenario);
-    for (const char* name : {"pendulum", "press_rig", "environment", "sensors"}) {
-        read_rows(root.find(name), find_section(sections, name).rows);
+    const auto section = [&](std::string_view name) -> const Section& {
+        return find_section(sections, name);
+    };
+    read_wall(root.find("wall"), data, section("wall"), scenario.wall);
+    for (const char* name : {"pendulum", "press_rig", "environment", "sensors", "simulation"}) {
+        read_section(root.find(name), section(name));
     }
     const YamlNode* simulation = root.find("simulation");
-    read_rows(simulation, find_section(sections, "simulation").rows, {"engine"});
-    if (const YamlNode* engine = simulation ? simulation->find("engine") : nullptr) {
-        scenario.engine = read_choice(*engine, "engine", plant::engines());
-    }
     if (simulation == nullptr || simulation->find("touch_step_s") == nullptr) {
         scenario.simulation.touch_step_s =
             std::min(scenario.simulation.touch_step_s, scenario.simulation.step_s);
     }
-    derive(scenario);
+    derive(section("suction"), scenario);
     read_suction(root.find("suction"), scenario.cup);
-    derive_from_suction(scenario);
-    read_rows(root.find("guidance"), find_section(sections, "guidance").rows);
-    const YamlNode* autopilot = root.find("autopilot");
-    read_rows(autopilot, find_section(sections, "autopilot").rows, {"kind"});
-    if (const YamlNode* kind = autopilot ? autopilot->find("kind") : nullptr) {
-        scenario.autopilot_kind = read_choice(*kind, "autopilot", autopilot::autopilots());
+    for (const char* name : {"guidance", "autopilot"}) {
+        derive(section(name), scenario);
+        read_section(root.find(name), section(name));
     }
     lay_out(scenario);
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limpet/scenario/scenario.hpp"
+#include "limpet/scenario/yaml_tree.hpp"
 
 namespace limpet::scenario {
 
@@ -29,5 +30,10 @@ struct LoadOptions {
 /// @param name  of the scenario, and of the text in messages
 [[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,
                                           const LoadOptions& options = {});
+
+/// What no single row of a table can say: values that must fit each other.
+/// @param root  the text with its overrides, for the place in the message
+/// @throws InputError for the first that does not fit
+void check(const Scenario& scenario, const YamlNode& root);
 
 }  // namespace limpet::scenario

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/scenario/cad_section.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -13,12 +12,6 @@ namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-void read_optional_text(const YamlNode& map, std::string_view key, std::string& text) {
-    if (const YamlNode* node = map.find(key)) {
-        text = read_text(*node);
-    }
-}
 
 /// Either a list of the rows' values in their order or a section.
 void read_diagonal(const YamlNode* node, const std::vector<BoundParameter>& rows) {
@@ -50,11 +43,10 @@ void read_rotors(const YamlNode* node, vehicle::Airframe& airframe) {
     if (node == nullptr) {
         return;
     }
-    if (node->kind != YamlNode::Kind::list || node->children.size() != kRotors) {
-        fail(*node, fmt::format("must be a list of {} rotors", kRotors));
-    }
+    const auto& rotors =
+        read_list(*node, fmt::format("a list of {} rotors", kRotors), kRotors, kRotors);
     for (std::size_t i = 0; i < kRotors; ++i) {
-        const YamlNode& rotor = node->children[i];
+        const YamlNode& rotor = rotors[i];
         if (!is_section(&rotor)) {
             fail(rotor, "is empty, needs x_m, y_m and direction");
         }
@@ -89,11 +81,9 @@ void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder,
             read_rows(map.find(section.name), section.rows);
         }
     }
-    read_optional_text(map, "name", airframe.name);
-    read_optional_text(map, "description", airframe.description);
-    if (const YamlNode* node = map.find("has_cup")) {
-        airframe.has_cup = read_flag(*node);
-    }
+    read_given(map, "name", airframe.name);
+    read_given(map, "description", airframe.description);
+    read_given(map, "has_cup", airframe.has_cup);
     read_model(map, folder, airframe);
     read_rotors(map.find("rotors"), airframe);
     for (Vector3& p_B_m : airframe.rotor_p_B_m) {
@@ -123,8 +113,8 @@ void read_surface(const YamlNode& map, const std::vector<std::string_view>& othe
     std::vector<std::string_view> texts = {"description", "source"};
     texts.insert(texts.end(), others.begin(), others.end());
     read_rows(&map, bind(suction::surface_table(), surface), texts);
-    read_optional_text(map, "description", surface.description);
-    read_optional_text(map, "source", surface.source);
+    read_given(map, "description", surface.description);
+    read_given(map, "source", surface.source);
 }
 
 /// @param row  an entry of surfaces.yaml
@@ -133,14 +123,6 @@ suction::Surface surface_of(const YamlNode& row) {
     surface.name = row.key;
     read_surface(row, {}, surface);
     return surface;
-}
-
-std::string unknown_surface(const std::string& name, const YamlNode& all) {
-    std::vector<std::string> names;
-    for (const YamlNode& row : all.children) {
-        names.push_back(row.key);
-    }
-    return unknown_name(name, "surface", names);
 }
 
 /// The base's name as the scenario gives it; empty when it gives none.
@@ -170,13 +152,20 @@ std::vector<suction::Surface> load_surfaces(const fs::path& root) {
     return surfaces;
 }
 
-suction::Surface load_surface(const std::string& name, const fs::path& root) {
+suction::Surface load_surface(const std::string& name, const fs::path& root, const YamlNode* at) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
-    const YamlNode* row = all.find(name);
-    if (row == nullptr) {
-        throw InputError(unknown_surface(name, all));
+    if (const YamlNode* row = all.find(name)) {
+        return surface_of(*row);
     }
-    return surface_of(*row);
+    std::vector<std::string> names;
+    for (const YamlNode& row : all.children) {
+        names.push_back(row.key);
+    }
+    const std::string what = unknown_name(name, "surface", names);
+    if (at != nullptr) {
+        fail(*at, what);
+    }
+    throw InputError(what);
 }
 
 vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder) {
@@ -200,16 +189,11 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
 suction::Surface surface_from(const YamlNode& node, const fs::path& root) {
     suction::Surface surface;
     if (const std::string base = base_of(node); !base.empty()) {
-        const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
-        const YamlNode* row = all.find(base);
-        if (row == nullptr) {
-            fail(node, unknown_surface(base, all));
-        }
-        surface = surface_of(*row);
+        surface = load_surface(base, root, &node);
     }
     if (node.kind == YamlNode::Kind::map) {
         read_surface(node, {"base", "name"}, surface);
-        read_optional_text(node, "name", surface.name);
+        read_given(node, "name", surface.name);
     }
     return surface;
 }

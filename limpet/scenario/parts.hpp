@@ -25,10 +25,28 @@ namespace limpet::scenario {
 [[nodiscard]] vehicle::Airframe load_vehicle(const std::string& wanted,
                                              const std::filesystem::path& root);
 /// @param name  key of root/surfaces.yaml
+/// @param at    where it is asked for, to be named when there is none
 [[nodiscard]] suction::Surface load_surface(const std::string& name,
-                                            const std::filesystem::path& root);
+                                            const std::filesystem::path& root,
+                                            const YamlNode* at = nullptr);
 /// @return all of them, in the file's order
 [[nodiscard]] std::vector<suction::Surface> load_surfaces(const std::filesystem::path& root);
+
+/// Reads a vehicle's `model`, bodies and looks from a URDF instead of made ones:
+///
+///   model:
+///     urdf: cad/urdf/vehicle.urdf      # from this file's folder
+///     links: {base: base_link, carriage: slider_link, cup_yoke: yoke_link, cup: cup_link}
+///     joints: {slider: slider_joint, cup_pitch: pitch_joint, cup_yaw: yaw_joint}
+///
+/// What is not named is called as ours are. mass_kg, inertia_kg_m2, slider.mass_kg, cup.mass_kg,
+/// cup.mass_offset_m, cup.joint_x_m and cup.joint_z_m follow from it; a vehicle that states them
+/// must agree within 1 % (or 1 mm).
+/// @param vehicle  the whole map; without `model` an airframe that has a model already is checked
+/// @param folder   from which the URDF's path counts
+/// @throws InputError "file:line: key: what", of the YAML file or of the URDF
+void read_model(const YamlNode& vehicle, const std::filesystem::path& folder,
+                vehicle::Airframe& airframe);
 
 /// @param folder  of the scenario, from which a vehicle's relative path counts
 [[nodiscard]] vehicle::Airframe vehicle_from(const YamlNode& node,

@@ -9,25 +9,6 @@
 
 namespace limpet::scenario {
 
-std::string_view to_string(Mission mission) {
-    switch (mission) {
-        case Mission::hover: return "hover";
-        case Mission::perch: return "perch";
-        case Mission::perch_and_take_off: return "perch_and_take_off";
-    }
-    throw InternalError("mission out of range");
-}
-
-std::optional<Mission> mission_from(std::string_view name) {
-    for (const Mission mission :
-         std::array{Mission::hover, Mission::perch, Mission::perch_and_take_off}) {
-        if (to_string(mission) == name) {
-            return mission;
-        }
-    }
-    return std::nullopt;
-}
-
 const ParameterTable<SimulationParameters>& simulation_table() {
     using S = SimulationParameters;
     static const ParameterTable<S> table = {

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/wall.hpp"
 #include "limpet/guidance/parameters.hpp"
@@ -30,9 +30,9 @@ enum class Mission {
     perch,               ///< perch and rest
     perch_and_take_off,  ///< perch, rest, take off, back to the pre-position
 };
-[[nodiscard]] std::string_view to_string(Mission mission);
-/// @return nullopt for a name that is none
-[[nodiscard]] std::optional<Mission> mission_from(std::string_view name);
+[[nodiscard]] inline std::string_view to_string(Mission mission) {
+    return name_of(mission);
+}
 
 /// What the flight is set up with besides the rooms' own parameters.
 struct SimulationParameters {
@@ -119,6 +119,12 @@ struct Scenario {
 /// start_distance_m ahead of it along the heading, at the same height. On a mount the vehicle
 /// starts on that line: pulled back on its ropes, or start_gap_m before the wall.
 void lay_out(Scenario& scenario);
+
+/// A scenario as YAML that stands for itself: vehicle and surfaces are spelled out, so that it
+/// flies the same when their files have changed. Loading it gives the same numbers, bit by bit.
+/// What derive() works out is left out, so that changing the mass of a replay changes its hover
+/// thrust.
+[[nodiscard]] std::string to_yaml(const Scenario& scenario);
 
 /// Wall and ground as the writers of models take them.
 [[nodiscard]] models::Scene scene_of(const Scenario& scenario);

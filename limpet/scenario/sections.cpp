@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/sections.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
+#include <iterator>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/scenario/suggestion.hpp"
+#include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -30,10 +29,19 @@ std::vector<BoundParameter> take_group(std::vector<BoundParameter>& rows, std::s
     return group;
 }
 
-std::vector<BoundParameter> joined(std::vector<BoundParameter> first,
-                                   const std::vector<BoundParameter>& second) {
-    first.insert(first.end(), second.begin(), second.end());
-    return first;
+/// A choice of one of a registry of `const Entry*`, each with a name and a description.
+template <class Registry, class Entry>
+Choice choice(std::string_view key, std::string_view kind, const Registry& registry,
+              const Entry*& value) {
+    Choice made{.key = key, .kind = kind, .names = {}, .choose = [registry, &value](std::size_t i) {
+                    value = registry[i];
+                }};
+    for (std::size_t i = 0; i < registry.size(); ++i) {
+        made.names.push_back(
+            {std::string(registry[i]->name), std::string(registry[i]->description)});
+        made.chosen = registry[i] == value ? i : made.chosen;
+    }
+    return made;
 }
 
 }  // namespace
@@ -60,11 +68,9 @@ std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
 }
 
 std::vector<BoundParameter> suction_rows(suction::CupParameters& cup) {
-    std::vector<BoundParameter> rows = bind(suction::cup_table(), cup);
-    for_each_table(suction::PressureModels{}, cup.pressure, [&](const auto& table, auto& numbers) {
-        rows = joined(std::move(rows), bind(table, numbers));
-    });
-    return joined(std::move(rows), bind(suction::lip_table(), cup.lip));
+    return joined(
+        joined(bind(suction::cup_table(), cup), bind_all(suction::PressureModels{}, cup.pressure)),
+        bind(suction::lip_table(), cup.lip));
 }
 
 void read_suction(const YamlNode* section, suction::CupParameters& cup) {
@@ -73,41 +79,58 @@ void read_suction(const YamlNode* section, suction::CupParameters& cup) {
         fail(*old, "is no key any more, say pressure_model: pneumatic");
     }
     read_rows(section, suction_rows(cup), {"pressure_model"});
-    const YamlNode* named = section == nullptr ? nullptr : section->find("pressure_model");
-    if (named == nullptr) {
-        return;
+    if (const YamlNode* named = section == nullptr ? nullptr : section->find("pressure_model")) {
+        const std::vector<std::string> names = names_of(suction::pressure_models());
+        cup.pressure_model = static_cast<int>(read_one_of(*named, {names.begin(), names.end()}));
     }
-    const std::string word = read_text(*named);
-    std::vector<std::string_view> names;
-    for (const suction::PressureModel& model : suction::pressure_models()) {
-        if (model.name == word) {
-            cup.pressure_model = static_cast<int>(names.size());
-            return;
-        }
-        names.push_back(model.name);
-    }
-    fail(*named, fmt::format("\"{}\" is none of {}", shown(word), fmt::join(names, ", ")));
 }
 
 std::vector<Section> scenario_sections(Scenario& scenario) {
-    std::vector<Section> sections;
-    for (Section& section : vehicle_sections(scenario.airframe)) {
+    Environment& environment = scenario.environment;
+    std::vector<Section> sections = {
+        {"wall",
+         bind(wall_table(), scenario.wall),
+         {choice("shape", "shape of a wall", wall_shapes(), scenario.wall.geometry.shape)}},
+        {"wall.surface", bind(suction::surface_table(), scenario.wall.surface)},
+        {"pendulum", bind(vehicle::pendulum_table(), scenario.pendulum)},
+        {"press_rig", bind(vehicle::press_rig_table(), scenario.press_rig)},
+        {"environment", joined(bind(vehicle::wind_table(), environment.wind),
+                               bind(vehicle::wall_air_table(), environment.wall_air))},
+        {"suction", suction_rows(scenario.cup)},
+        {"guidance", bind(guidance::perching_table(), scenario.guidance)},
+        {"autopilot",
+         bind(autopilot::autopilot_table(), scenario.autopilot),
+         {choice("kind", "autopilot", autopilot::autopilots(), scenario.autopilot_kind)}},
+        {"sensors", sensor_rows(scenario.sensors)},
+        {"simulation",
+         bind(simulation_table(), scenario.simulation),
+         {choice("engine", "engine", plant::engines(), scenario.engine)}}};
+    std::vector<Section> vehicle = vehicle_sections(scenario.airframe);
+    for (Section& section : vehicle) {
         section.name = section.name.empty() ? "vehicle" : "vehicle." + section.name;
-        sections.push_back(std::move(section));
     }
-    sections.push_back({"wall", bind(wall_table(), scenario.wall)});
-    sections.push_back({"wall.surface", bind(suction::surface_table(), scenario.wall.surface)});
-    sections.push_back({"pendulum", bind(vehicle::pendulum_table(), scenario.pendulum)});
-    sections.push_back({"press_rig", bind(vehicle::press_rig_table(), scenario.press_rig)});
-    sections.push_back(
-        {"environment", joined(bind(vehicle::wind_table(), scenario.environment.wind),
-                               bind(vehicle::wall_air_table(), scenario.environment.wall_air))});
-    sections.push_back({"suction", suction_rows(scenario.cup)});
-    sections.push_back({"guidance", bind(guidance::perching_table(), scenario.guidance)});
-    sections.push_back({"autopilot", bind(autopilot::autopilot_table(), scenario.autopilot)});
-    sections.push_back({"sensors", sensor_rows(scenario.sensors)});
-    sections.push_back({"simulation", bind(simulation_table(), scenario.simulation)});
+    sections.insert(sections.begin(), std::move_iterator(vehicle.begin()),
+                    std::move_iterator(vehicle.end()));
     return sections;
+}
+
+void read_section(const YamlNode* node, const Section& section,
+                  std::vector<std::string_view> others) {
+    for (const Choice& choice : section.choices) {
+        others.push_back(choice.key);
+    }
+    read_rows(node, section.rows, others);
+    for (const Choice& choice : section.choices) {
+        if (const YamlNode* named = node == nullptr ? nullptr : node->find(choice.key)) {
+            const std::string word = read_text(*named);
+            const std::vector<std::string> names = names_of(choice.names);
+            const auto found = std::find(names.begin(), names.end(), word);
+            if (found == names.end()) {
+                fail(*named, unknown_name(word, choice.kind, names));
+            }
+            choice.choose(static_cast<std::size_t>(found - names.begin()));
+        }
+    }
 }
 
 const Section& find_section(const std::vector<Section>& sections, std::string_view name) {
@@ -115,6 +138,18 @@ const Section& find_section(const std::vector<Section>& sections, std::string_vi
                                     [&](const Section& section) { return section.name == name; });
     require(found != sections.end(), "the section is one of ours");
     return *found;
+}
+
+std::vector<Section> sections_of(std::string_view room, std::vector<Section> all) {
+    const std::vector<std::string> names = names_of(all);
+    const std::string within = std::string(room) + ".";
+    std::erase_if(all, [&](const Section& section) {
+        return !room.empty() && section.name != room && section.name.rfind(within, 0) != 0;
+    });
+    if (all.empty()) {
+        throw InputError(unknown_name(std::string(room), "room", names));
+    }
+    return all;
 }
 
 }  // namespace limpet::scenario

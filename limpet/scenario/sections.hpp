@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,11 +11,28 @@
 
 namespace limpet::scenario {
 
-/// Rows that stand together in a YAML text. The one place that says which table is read where:
-/// loader, writer, `limpet params` and the tests go through it.
+/// A name and, in a line, what it stands for.
+struct CatalogueEntry {
+    std::string name;
+    std::string description;
+};
+
+/// A key that takes a name out of a registry; the first is the default.
+struct Choice {
+    std::string_view key;
+    std::string_view kind;  ///< what is named, for messages: "engine"
+    std::vector<CatalogueEntry> names;
+    std::size_t chosen = 0;
+    std::function<void(std::size_t)> choose;
+};
+
+/// Rows that stand together in a YAML text, and the names that they stand beside. The one place
+/// that says which table is read where: loader, writer, `limpet params` and the tests go through
+/// it.
 struct Section {
     std::string name;  ///< dotted: "guidance", "vehicle.slider", "wall.surface"
     std::vector<BoundParameter> rows;
+    std::vector<Choice> choices = {};
 };
 
 /// Sections of a vehicle file; "" is its top. Positions of the rotors are a list, not a section.
@@ -33,8 +51,19 @@ void read_suction(const YamlNode* section, suction::CupParameters& cup);
 /// Sections of a scenario, each bound to its values in `scenario`.
 [[nodiscard]] std::vector<Section> scenario_sections(Scenario& scenario);
 
+/// Reads rows and choices.
+/// @param node    null or empty: nothing is set
+/// @param others  keys that are read elsewhere
+/// @throws InputError in a line
+void read_section(const YamlNode* node, const Section& section,
+                  std::vector<std::string_view> others = {});
+
 /// @return the section of that name @throws InternalError when there is none
 [[nodiscard]] const Section& find_section(const std::vector<Section>& sections,
                                           std::string_view name);
+
+/// Those of one room: "guidance", "vehicle" (with all its sections), "vehicle.slider"; of "" all.
+/// @throws InputError naming what there is
+[[nodiscard]] std::vector<Section> sections_of(std::string_view room, std::vector<Section> all);
 
 }  // namespace limpet::scenario

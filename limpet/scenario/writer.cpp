@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/writer.hpp"
-
 #include <fmt/format.h>
 
 #include <initializer_list>
@@ -8,7 +6,6 @@
 
 #include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/derived.hpp"
-#include "limpet/scenario/sections.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -37,6 +34,11 @@ public:
     void rows(int indent, const std::vector<BoundParameter>& rows) {
         for (const BoundParameter& row : rows) {
             value(indent, row.name, value_text(row.value));
+        }
+    }
+    void choices(const std::vector<Choice>& choices) {
+        for (const Choice& choice : choices) {
+            value(1, choice.key, choice.names[choice.chosen].name);
         }
     }
     [[nodiscard]] std::string take() { return std::move(text_); }
@@ -96,14 +98,14 @@ void write_surface(Writer& writer, int indent, std::string_view first, suction::
     writer.rows(indent + 1, bind(suction::surface_table(), surface));
 }
 
-void write_wall(Writer& writer, WallSetup& wall) {
+void write_wall(Writer& writer, const Section& section, const WallSetup& wall) {
     if (!wall.present) {
         writer.value(0, "wall", "none");
         return;
     }
     writer.line(0, "wall:");
-    writer.value(1, "shape", wall.geometry.shape->name);
-    writer.rows(1, bind(wall_table(), wall));
+    writer.choices(section.choices);
+    writer.rows(1, section.rows);
     write_surface(writer, 1, "surface:", wall.surface);
     if (!wall.first_touches.empty()) {
         writer.line(1, "first_touches:");
@@ -114,11 +116,10 @@ void write_wall(Writer& writer, WallSetup& wall) {
 }
 
 /// Rows of a section but for those that would be derived alike.
-void write_section(Writer& writer, const Section& section, const Section& derived) {
+void write_section(Writer& writer, const Section& section, const Scenario& scenario) {
     writer.line(0, section.name + ":");
-    for (std::size_t i = 0; i < section.rows.size(); ++i) {
-        const BoundParameter& row = section.rows[i];
-        if (!is_derived(section.name, row.name) || row.value.get() != derived.rows[i].value.get()) {
+    for (const BoundParameter& row : section.rows) {
+        if (row.value.get() != derived(section.name, row.name, scenario)) {
             writer.value(1, row.name, value_text(row.value));
         }
     }
@@ -128,28 +129,25 @@ void write_section(Writer& writer, const Section& section, const Section& derive
 
 std::string to_yaml(const Scenario& scenario) {
     Scenario copy = scenario;  // sections bind to what may be written
-    Scenario alike = scenario;
-    derive(alike);
     Writer writer;
     writer.value(0, "description", in_quotes(copy.description));
     writer.value(0, "mission", to_string(copy.mission));
     writer.value(0, "mount", to_string(copy.mount));
     writer.value(0, "seed", fmt::format("{}", copy.seed));
     write_vehicle(writer, copy.airframe);
-    write_wall(writer, copy.wall);
     const std::vector<Section> sections = scenario_sections(copy);
-    const std::vector<Section> derived = scenario_sections(alike);
+    write_wall(writer, find_section(sections, "wall"), copy.wall);
     for (const std::string_view name : {"pendulum", "press_rig", "environment", "suction",
                                         "guidance", "autopilot", "sensors", "simulation"}) {
-        write_section(writer, find_section(sections, name), find_section(derived, name));
+        const Section& section = find_section(sections, name);
+        write_section(writer, section, scenario);
         if (name == "suction") {
             writer.value(1, "pressure_model",
                          suction::pressure_models()[copy.cup.pressure_model].name);
-        } else if (name == "autopilot" && copy.autopilot_kind != autopilot::autopilots().front()) {
-            writer.value(1, "kind", copy.autopilot_kind->name);
+        } else if (name != "autopilot" || copy.autopilot_kind != autopilot::autopilots().front()) {
+            writer.choices(section.choices);
         }
     }
-    writer.value(1, "engine", copy.engine->name);  // of the last section, simulation
     return writer.take();
 }
 

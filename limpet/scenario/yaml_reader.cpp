@@ -41,13 +41,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::optional<bool> flag_of(const YamlNode& node) {
-    const std::string word = is_plain(node) ? lower(node.text) : "";
-    return word == "true"    ? std::optional(true)
-           : word == "false" ? std::optional(false)
-                             : std::nullopt;
-}
-
 /// .nan, -.inf and how else people write them.
 bool is_not_finite(const std::string& text) {
     std::string word = lower(text);
@@ -128,11 +121,11 @@ std::string read_text(const YamlNode& node) {
 }
 
 bool read_flag(const YamlNode& node) {
-    const auto flag = flag_of(node);
-    if (!flag) {
+    const std::string word = is_plain(node) ? lower(node.text) : "";
+    if (word != "true" && word != "false") {
         fail_type(node, "true or false");
     }
-    return *flag;
+    return word == "true";
 }
 
 std::uint64_t read_count(const YamlNode& node) {
@@ -143,6 +136,24 @@ std::uint64_t read_count(const YamlNode& node) {
         fail_type(node, "a whole number 0..18446744073709551615");
     }
     return value;
+}
+
+std::size_t read_one_of(const YamlNode& node, const std::vector<std::string_view>& words) {
+    const std::string word = read_text(node);
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) {
+        fail(node, fmt::format("\"{}\" is none of {}", shown(word), fmt::join(words, ", ")));
+    }
+    return static_cast<std::size_t>(found - words.begin());
+}
+
+const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view wanted,
+                                       std::size_t least, std::size_t most) {
+    if (node.kind != YamlNode::Kind::list || node.children.size() < least ||
+        node.children.size() > most) {
+        fail(node, fmt::format("must be {}", wanted));
+    }
+    return node.children;
 }
 
 void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,

@@ -5,8 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/parameters.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 
@@ -31,6 +33,36 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
 [[nodiscard]] bool read_flag(const YamlNode& node);
 /// A whole number 0..2^64-1.
 [[nodiscard]] std::uint64_t read_count(const YamlNode& node);
+/// One of a few words.
+/// @return its index
+[[nodiscard]] std::size_t read_one_of(const YamlNode& node,
+                                      const std::vector<std::string_view>& words);
+/// An enumerator by its name.
+template <class Enum>
+[[nodiscard]] Enum read_enum(const YamlNode& node) {
+    return static_cast<Enum>(read_one_of(node, {kNamesOf<Enum>.begin(), kNamesOf<Enum>.end()}));
+}
+/// Items of a list of at least `least` and at most `most`.
+/// @param wanted  for the message: "a list of outcomes, as in [perched, released]"
+[[nodiscard]] const std::vector<YamlNode>& read_list(const YamlNode& node, std::string_view wanted,
+                                                     std::size_t least = 0,
+                                                     std::size_t most = SIZE_MAX);
+
+/// Sets a text, a switch, a count or an enum where its key is given; otherwise it stays.
+template <class Value>
+void read_given(const YamlNode& map, std::string_view key, Value& value) {
+    if (const YamlNode* node = map.find(key)) {
+        if constexpr (std::is_enum_v<Value>) {
+            value = read_enum<Value>(*node);
+        } else if constexpr (std::is_same_v<Value, bool>) {
+            value = read_flag(*node);
+        } else if constexpr (std::is_integral_v<Value>) {
+            value = read_count(*node);
+        } else {
+            value = read_text(*node);
+        }
+    }
+}
 
 /// Sets the value of every row whose key is given; the others keep theirs.
 /// @param section  null or empty: nothing is set
@@ -40,9 +72,9 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
 
 /// @return the same digits for the same bits, as few as tell it from its neighbours
 [[nodiscard]] std::string number_text(double value);
-/// @return "0.01..3 m/s"
 /// @return the same, of a switch "true" or "false"
 [[nodiscard]] std::string value_text(const ParameterValue& value);
+/// @return "0.01..3 m/s"
 [[nodiscard]] std::string allowed_text(const BoundParameter& row);
 
 }  // namespace limpet::scenario

@@ -21,12 +21,7 @@ static_assert(streams_apart(Sensors{}), "sensors draw from streams 10..29, no tw
 }  // namespace
 
 std::vector<BoundParameter> sensor_rows(SensorParameters& sensors) {
-    std::vector<BoundParameter> rows;
-    for_each_table(Sensors{}, sensors, [&](const auto& table, auto& numbers) {
-        const std::vector<BoundParameter> more = bind(table, numbers);
-        rows.insert(rows.end(), more.begin(), more.end());
-    });
-    return rows;
+    return bind_all(Sensors{}, sensors);
 }
 
 }  // namespace limpet::sensors

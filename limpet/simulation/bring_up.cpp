@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/step.hpp"
 

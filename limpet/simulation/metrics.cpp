@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/metrics.hpp"
 
-#include "limpet/core/errors.hpp"
-
 namespace limpet::simulation {
-
-std::string_view to_string(LoadPhase phase) {
-    switch (phase) {
-        case LoadPhase::hold: return "hold";
-        case LoadPhase::land: return "land";
-        case LoadPhase::rest: return "rest";
-        case LoadPhase::take_off: return "take_off";
-        case LoadPhase::level: return "level";
-    }
-    throw InternalError("load phase out of range");
-}
 
 std::span<const MetricInfo> metric_table() {
     static constexpr MetricInfo kTable[] = {

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
+
 namespace limpet::simulation {
 
 /// Parts of the manoeuvre in which the cup bears load.
@@ -19,7 +21,9 @@ enum class LoadPhase {
 };
 inline constexpr std::array kLoadPhases = {LoadPhase::hold, LoadPhase::land, LoadPhase::rest,
                                            LoadPhase::take_off, LoadPhase::level};
-[[nodiscard]] std::string_view to_string(LoadPhase phase);
+[[nodiscard]] inline std::string_view to_string(LoadPhase phase) {
+    return name_of(phase);
+}
 
 /// Largest loads on the cup in one phase while it was sealed, and what it had to spare from the
 /// attachment on.

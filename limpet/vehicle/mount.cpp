@@ -8,22 +8,6 @@
 
 namespace limpet::vehicle {
 
-namespace {
-
-constexpr std::array<std::string_view, 3> kMounts = {"free", "pendulum", "press_rig"};
-
-}  // namespace
-
-std::string_view to_string(Mount mount) {
-    return kMounts.at(static_cast<std::size_t>(mount));
-}
-
-std::optional<Mount> mount_from(std::string_view name) {
-    const auto found = std::find(kMounts.begin(), kMounts.end(), name);
-    return found == kMounts.end() ? std::nullopt
-                                  : std::optional(static_cast<Mount>(found - kMounts.begin()));
-}
-
 const ParameterTable<PendulumParameters>& pendulum_table() {
     using P = PendulumParameters;
     static const ParameterTable<P> table = {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
@@ -23,9 +23,9 @@ enum class Mount {
     pendulum,   ///< it hangs and swings against the wall
     press_rig,  ///< it is pressed on the wall
 };
-[[nodiscard]] std::string_view to_string(Mount mount);
-/// @return nullopt for a name that is none
-[[nodiscard]] std::optional<Mount> mount_from(std::string_view name);
+[[nodiscard]] inline std::string_view to_string(Mount mount) {
+    return name_of(mount);
+}
 
 /// Rows of `pendulum:`.
 struct PendulumParameters {

@@ -200,11 +200,14 @@ TEST(CompanionConfig, RefusesAKeyFileThatIsNone) {
 
 TEST(CompanionParameters, AreAllInTheirTablesOnceAndInRange) {
     test::expect_whole(companion_limits_table(), "limits");
-    for (const ParameterInfo& row : companion_parameters()) {
-        EXPECT_LT(row.minimum, row.maximum) << row.name;
-        EXPECT_GE(row.default_value, row.minimum) << row.name;
-        EXPECT_LE(row.default_value, row.maximum) << row.name;
-        EXPECT_FALSE(row.source.empty() || row.description.empty() || row.unit.empty()) << row.name;
+    CompanionConfig defaults;
+    for (const scenario::Section& section : companion_sections(defaults)) {
+        for (const BoundParameter& row : section.rows) {
+            EXPECT_LT(row.minimum, row.maximum) << row.name;
+            EXPECT_TRUE(row.allows(row.value.get())) << row.name;
+            EXPECT_FALSE(row.source.empty() || row.description.empty() || row.unit.empty())
+                << row.name;
+        }
     }
 }
 

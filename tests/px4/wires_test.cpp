@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 
 namespace limpet::px4 {
 namespace {

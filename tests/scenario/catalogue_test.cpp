@@ -23,9 +23,9 @@ TEST(Catalogue, ListsWhatThereIsInOrder) {
     const TestData data;
     data.write("scenarios/another.yaml", "description: one more\nmission: hover\n");
     data.write("scenarios/README.md", "not a scenario");
-    EXPECT_THAT(list_scenarios(data.root()),
+    EXPECT_THAT(list_files(data.root() / "scenarios"),
                 ElementsAre(entry("another", "one more"), entry("first", "the first")));
-    EXPECT_THAT(list_vehicles(data.root()), ElementsAre(entry("small", "a small one")));
+    EXPECT_THAT(list_files(data.root() / "vehicles"), ElementsAre(entry("small", "a small one")));
     EXPECT_THAT(list_surfaces(data.root()),
                 ElementsAre(entry("stone", "grey"), entry("glass", "clear")));
 }
@@ -33,7 +33,7 @@ TEST(Catalogue, ListsWhatThereIsInOrder) {
 TEST(Catalogue, ListsABrokenFileWithItsFault) {
     const TestData data;
     const std::string path = data.write("scenarios/broken.yaml", "");
-    EXPECT_THAT(list_scenarios(data.root()),
+    EXPECT_THAT(list_files(data.root() / "scenarios"),
                 ElementsAre(entry("broken", path + ": is empty"), entry("first", "the first")));
 }
 
@@ -45,7 +45,7 @@ TEST(Catalogue, RefusesSurfacesThatAreNone) {
 }
 
 TEST(Catalogue, FindsNoFolderEmpty) {
-    EXPECT_TRUE(list_scenarios("/no/such/folder").empty());
+    EXPECT_TRUE(list_files("/no/such/folder").empty());
 }
 
 TEST(Catalogue, TakesSurfacesByName) {
@@ -55,28 +55,33 @@ TEST(Catalogue, TakesSurfacesByName) {
               "\"glas\": no such surface (did you mean glass?); there are stone, glass");
 }
 
-TEST(Catalogue, PrintsTheRowsOfARoom) {
-    const auto vehicle = parameters_of("vehicle");
-    const auto slider = parameters_of("vehicle.slider");
-    EXPECT_GT(vehicle.size(), slider.size());
-    ASSERT_FALSE(slider.empty());
-    EXPECT_EQ(slider[0].name, "stiffness_N_m");
-    EXPECT_EQ(slider[0].default_value, 500.0);
-    EXPECT_EQ(parameters_of("guidance").size(), guidance::perching_table().size());
-    EXPECT_EQ(error_of([] { return parameters_of("guidence"); }).substr(0, 50),
+TEST(Catalogue, FindsTheSectionsOfARoom) {
+    Scenario defaults;
+    const auto all = scenario_sections(defaults);
+    EXPECT_EQ(sections_of("", all).size(), all.size());
+    EXPECT_EQ(sections_of("vehicle", all).size(), 9U);
+    const auto slider = sections_of("vehicle.slider", all);
+    ASSERT_EQ(slider.size(), 1U);
+    EXPECT_EQ(slider[0].rows[0].name, "stiffness_N_m");
+    EXPECT_EQ(slider[0].rows[0].value.get(), 500.0);
+    ASSERT_EQ(sections_of("guidance", all).size(), 1U);
+    EXPECT_EQ(sections_of("guidance", all)[0].rows.size(), guidance::perching_table().size());
+    EXPECT_EQ(error_of([&] { return sections_of("guidence", all); }).substr(0, 50),
               "\"guidence\": no such room (did you mean guidance?);");
 }
 
 TEST(Catalogue, KnowsTheKeysThatTakeAName) {
-    const auto all = choices_of("");
-    ASSERT_EQ(all.size(), 3U);
-    EXPECT_EQ(all[0].section + "." + all[0].key, "wall.shape");
-    EXPECT_EQ(all[0].names.front().name, "plane");
-    ASSERT_EQ(choices_of("autopilot").size(), 1U);
-    EXPECT_EQ(choices_of("autopilot")[0].names.front().name, "cascade");
-    ASSERT_EQ(choices_of("simulation").size(), 1U);
-    EXPECT_EQ(choices_of("simulation")[0].names.front().name, "mujoco");
-    EXPECT_TRUE(choices_of("guidance").empty());
+    Scenario defaults;
+    std::vector<std::string> choices;
+    for (const Section& section : scenario_sections(defaults)) {
+        for (const Choice& choice : section.choices) {
+            EXPECT_EQ(choice.chosen, 0U);
+            choices.push_back(section.name + "." + std::string(choice.key) + ": " +
+                              choice.names.front().name);
+        }
+    }
+    EXPECT_THAT(choices, ElementsAre("wall.shape: plane", "autopilot.kind: cascade",
+                                     "simulation.engine: mujoco"));
 }
 
 TEST(DataRoot, IsWhereTheEnvironmentSays) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "limpet/scenario/sections.hpp"
-#include "limpet/scenario/writer.hpp"
 #include "tests/scenario/test_data.hpp"
 
 namespace limpet::scenario {

@@ -78,7 +78,7 @@ TEST(Surfaces, SayWhatTheyAreAndWhereFrom) {
 
 TEST(Scenarios, AllLoad) {
     std::vector<std::string> names;
-    for (const CatalogueEntry& entry : list_scenarios(kRoot)) {
+    for (const CatalogueEntry& entry : list_files(kRoot / "scenarios")) {
         names.push_back(entry.name);
         const Scenario scenario = shipped(entry.name);
         EXPECT_EQ(scenario.name, entry.name);
@@ -108,7 +108,7 @@ TEST(Scenarios, OfTheReadmeLoad) {
     EXPECT_EQ(parts.wall.surface.name, "oily_metal");
     EXPECT_EQ(parts.wall.surface.vacuum_pressure_Pa, 27500.0);
     EXPECT_EQ(parts.airframe.slider.stiffness_N_m, 400.0);
-    for (const CatalogueEntry& entry : list_scenarios(kRoot)) {
+    for (const CatalogueEntry& entry : list_files(kRoot / "scenarios")) {
         EXPECT_NE(readme.find("`" + entry.name + "`"), std::string::npos) << entry.name;
     }
 }
@@ -154,7 +154,7 @@ TEST(Scenarios, WaitLongEnoughForTheReleaseWhereOneComes) {
 
 TEST(Vehicles, AllFlyAHover) {
     std::vector<std::string> names;
-    for (const CatalogueEntry& entry : list_vehicles(kRoot)) {
+    for (const CatalogueEntry& entry : list_files(kRoot / "vehicles")) {
         names.push_back(entry.name);
         const Scenario s = load_scenario("hover", {{"vehicle=" + entry.name}, {}, kRoot});
         EXPECT_EQ(s.airframe.name, entry.name);

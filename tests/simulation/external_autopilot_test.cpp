@@ -7,7 +7,6 @@
 #include "flown.hpp"
 #include "limpet/autopilot/builtin.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight.hpp"

@@ -19,9 +19,9 @@ Kinematics at(const Vector3& p_W_m, const Quaternion& q_WB = Quaternion::Identit
 
 TEST(Mounts, HaveNames) {
     for (const Mount mount : {Mount::free, Mount::pendulum, Mount::press_rig}) {
-        EXPECT_EQ(mount_from(to_string(mount)), mount);
+        EXPECT_EQ(enumerator_of<Mount>(to_string(mount)), mount);
     }
-    EXPECT_EQ(mount_from("crane"), std::nullopt);
+    EXPECT_EQ(enumerator_of<Mount>("crane"), std::nullopt);
 }
 
 /// facts.md section 4: on 5 m, 3.3 deg give 0.4 m/s and 9.0 deg (6.2 cm) give 1.1 m/s.

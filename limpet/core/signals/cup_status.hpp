@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/wrench.hpp"
 
@@ -17,7 +18,9 @@ enum class CupPhase {
     unsealing,  ///< pump off or valve open, the pressure rises along eq. (6), still in contact
 };
 
-[[nodiscard]] std::string_view to_string(CupPhase phase);
+[[nodiscard]] inline std::string_view to_string(CupPhase phase) {
+    return name_of(phase);
+}
 
 /// The true state of the cup at a tick, for sensors and recordings.
 struct CupStatus {

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
+
 namespace limpet {
 
 /// Everything that a flight reports as it happens, in the order of the manoeuvre.
@@ -31,7 +33,9 @@ enum class EventName {
     parameter_set,  ///< from outside, of the autopilot: its name and value
 };
 
-[[nodiscard]] std::string_view to_string(EventName name);
+[[nodiscard]] inline std::string_view to_string(EventName name) {
+    return name_of(name);
+}
 
 struct EventValue {
     std::string_view name;  ///< a literal: outlives the event

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include "limpet/core/enum_names.hpp"
+
 namespace limpet {
 
 /// How a flight ended.
@@ -16,8 +18,12 @@ enum class Outcome {
     timed_out,        ///< the scenario's time is over
 };
 
-[[nodiscard]] std::string_view to_string(Outcome outcome);
+[[nodiscard]] inline std::string_view to_string(Outcome outcome) {
+    return name_of(outcome);
+}
 /// @return nullopt for a name that is none
-[[nodiscard]] std::optional<Outcome> outcome_from(std::string_view name);
+[[nodiscard]] inline std::optional<Outcome> outcome_from(std::string_view name) {
+    return enumerator_of<Outcome>(name);
+}
 
 }  // namespace limpet
