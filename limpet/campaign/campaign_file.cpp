@@ -12,18 +12,20 @@
 namespace limpet::campaign {
 namespace {
 
+using scenario::YamlNode;
+
 constexpr double kHuge = 1e300;
 constexpr std::uint64_t kMostRuns = 1'000'000'000;
 constexpr std::uint64_t kMostPoints = 1'000'000;
 constexpr std::uint64_t kLargestSeed = 9'223'372'036'854'775'807U;  ///< what SQLite can hold
 constexpr double kLeastShare = 1e-3;
 
-double number(const scenario::YamlNode& node, double minimum = -kHuge, double maximum = kHuge) {
+double number(const YamlNode& node, double minimum = -kHuge, double maximum = kHuge) {
     double value = 0.0;
     return read_number(node, {{}, "-", minimum, maximum, &value, {}, {}});
 }
 
-std::uint64_t count(const scenario::YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {
+std::uint64_t count(const YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {
     const std::uint64_t value = read_count(node);
     if (value < minimum || value > maximum) {
         fail(node, fmt::format("{} is out of range, allowed {}..{}", value, minimum, maximum));
@@ -31,35 +33,33 @@ std::uint64_t count(const scenario::YamlNode& node, std::uint64_t minimum, std::
     return value;
 }
 
-const scenario::YamlNode& needed(const scenario::YamlNode& map, std::string_view key) {
-    const scenario::YamlNode* node = map.find(key);
+const YamlNode& needed(const YamlNode& map, std::string_view key) {
+    const YamlNode* node = map.find(key);
     if (node == nullptr) {
         fail(map, fmt::format("{}: is missing", key));
     }
     return *node;
 }
 
-const scenario::YamlNode& section(const scenario::YamlNode& node, std::string_view example) {
-    if (node.kind != scenario::YamlNode::Kind::map) {
+const YamlNode& section(const YamlNode& node, std::string_view example) {
+    if (node.kind != YamlNode::Kind::map) {
         fail(node, fmt::format("must be written as {}", example));
     }
     return node;
 }
 
-bool is_name(const scenario::YamlNode& node) {
+bool is_name(const YamlNode& node) {
     const std::string& text = node.text;
     const bool begins_as_number = !text.empty() && text.find_first_of("0123456789+-.") == 0;
-    return node.kind == scenario::YamlNode::Kind::scalar && (node.quoted || !begins_as_number);
+    return node.kind == YamlNode::Kind::scalar && (node.quoted || !begins_as_number);
 }
 
 /// All numbers, or all names: a column of the results is one or the other.
-std::vector<SampledValue> read_values(const scenario::YamlNode& list) {
-    if (list.kind != scenario::YamlNode::Kind::list || list.children.empty()) {
-        fail(list, "must be a list of values, as in [0.8, 1.0, 1.2]");
-    }
-    const bool names = is_name(list.children.front());
+std::vector<SampledValue> read_values(const YamlNode& list) {
+    const auto& items = read_list(list, "a list of values, as in [0.8, 1.0, 1.2]", 1);
+    const bool names = is_name(items.front());
     std::vector<SampledValue> values;
-    for (const scenario::YamlNode& item : list.children) {
+    for (const YamlNode& item : items) {
         if (names && !is_name(item)) {
             fail(item, fmt::format("{} is a number among names", scenario::shown(item.text)));
         }
@@ -77,7 +77,7 @@ double plain(double value) {
     return std::stod(fmt::format("{:.12g}", value));
 }
 
-void read_range(const scenario::YamlNode& node, VariedKey& key) {
+void read_range(const YamlNode& node, VariedKey& key) {
     check_keys(section(node, "{from: 0.2, to: 1.6, count: 15}"), {"from", "to", "count"});
     const double from = number(needed(node, "from"));
     const double to = number(needed(node, "to"), from);
@@ -92,33 +92,29 @@ void read_range(const scenario::YamlNode& node, VariedKey& key) {
     }
 }
 
-void read_uniform(const scenario::YamlNode& node, VariedKey& key) {
-    if (node.kind != scenario::YamlNode::Kind::list || node.children.size() != 2) {
-        fail(node, "must be two ends, as in [0.8, 1.2]");
-    }
-    key.first = number(node.children[0]);
-    key.second = number(node.children[1], key.first);
+void read_uniform(const YamlNode& node, VariedKey& key) {
+    const auto& ends = read_list(node, "two ends, as in [0.8, 1.2]", 2, 2);
+    key.first = number(ends[0]);
+    key.second = number(ends[1], key.first);
 }
 
 /// normal: {mean, sigma} and lognormal: {median, sigma}, each with from, to.
-void read_bell(const scenario::YamlNode& node, std::string_view middle, double least,
-               VariedKey& key) {
+void read_bell(const YamlNode& node, std::string_view middle, double least, VariedKey& key) {
     const std::string example = fmt::format("{{{}: 1.0, sigma: 0.1}}", middle);
     check_keys(section(node, example), {middle, "sigma", "from", "to"});
     key.first = number(needed(node, middle), least);
     key.second = number(needed(node, "sigma"), 1e-300);
-    if (const scenario::YamlNode* from = node.find("from")) {
-        key.from = number(*from);
-    }
-    if (const scenario::YamlNode* to = node.find("to")) {
-        key.to = number(*to);
+    for (auto [end, name] : {std::pair(&key.from, "from"), std::pair(&key.to, "to")}) {
+        if (const YamlNode* given = node.find(name)) {
+            *end = number(*given);
+        }
     }
     if (!(share_within(key) >= kLeastShare)) {
         fail(node, "hardly ever falls between from and to");
     }
 }
 
-VariedKey read_key(const scenario::YamlNode& node) {
+VariedKey read_key(const YamlNode& node) {
     section(node, "{grid: [0.8, 1.0, 1.2]}");
     check_keys(node, {"grid", "range", "uniform", "normal", "lognormal", "choice"});
     if (node.children.size() != 1) {
@@ -127,7 +123,7 @@ VariedKey read_key(const scenario::YamlNode& node) {
     VariedKey key;
     key.key = node.key;
     key.place = node.place;
-    const scenario::YamlNode& spread = node.children.front();
+    const YamlNode& spread = node.children.front();
     if (spread.key == "grid" || spread.key == "choice") {
         key.spread = spread.key == "grid" ? Spread::grid : Spread::choice;
         key.values = read_values(spread);
@@ -146,12 +142,12 @@ VariedKey read_key(const scenario::YamlNode& node) {
     return key;
 }
 
-std::vector<VariedKey> read_keys(const scenario::YamlNode* node) {
+std::vector<VariedKey> read_keys(const YamlNode* node) {
     std::vector<VariedKey> keys;
     if (!is_section(node)) {
         return keys;
     }
-    for (const scenario::YamlNode& child : node->children) {
+    for (const YamlNode& child : node->children) {
         if (child.key == "seed" || child.key == "description") {
             fail(child, "cannot vary; every run has its own random numbers as it is");
         }
@@ -164,9 +160,9 @@ std::vector<VariedKey> read_keys(const scenario::YamlNode* node) {
 }
 
 /// `runs` counts all of them, `repeats` those at each point of the grids.
-std::uint32_t read_runs(const scenario::YamlNode& root, std::uint64_t points) {
-    const scenario::YamlNode* runs = root.find("runs");
-    const scenario::YamlNode* repeats = root.find("repeats");
+std::uint32_t read_runs(const YamlNode& root, std::uint64_t points) {
+    const YamlNode* runs = root.find("runs");
+    const YamlNode* repeats = root.find("repeats");
     if (runs != nullptr && repeats != nullptr) {
         fail(*repeats, "runs is given already; give one of them");
     }
@@ -182,28 +178,20 @@ std::uint32_t read_runs(const scenario::YamlNode& root, std::uint64_t points) {
     return static_cast<std::uint32_t>(points);
 }
 
-std::vector<Outcome> read_success(const scenario::YamlNode* node) {
+std::vector<Outcome> read_success(const YamlNode* node) {
     if (node == nullptr) {
         return {Outcome::perched, Outcome::released};
     }
-    if (node->kind != scenario::YamlNode::Kind::list || node->children.empty()) {
-        fail(*node, "must be a list of outcomes, as in [perched, released]");
-    }
     std::vector<Outcome> success;
-    for (const scenario::YamlNode& item : node->children) {
-        const auto outcome = outcome_from(read_text(item));
-        if (!outcome) {
-            fail(item, fmt::format("\"{}\" is none of perched, released, failed_to_seal, "
-                                   "release_aborted, crashed, timed_out",
-                                   scenario::shown(item.text)));
-        }
-        success.push_back(*outcome);
+    for (const YamlNode& item :
+         read_list(*node, "a list of outcomes, as in [perched, released]", 1)) {
+        success.push_back(scenario::read_enum<Outcome>(item));
     }
     return success;
 }
 
 /// It becomes a folder.
-std::string read_name(const scenario::YamlNode& node) {
+std::string read_name(const YamlNode& node) {
     const std::string name = read_text(node);
     const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '_' || c == '-';
@@ -214,16 +202,12 @@ std::string read_name(const scenario::YamlNode& node) {
     return name;
 }
 
-std::vector<std::string> read_overrides(const scenario::YamlNode* node) {
+std::vector<std::string> read_overrides(const YamlNode* node) {
     std::vector<std::string> overrides;
-    if (node == nullptr || node->kind == scenario::YamlNode::Kind::null) {
-        return overrides;
-    }
-    if (node->kind != scenario::YamlNode::Kind::list) {
-        fail(*node, "must be a list, as in [guidance.attempts=1]");
-    }
-    for (const scenario::YamlNode& item : node->children) {
-        overrides.push_back(read_text(item));
+    if (node != nullptr && node->kind != YamlNode::Kind::null) {
+        for (const YamlNode& item : read_list(*node, "a list, as in [guidance.attempts=1]")) {
+            overrides.push_back(read_text(item));
+        }
     }
     return overrides;
 }
@@ -232,7 +216,7 @@ std::vector<std::string> read_overrides(const scenario::YamlNode* node) {
 
 CampaignFile parse_campaign(const std::string& text, const std::string& place,
                             const std::string& name) {
-    const scenario::YamlNode root = scenario::parse_yaml(text, place);
+    const YamlNode root = scenario::parse_yaml(text, place);
     if (!is_section(&root)) {
         fail(root, "is empty");
     }
@@ -241,18 +225,16 @@ CampaignFile parse_campaign(const std::string& text, const std::string& place,
     CampaignFile file;
     Campaign& campaign = file.campaign;
     campaign.yaml = text;
-    const scenario::YamlNode* given_name = root.find("name");
-    campaign.name = given_name != nullptr ? read_name(*given_name) : name;
-    if (const scenario::YamlNode* description = root.find("description")) {
-        campaign.description = read_text(*description);
-    }
-    const scenario::YamlNode& scenario = needed(root, "scenario");
+    const YamlNode* named = root.find("name");
+    campaign.name = named != nullptr ? read_name(*named) : name;
+    read_given(root, "description", campaign.description);
+    const YamlNode& scenario = needed(root, "scenario");
     file.scenario = read_text(scenario);
     file.scenario_place = scenario.place;
-    const scenario::YamlNode* overrides = root.find("overrides");
+    const YamlNode* overrides = root.find("overrides");
     file.overrides = read_overrides(overrides);
     file.overrides_place = overrides != nullptr ? overrides->place : place;
-    if (const scenario::YamlNode* seed = root.find("seed")) {
+    if (const YamlNode* seed = root.find("seed")) {
         campaign.seed = count(*seed, 0, kLargestSeed);
     }
     campaign.success = read_success(root.find("success"));

@@ -2,9 +2,8 @@
 #include "limpet/campaign/database.hpp"
 
 #include <fmt/format.h>
-#include <sqlite3.h>
 
-#include <limits>
+#include <regex>
 
 #include "limpet/core/errors.hpp"
 
@@ -12,15 +11,6 @@ namespace limpet::campaign {
 namespace {
 
 constexpr int kPatience_ms = 10'000;  ///< for somebody else's transaction
-
-int flags_of(Access access) {
-    switch (access) {
-        case Access::read: return SQLite::OPEN_READONLY;
-        case Access::write: return SQLite::OPEN_READWRITE;
-        case Access::create: return SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
-    }
-    throw InternalError("access out of range");
-}
 
 }  // namespace
 
@@ -50,25 +40,14 @@ SQLite::Database open_database(const std::filesystem::path& path, Access access)
         throw InputError(path.string() + ": is a directory, not a database of results");
     }
     try {
-        return SQLite::Database(path.string(), flags_of(access), kPatience_ms);
+        return SQLite::Database(path.string(), static_cast<int>(access), kPatience_ms);
     } catch (const SQLite::Exception& error) {
         fail_as(error, path.string());
     }
 }
 
-double number(const SQLite::Column& column) {
-    return column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
-}
-
 std::string sql_name(std::string_view name) {
-    std::string text = "\"";
-    for (const char c : name) {
-        text += c;
-        if (c == '"') {
-            text += c;
-        }
-    }
-    return text + "\"";
+    return fmt::format("\"{}\"", std::regex_replace(std::string(name), std::regex("\""), "\"\""));
 }
 
 }  // namespace limpet::campaign

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
+#include <sqlite3.h>
 
 #include <filesystem>
 #include <string>
@@ -10,9 +12,9 @@
 namespace limpet::campaign {
 
 enum class Access {
-    read,
-    write,   ///< of a file that is there
-    create,  ///< a new one in its place
+    read = SQLITE_OPEN_READONLY,
+    write = SQLITE_OPEN_READWRITE,                        ///< of a file that is there
+    create = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,  ///< a new one in its place
 };
 
 /// @throws InputError that names the file: there is none, it is a directory, cannot be opened
@@ -31,9 +33,6 @@ auto asking(const SQLite::Database& database, const Work& work) {
         fail_as(error, database.getFilename());
     }
 }
-
-/// @return NaN for NULL, which NaN becomes when it is written
-[[nodiscard]] double number(const SQLite::Column& column);
 
 /// @return the name as SQL takes it, whatever it holds: "guidance.dock_speed_m_s"
 [[nodiscard]] std::string sql_name(std::string_view name);

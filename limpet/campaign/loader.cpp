@@ -52,27 +52,13 @@ std::string scenario_file(const CampaignFile& file, const fs::path& folder, cons
     }
 }
 
-/// Overrides that select combination `variant` of the named values; see variant_of().
-std::vector<std::string> named_overrides(const std::vector<VariedKey>& keys, std::size_t variant) {
-    std::vector<std::string> overrides;
-    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-        if (is_named(*key)) {
-            const auto& value = key->values[variant % key->values.size()];
-            overrides.insert(overrides.begin(), key->key + "=" + value_text(value));
-            variant /= key->values.size();
-        }
-    }
-    return overrides;
-}
-
 std::size_t variants(const CampaignFile& file) {
     std::size_t count = 1;
     for (const VariedKey& key : file.campaign.keys) {
         count *= is_named(key) ? key.values.size() : 1;
         if (count > kMostVariants) {
             throw InputError(
-                fmt::format("{}: parameters.{}: makes more than {} combinations of "
-                            "names",
+                fmt::format("{}: parameters.{}: makes more than {} combinations of names",
                             key.place, key.key, kMostVariants));
         }
     }
@@ -88,8 +74,13 @@ void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
     for (std::size_t variant = 0; variant < count; ++variant) {
         scenario::LoadOptions options{
             .overrides = file.overrides, .seed = campaign.seed, .data_root = data};
-        for (std::string& text : named_overrides(campaign.keys, variant)) {
-            options.overrides.push_back(std::move(text));
+        std::size_t stride = count;  // variant_of() the other way round
+        for (const VariedKey& key : campaign.keys) {
+            if (is_named(key)) {
+                stride /= key.values.size();
+                const auto& value = key.values[variant / stride % key.values.size()];
+                options.overrides.push_back(key.key + "=" + value_text(value));
+            }
         }
         campaign.scenarios.push_back(load_scenario(path, options).yaml);
     }
@@ -169,6 +160,32 @@ Campaign restore_campaign(const std::string& yaml, const std::string& name,
     file.campaign.scenario_name = fs::path(file.scenario).stem().string();
     file.campaign.scenarios = std::move(scenarios);
     return std::move(file.campaign);
+}
+
+std::size_t variant_of(const std::vector<VariedKey>& keys,
+                       const std::vector<SampledValue>& sample) {
+    std::size_t variant = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (is_named(keys[i])) {
+            const auto& values = keys[i].values;
+            const auto found = std::find(values.begin(), values.end(), sample[i]);
+            require(found != values.end(), "a sample holds one of its key's names");
+            variant = variant * values.size() + static_cast<std::size_t>(found - values.begin());
+        }
+    }
+    return variant;
+}
+
+scenario::Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& sample) {
+    // The text is spelled out: nothing is looked up in any folder of data.
+    scenario::LoadOptions options{.overrides = {}, .seed = campaign.seed, .data_root = "."};
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (!is_named(campaign.keys[i])) {
+            options.overrides.push_back(campaign.keys[i].key + "=" + value_text(sample[i]));
+        }
+    }
+    return load_scenario_text(campaign.scenarios[variant_of(campaign.keys, sample)],
+                              campaign.scenario_name, options);
 }
 
 }  // namespace limpet::campaign

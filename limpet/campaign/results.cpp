@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -17,42 +19,74 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kApplication = 0x4C4D5054;  ///< "LMPT", in the header of our databases
 constexpr std::int64_t kSchema = 1;
 
-struct Column {
-    std::string name;
-    const char* type;
-};
-
-/// Of the table `runs`, in the order in which rows are bound and read.
-std::vector<Column> columns_of(const Campaign& campaign) {
-    std::vector<Column> columns = {{"run", "INTEGER PRIMARY KEY"}, {"seed", "INTEGER"}};
-    for (const VariedKey& key : campaign.keys) {
-        columns.push_back({key.key, is_named(key) ? "TEXT" : "REAL"});
+/// Calls each(name, type, value) for the columns of the table `runs`, in their order.
+/// @param row  with a sample as wide as the campaign's keys
+template <class Row, class Each>
+void for_each_column(const Campaign& campaign, Row&& row, const Each& each) {
+    each("run", "INTEGER PRIMARY KEY", row.run);
+    each("seed", "INTEGER", row.seed);
+    for (std::size_t i = 0; i < campaign.keys.size(); ++i) {
+        const VariedKey& key = campaign.keys[i];
+        each(key.key, is_named(key) ? "TEXT" : "REAL", row.sample[i]);
     }
-    columns.insert(columns.end(),
-                   {{"outcome", "TEXT"}, {"reason", "TEXT"}, {"attempts", "INTEGER"}});
+    each("outcome", "TEXT", row.outcome);
+    each("reason", "TEXT", row.reason);
+    each("attempts", "INTEGER", row.attempts);
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
-        columns.push_back({std::string(metric.name), "REAL"});
+        each(metric.name, "REAL", row.metrics.*metric.field);
     }
-    columns.insert(columns.end(),
-                   {{"simulated_s", "REAL"}, {"physics_steps", "INTEGER"}, {"state_hash", "TEXT"}});
-    return columns;
+    each("simulated_s", "REAL", row.simulated_s);
+    each("physics_steps", "INTEGER", row.physics_steps);
+    each("state_hash", "TEXT", row.state_hash);
+}
+
+RunRow empty_row(const Campaign& campaign) {
+    RunRow row;
+    for (const VariedKey& key : campaign.keys) {
+        row.sample.push_back(is_named(key) ? SampledValue(std::string()) : SampledValue(0.0));
+    }
+    return row;
 }
 
 std::string create_sql(const Campaign& campaign) {
-    std::string list;
-    for (const Column& column : columns_of(campaign)) {
-        list +=
-            fmt::format("{}{} {}", list.empty() ? "" : ", ", sql_name(column.name), column.type);
-    }
-    return fmt::format("CREATE TABLE runs ({})", list);
+    std::vector<std::string> columns;
+    for_each_column(campaign, empty_row(campaign),
+                    [&](std::string_view name, const char* type, const auto&) {
+                        columns.push_back(fmt::format("{} {}", sql_name(name), type));
+                    });
+    return fmt::format("CREATE TABLE runs ({})", fmt::join(columns, ", "));
 }
 
 std::string insert_sql(const Campaign& campaign) {
     std::string marks;
-    for (std::size_t i = 0; i < columns_of(campaign).size(); ++i) {
-        marks += marks.empty() ? "?" : ", ?";
-    }
+    for_each_column(campaign, empty_row(campaign),
+                    [&](const auto&...) { marks += marks.empty() ? "?" : ", ?"; });
     return fmt::format("INSERT INTO runs VALUES ({})", marks);
+}
+
+template <class Value>
+void bind(SQLite::Statement& statement, int parameter, const Value& value) {
+    if constexpr (std::is_same_v<Value, SampledValue>) {
+        std::visit([&](const auto& held) { statement.bind(parameter, held); }, value);
+    } else if constexpr (std::is_integral_v<Value>) {
+        statement.bind(parameter, static_cast<std::int64_t>(value));
+    } else {
+        statement.bind(parameter, value);
+    }
+}
+
+/// @param value  a sampled one says by what it holds whether the column has numbers or names
+template <class Value>
+void read(const SQLite::Column& column, Value& value) {
+    if constexpr (std::is_same_v<Value, SampledValue>) {
+        std::visit([&](auto& held) { read(column, held); }, value);
+    } else if constexpr (std::is_integral_v<Value>) {
+        value = static_cast<Value>(column.getInt64());
+    } else if constexpr (std::is_same_v<Value, double>) {
+        value = column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
+    } else {
+        value = column.getString();
+    }
 }
 
 /// FNV-1a, 64 bits.
@@ -77,24 +111,20 @@ std::string scenario_hash(const Campaign& campaign) {
 
 void write_campaign(SQLite::Database& database, const Campaign& campaign) {
     SQLite::Transaction transaction(database);
-    database.exec(fmt::format("PRAGMA application_id = {}", kApplication));
-    database.exec(fmt::format("PRAGMA user_version = {}", kSchema));
     database.exec(
-        "CREATE TABLE campaign (name TEXT, limpet TEXT, yaml TEXT, campaign_hash TEXT, "
-        "scenario_hash TEXT)");
-    database.exec("CREATE TABLE scenarios (variant INTEGER PRIMARY KEY, yaml TEXT)");
-    database.exec(create_sql(campaign));
+        fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};"
+                    "CREATE TABLE campaign (name TEXT, limpet TEXT, yaml TEXT, campaign_hash TEXT, "
+                    "scenario_hash TEXT);"
+                    "CREATE TABLE scenarios (variant INTEGER PRIMARY KEY, yaml TEXT);"
+                    "{}",
+                    kApplication, kSchema, create_sql(campaign)));
     SQLite::Statement insert(database, "INSERT INTO campaign VALUES (?, ?, ?, ?, ?)");
-    int parameter = 1;
-    for (const std::string& text : {campaign.name, std::string(kVersion), campaign.yaml,
-                                    campaign_hash(campaign), scenario_hash(campaign)}) {
-        insert.bind(parameter++, text);
-    }
+    SQLite::bind(insert, campaign.name, std::string(kVersion), campaign.yaml,
+                 campaign_hash(campaign), scenario_hash(campaign));
     insert.exec();
     SQLite::Statement scenario(database, "INSERT INTO scenarios VALUES (?, ?)");
     for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
-        scenario.bind(1, static_cast<std::int64_t>(i));
-        scenario.bind(2, campaign.scenarios[i]);
+        SQLite::bind(scenario, static_cast<std::int64_t>(i), campaign.scenarios[i]);
         scenario.exec();
         scenario.reset();
     }
@@ -109,34 +139,36 @@ std::string text(SQLite::Database& database, const std::string& sql) {
     return database.execAndGet(sql).getString();
 }
 
+template <class... Values>
+[[noreturn]] void refuse(const SQLite::Database& database, fmt::format_string<Values...> why,
+                         Values&&... values) {
+    throw InputError(database.getFilename() + ": " +
+                     fmt::format(why, std::forward<Values>(values)...));
+}
+
 /// What the header says before anything else is believed.
 void require_ours(SQLite::Database& database) {
     if (integer(database, "PRAGMA application_id") != kApplication) {
-        throw InputError(database.getFilename() + ": is not a database of results");
+        refuse(database, "is not a database of results");
     }
     const std::int64_t schema = integer(database, "PRAGMA user_version");
     if (schema != kSchema) {
-        throw InputError(fmt::format("{}: has schema {}, this Limpet ({}) reads schema {}",
-                                     database.getFilename(), schema, kVersion, kSchema));
+        refuse(database, "has schema {}, this Limpet ({}) reads schema {}", schema, kVersion,
+               kSchema);
     }
     if (text(database, "PRAGMA quick_check(1)") != "ok") {
-        throw InputError(database.getFilename() + ": is damaged or cut short");
+        refuse(database, "is damaged or cut short");
     }
 }
 
 void require_tables(SQLite::Database& database) {
     for (const char* table : {"campaign", "scenarios", "runs"}) {
-        if (integer(database,
-                    fmt::format(
-                        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = '{}'",
-                        table)) != 1) {
-            throw InputError(
-                fmt::format("{}: is damaged: there is no table {}", database.getFilename(), table));
+        if (!database.tableExists(table)) {
+            refuse(database, "is damaged: there is no table {}", table);
         }
     }
     if (integer(database, "SELECT count(*) FROM campaign") != 1) {
-        throw InputError(database.getFilename() +
-                         ": is damaged: table campaign does not have one row");
+        refuse(database, "is damaged: table campaign does not have one row");
     }
 }
 
@@ -148,8 +180,7 @@ void require_values(SQLite::Database& database, const Campaign& campaign) {
             is_named(key) ? fmt::format("typeof({}) = 'text'", column)
                           : fmt::format("typeof({0}) = 'real' AND abs({0}) < 1e300", column);
         if (integer(database, fmt::format("SELECT count(*) FROM runs WHERE NOT ({})", good)) > 0) {
-            throw InputError(fmt::format("{}: is damaged: column {} holds what no run was given",
-                                         database.getFilename(), column));
+            refuse(database, "is damaged: column {} holds what no run was given", column);
         }
     }
 }
@@ -195,20 +226,15 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
         require_tables(database_);
         campaign_ = read_campaign(database_);
         version_ = text(database_, "SELECT limpet FROM campaign");
-        campaign_hash_ = text(database_, "SELECT campaign_hash FROM campaign");
-        scenario_hash_ = text(database_, "SELECT scenario_hash FROM campaign");
         if (text(database_, "SELECT sql FROM sqlite_master WHERE name = 'runs'") !=
             create_sql(campaign_)) {
-            throw InputError(
-                fmt::format("{}: has other columns than this Limpet ({}) writes; it was "
-                            "begun by {}",
-                            database_.getFilename(), kVersion, version_));
+            refuse(database_, "has other columns than this Limpet ({}) writes; it was begun by {}",
+                   kVersion, version_);
         }
-        if (campaign_hash_ != campaign_hash(campaign_) ||
-            scenario_hash_ != scenario_hash(campaign_)) {
-            throw InputError(
-                database_.getFilename() +
-                ": is damaged: campaign or scenarios are not those that it was begun with");
+        if (text(database_, "SELECT campaign_hash FROM campaign") != campaign_hash(campaign_) ||
+            text(database_, "SELECT scenario_hash FROM campaign") != scenario_hash(campaign_)) {
+            refuse(database_,
+                   "is damaged: campaign or scenarios are not those that it was begun with");
         }
         require_values(database_, campaign_);
     });
@@ -216,18 +242,18 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
 
 void Results::require_same(const Campaign& campaign) const {
     const char* what = nullptr;
-    if (campaign_hash_ != campaign_hash(campaign)) {
+    if (campaign_.yaml != campaign.yaml) {
         what = "the campaign's file";
-    } else if (scenario_hash_ != scenario_hash(campaign)) {
+    } else if (campaign_.scenarios != campaign.scenarios) {
         what = "the scenario, its vehicle or a surface";
     } else if (version_ != kVersion) {
         what = "Limpet itself";
     }
     if (what != nullptr) {
-        throw InputError(
-            fmt::format("{}: {} has changed since these results were begun; finish "
-                        "them with what they were begun with, or give another --out",
-                        database_.getFilename(), what));
+        refuse(database_,
+               "{} has changed since these results were begun; finish them with what they were "
+               "begun with, or give another --out",
+               what);
     }
 }
 
@@ -246,20 +272,9 @@ void Results::add(const std::vector<RunRow>& rows) {
         SQLite::Transaction transaction(database_);
         for (const RunRow& row : rows) {
             int at = 1;
-            insert_->bind(at++, std::int64_t{row.run});
-            insert_->bind(at++, static_cast<std::int64_t>(row.seed));
-            for (const SampledValue& value : row.sample) {
-                std::visit([&](const auto& v) { insert_->bind(at++, v); }, value);
-            }
-            insert_->bind(at++, row.outcome);
-            insert_->bind(at++, row.reason);
-            insert_->bind(at++, std::int64_t{row.attempts});
-            for (const simulation::MetricInfo& metric : simulation::metric_table()) {
-                insert_->bind(at++, row.metrics.*metric.field);
-            }
-            insert_->bind(at++, row.simulated_s);
-            insert_->bind(at++, static_cast<std::int64_t>(row.physics_steps));
-            insert_->bind(at++, hash_text(row.state_hash));
+            for_each_column(campaign_, row, [&](const auto&, const char*, const auto& value) {
+                bind(*insert_, at++, value);
+            });
             insert_->exec();
             insert_->reset();
         }
@@ -284,28 +299,18 @@ std::map<std::string, std::uint32_t> Results::outcomes() {
         std::map<std::string, std::uint32_t> counts;
         SQLite::Statement select(database_, "SELECT outcome, count(*) FROM runs GROUP BY outcome");
         while (select.executeStep()) {
-            counts[select.getColumn(0).getString()] =
-                static_cast<std::uint32_t>(select.getColumn(1).getInt64());
+            counts[select.getColumn(0).getString()] = select.getColumn(1).getUInt();
         }
         return counts;
     });
 }
 
-std::uint32_t Results::first_missing() {
-    return static_cast<std::uint32_t>(
-        integer(database_,
-                "SELECT CASE WHEN NOT EXISTS (SELECT 1 FROM runs WHERE run = 0) THEN 0 ELSE "
-                "(SELECT min(run) + 1 FROM runs AS r WHERE NOT EXISTS "
-                "(SELECT 1 FROM runs WHERE run = r.run + 1)) END"));
-}
-
-std::vector<std::uint32_t> Results::finished_from(std::uint32_t first) {
-    return asking(database_, [&] {
+std::vector<std::uint32_t> Results::finished_runs() {
+    return asking(database_, [this] {
         std::vector<std::uint32_t> runs;
-        SQLite::Statement select(database_, "SELECT run FROM runs WHERE run >= ? ORDER BY run");
-        select.bind(1, std::int64_t{first});
+        SQLite::Statement select(database_, "SELECT run FROM runs ORDER BY run");
         while (select.executeStep()) {
-            runs.push_back(static_cast<std::uint32_t>(select.getColumn(0).getInt64()));
+            runs.push_back(select.getColumn(0).getUInt());
         }
         return runs;
     });
@@ -316,29 +321,15 @@ RunRow Results::row(std::uint32_t run) {
         SQLite::Statement select(database_, "SELECT * FROM runs WHERE run = ?");
         select.bind(1, std::int64_t{run});
         if (!select.executeStep()) {
-            throw InputError(
-                fmt::format("{}: there is no run {}; {} of {} are finished, counted from 0",
-                            database_.getFilename(), run, finished(), campaign_.runs));
+            refuse(database_, "there is no run {}; {} of {} are finished, counted from 0", run,
+                   finished(), campaign_.runs);
         }
-        RunRow row;
+        RunRow found = empty_row(campaign_);
         int at = 0;
-        row.run = static_cast<std::uint32_t>(select.getColumn(at++).getInt64());
-        row.seed = static_cast<std::uint64_t>(select.getColumn(at++).getInt64());
-        for (const VariedKey& key : campaign_.keys) {
-            row.sample.push_back(is_named(key) ? SampledValue(select.getColumn(at).getString())
-                                               : SampledValue(number(select.getColumn(at))));
-            ++at;
-        }
-        row.outcome = select.getColumn(at++).getString();
-        row.reason = select.getColumn(at++).getString();
-        row.attempts = static_cast<int>(select.getColumn(at++).getInt64());
-        for (const simulation::MetricInfo& metric : simulation::metric_table()) {
-            row.metrics.*metric.field = number(select.getColumn(at++));
-        }
-        row.simulated_s = number(select.getColumn(at++));
-        row.physics_steps = select.getColumn(at++).getInt64();
-        row.state_hash = std::stoull(select.getColumn(at).getString(), nullptr, 16);
-        return row;
+        for_each_column(campaign_, found, [&](const auto&, const char*, auto& value) {
+            read(select.getColumn(at++), value);
+        });
+        return found;
     });
 }
 

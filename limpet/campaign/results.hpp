@@ -26,7 +26,7 @@ struct RunRow {
     simulation::Metrics metrics;
     double simulated_s = 0.0;
     long long physics_steps = 0;
-    std::uint64_t state_hash = 0;
+    std::string state_hash;  ///< as hash_text() writes it
 };
 inline constexpr const char* kFault = "fault";
 
@@ -65,10 +65,8 @@ public:
 
     [[nodiscard]] std::uint32_t finished();
     [[nodiscard]] std::map<std::string, std::uint32_t> outcomes();
-    /// Where a campaign goes on: every run below is there.
-    [[nodiscard]] std::uint32_t first_missing();
-    /// Runs from there on that are there nevertheless, ascending.
-    [[nodiscard]] std::vector<std::uint32_t> finished_from(std::uint32_t first);
+    /// Ascending.
+    [[nodiscard]] std::vector<std::uint32_t> finished_runs();
     /// @throws InputError when it is not there
     [[nodiscard]] RunRow row(std::uint32_t run);
 
@@ -80,8 +78,6 @@ private:
     SQLite::Database database_;
     Campaign campaign_;
     std::string version_;
-    std::string campaign_hash_;
-    std::string scenario_hash_;
     std::optional<SQLite::Statement> insert_;
 };
 

@@ -4,31 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::campaign {
 namespace {
 
-double draw_once(const VariedKey& key, RandomStream& random) {
-    switch (key.spread) {
-        case Spread::uniform: return key.first + (key.second - key.first) * random.uniform();
-        case Spread::normal: return key.first + key.second * random.normal();
-        case Spread::lognormal: return random.lognormal(key.first, key.second);
-        case Spread::grid:
-        case Spread::choice: break;
+/// Draws until it falls within the key's bounds: the loader refuses those that are seldom met.
+template <class Draw>
+double draw_within(const VariedKey& key, const Draw& draw) {
+    double value = draw();
+    while (!(value >= key.from && value <= key.to)) {
+        value = draw();
     }
-    throw InternalError("a grid or a choice is not drawn as a number");
-}
-
-double draw_number(const VariedKey& key, RandomStream& random) {
-    for (;;) {  // ends: the loader refuses bounds that are seldom met
-        const double value = draw_once(key, random);
-        if (value >= key.from && value <= key.to) {
-            return value;
-        }
-    }
+    return value;
 }
 
 const SampledValue& choose(const VariedKey& key, RandomStream& random) {
@@ -85,8 +74,16 @@ std::vector<SampledValue> draw(const std::vector<VariedKey>& keys, std::uint64_t
                 break;
             case Spread::choice: sample.push_back(choose(key, random)); break;
             case Spread::uniform:
+                sample.emplace_back(key.first + (key.second - key.first) * random.uniform());
+                break;
             case Spread::normal:
-            case Spread::lognormal: sample.emplace_back(draw_number(key, random)); break;
+                sample.emplace_back(
+                    draw_within(key, [&] { return key.first + key.second * random.normal(); }));
+                break;
+            case Spread::lognormal:
+                sample.emplace_back(
+                    draw_within(key, [&] { return random.lognormal(key.first, key.second); }));
+                break;
         }
     }
     return sample;

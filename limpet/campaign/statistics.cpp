@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/statistics.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "limpet/core/errors.hpp"
 
@@ -18,11 +20,10 @@ double logistic(double eta) {
     return 1.0 / (1.0 + std::exp(-eta));
 }
 
-/// Sums of Newton's step for the two coefficients: gradient and information matrix.
+/// Sums of Newton's step for the two coefficients.
 struct Newton {
-    double g0 = 0.0, g1 = 0.0;
-    double h00 = 0.0, h01 = 0.0, h11 = 0.0;
-    [[nodiscard]] double determinant() const { return h00 * h11 - h01 * h01; }
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
 };
 
 /// x is centred and scaled, so that the matrix is well conditioned.
@@ -47,18 +48,14 @@ Scale scale_of(const std::vector<Trials>& trials) {
     return scale;
 }
 
-Newton sums(const std::vector<Trials>& trials, const Scale& scale, double b0, double b1) {
+Newton sums(const std::vector<Trials>& trials, const Scale& scale, const Eigen::Vector2d& b) {
     Newton n;
     for (const Trials& t : trials) {
-        const double x = scale(t.x);
-        const double p = logistic(b0 + b1 * x);
-        const double residual = t.proportion.successes - t.proportion.runs * p;
+        const Eigen::Vector2d z = {1.0, scale(t.x)};
+        const double p = logistic(b[0] + b[1] * z[1]);
         const double weight = t.proportion.runs * p * (1.0 - p);
-        n.g0 += residual;
-        n.g1 += residual * x;
-        n.h00 += weight;
-        n.h01 += weight * x;
-        n.h11 += weight * x * x;
+        n.gradient += (t.proportion.successes - t.proportion.runs * p) * z;
+        n.information += (weight * z) * z.transpose();
     }
     return n;
 }
@@ -66,17 +63,15 @@ Newton sums(const std::vector<Trials>& trials, const Scale& scale, double b0, do
 bool can_be_fitted(const std::vector<Trials>& trials) {
     std::uint64_t runs = 0;
     std::uint64_t successes = 0;
-    std::vector<double> values;
+    std::set<double> values;
     for (const Trials& t : trials) {
         runs += t.proportion.runs;
         successes += t.proportion.successes;
         if (t.proportion.runs > 0) {
-            values.push_back(t.x);
+            values.insert(t.x);
         }
     }
-    std::sort(values.begin(), values.end());
-    const auto different = std::unique(values.begin(), values.end()) - values.begin();
-    return different >= 3 && successes > 0 && successes < runs;
+    return values.size() >= 3 && successes > 0 && successes < runs;
 }
 
 }  // namespace
@@ -109,41 +104,39 @@ std::optional<LogisticFit> fit_logistic(const std::vector<Trials>& trials) {
         return std::nullopt;
     }
     const Scale scale = scale_of(trials);
-    double b0 = 0.0;
-    double b1 = 0.0;
+    Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d covariance;
     double step = 1.0;
-    Newton n;
     for (int i = 0; i < kMostIterations && step > kConverged; ++i) {
-        n = sums(trials, scale, b0, b1);
-        const double det = n.determinant();
+        const Newton n = sums(trials, scale, b);
+        const double det = n.information.determinant();
         if (!(det > 0.0)) {
             return std::nullopt;
         }
-        const double d0 = (n.h11 * n.g0 - n.h01 * n.g1) / det;
-        const double d1 = (n.h00 * n.g1 - n.h01 * n.g0) / det;
-        step = std::max(std::abs(d0), std::abs(d1));
-        const double damping = step > 4.0 ? 4.0 / step : 1.0;
-        b0 += damping * d0;
-        b1 += damping * d1;
-        if (std::abs(b1) > kSteepest) {
+        Eigen::Matrix2d adjugate;
+        adjugate << n.information(1, 1), -n.information(0, 1), -n.information(0, 1),
+            n.information(0, 0);
+        const Eigen::Vector2d d = adjugate * n.gradient / det;
+        covariance = adjugate / det;
+        step = d.cwiseAbs().maxCoeff();
+        b += (step > 4.0 ? 4.0 / step : 1.0) * d;
+        if (std::abs(b[1]) > kSteepest) {
             return std::nullopt;
         }
     }
-    if (!(step <= kConverged) || b1 == 0.0) {
+    if (!(step <= kConverged) || b[1] == 0.0) {
         return std::nullopt;
     }
-    const double det = n.determinant();
-    const double var0 = n.h11 / det;
-    const double var1 = n.h00 / det;
-    const double covariance = -n.h01 / det;
-    const double half = -b0 / b1;  // of the scaled x
+    const double half = -b[0] / b[1];  // of the scaled x
     LogisticFit fit;
-    fit.slope = b1 / scale.deviation;
-    fit.intercept = b0 - b1 * scale.mean / scale.deviation;
-    fit.slope_error = std::sqrt(var1) / scale.deviation;
+    fit.slope = b[1] / scale.deviation;
+    fit.intercept = b[0] - b[1] * scale.mean / scale.deviation;
+    fit.slope_error = std::sqrt(covariance(1, 1)) / scale.deviation;
     fit.half = scale.mean + scale.deviation * half;
     fit.half_error = scale.deviation *
-                     std::sqrt(var0 + 2.0 * half * covariance + half * half * var1) / std::abs(b1);
+                     std::sqrt(covariance(0, 0) + 2.0 * half * covariance(0, 1) +
+                               half * half * covariance(1, 1)) /
+                     std::abs(b[1]);
     return fit;
 }
 

@@ -18,13 +18,12 @@ constexpr std::size_t kMostValues = 30;  ///< of a grid; more are put into bins
 constexpr std::size_t kMostBins = 10;
 constexpr std::size_t kRunsABin = 8;  ///< of what is drawn, on average and at least
 
-/// `outcome IN ('perched', 'released')`
-std::string success_sql(const Campaign& campaign) {
-    std::string list;
-    for (const Outcome outcome : campaign.success) {
-        list += fmt::format("{}'{}'", list.empty() ? "" : ", ", to_string(outcome));
+std::vector<std::string> names_of(const std::vector<Outcome>& outcomes) {
+    std::vector<std::string> names;
+    for (const Outcome outcome : outcomes) {
+        names.emplace_back(to_string(outcome));
     }
-    return fmt::format("(outcome IN ({}))", list);
+    return names;
 }
 
 std::vector<EndingCount> count_endings(SQLite::Database& database, const std::string& sql,
@@ -32,51 +31,24 @@ std::vector<EndingCount> count_endings(SQLite::Database& database, const std::st
     std::vector<EndingCount> endings;
     SQLite::Statement select(database, sql);
     while (select.executeStep()) {
-        const auto count = static_cast<std::uint32_t>(select.getColumn(2).getInt64());
-        endings.push_back(
-            {select.getColumn(0).getString(), select.getColumn(1).getString(), {count, finished}});
+        endings.push_back({select.getColumn(0).getString(),
+                           select.getColumn(1).getString(),
+                           {select.getColumn(2).getUInt(), finished}});
     }
     return endings;
 }
 
-/// Successes and runs at each value, ascending.
-std::vector<Trials> trials_of(SQLite::Database& database, const std::string& key,
-                              const std::string& success) {
-    std::vector<Trials> trials;
+/// Calls each(value, successes and runs at it), values ascending.
+template <class Each>
+void for_each_value(SQLite::Database& database, const std::string& key, const std::string& success,
+                    const Each& each) {
     SQLite::Statement select(
         database, fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
                               sql_name(key), success));
     while (select.executeStep()) {
-        trials.push_back({select.getColumn(0).getDouble(),
-                          {static_cast<std::uint32_t>(select.getColumn(1).getInt64()),
-                           static_cast<std::uint32_t>(select.getColumn(2).getInt64())}});
+        each(select.getColumn(0),
+             Proportion{select.getColumn(1).getUInt(), select.getColumn(2).getUInt()});
     }
-    return trials;
-}
-
-std::vector<Group> groups_by_name(SQLite::Database& database, const std::string& key,
-                                  const std::string& success) {
-    std::vector<Group> groups;
-    SQLite::Statement select(
-        database, fmt::format("SELECT {0}, sum({1}), count(*) FROM runs GROUP BY {0} ORDER BY {0}",
-                              sql_name(key), success));
-    while (select.executeStep()) {
-        groups.push_back(
-            {.label = select.getColumn(0).getString(),
-             .low = 0.0,
-             .high = 0.0,
-             .proportion = {static_cast<std::uint32_t>(select.getColumn(1).getInt64()),
-                            static_cast<std::uint32_t>(select.getColumn(2).getInt64())}});
-    }
-    return groups;
-}
-
-std::vector<Group> groups_by_value(const std::vector<Trials>& trials) {
-    std::vector<Group> groups;
-    for (const Trials& t : trials) {
-        groups.push_back({scenario::number_text(t.x), t.x, t.x, t.proportion});
-    }
-    return groups;
 }
 
 std::vector<Group> groups_by_bin(const std::vector<Trials>& trials) {
@@ -102,12 +74,20 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
                          const std::string& success) {
     KeySummary summary{.key = key.key, .named = is_named(key), .groups = {}, .fit = {}};
     if (summary.named) {
-        summary.groups = groups_by_name(database, key.key, success);
+        for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
+            summary.groups.push_back({value.getString(), 0.0, 0.0, p});
+        });
         return summary;
     }
-    const std::vector<Trials> trials = trials_of(database, key.key, success);
-    const bool few = !key.values.empty() && trials.size() <= kMostValues;
-    summary.groups = few ? groups_by_value(trials) : groups_by_bin(trials);
+    std::vector<Trials> trials;
+    for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
+        const double x = value.getDouble();
+        trials.push_back({x, p});
+        summary.groups.push_back({scenario::number_text(x), x, x, p});
+    });
+    if (key.values.empty() || trials.size() > kMostValues) {
+        summary.groups = groups_by_bin(trials);
+    }
     summary.fit = fit_logistic(trials);
     if (summary.fit && std::abs(summary.fit->slope) < kNormal95 * summary.fit->slope_error) {
         summary.fit.reset();  // no trend: a curve would draw noise
@@ -140,39 +120,40 @@ CampaignSummary summarise(Results& results) {
     return asking(results.database(), [&results] {
         const Campaign& campaign = results.campaign();
         SQLite::Database& database = results.database();
-        const std::string success = success_sql(campaign);
-        CampaignSummary summary;
-        summary.name = campaign.name;
-        summary.description = campaign.description;
-        summary.scenario = campaign.scenario_name;
-        summary.version = results.version();
-        summary.seed = campaign.seed;
-        summary.runs = campaign.runs;
-        summary.finished = results.finished();
-        for (const Outcome outcome : campaign.success) {
-            summary.success_means.emplace_back(to_string(outcome));
-        }
-        summary.success = {
-            static_cast<std::uint32_t>(
-                database.execAndGet(fmt::format("SELECT count(*) FROM runs WHERE {}", success))
-                    .getInt64()),
-            summary.finished};
-        summary.outcomes = count_endings(
-            database,
-            "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
-            summary.finished);
-        summary.failures = count_endings(
-            database,
-            fmt::format("SELECT outcome, reason, count(*) AS n FROM runs WHERE NOT {} "
-                        "GROUP BY outcome, reason ORDER BY n DESC, 1, 2",
-                        success),
-            summary.finished);
-        if (summary.finished > 0) {
+        const std::vector<std::string> success_means = names_of(campaign.success);
+        const std::string success =
+            fmt::format("(outcome IN ('{}'))", fmt::join(success_means, "', '"));
+        const std::uint32_t finished = results.finished();
+        const auto successes =
+            database.execAndGet(fmt::format("SELECT count(*) FROM runs WHERE {}", success))
+                .getUInt();
+        CampaignSummary summary{
+            .name = campaign.name,
+            .description = campaign.description,
+            .scenario = campaign.scenario_name,
+            .version = results.version(),
+            .seed = campaign.seed,
+            .runs = campaign.runs,
+            .finished = finished,
+            .success_means = success_means,
+            .success = {successes, finished},
+            .outcomes = count_endings(
+                database,
+                "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
+                finished),
+            .failures = count_endings(
+                database,
+                fmt::format("SELECT outcome, reason, count(*) AS n FROM runs WHERE NOT {} "
+                            "GROUP BY outcome, reason ORDER BY n DESC, 1, 2",
+                            success),
+                finished),
+            .keys = {},
+            .metrics = summarise_metrics(database)};
+        if (finished > 0) {
             for (const VariedKey& key : campaign.keys) {
                 summary.keys.push_back(summarise_key(database, key, success));
             }
         }
-        summary.metrics = summarise_metrics(database);
         return summary;
     });
 }

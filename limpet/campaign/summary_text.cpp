@@ -42,14 +42,12 @@ private:
 };
 
 void add_endings(Text& text, const CampaignSummary& summary) {
-    text.line("");
-    text.line("outcome           share  95 %        runs");
+    text.line("\noutcome           share  95 %        runs");
     for (const EndingCount& ending : summary.outcomes) {
         text.line("{:<16} {}", ending.outcome, cells(ending.proportion));
     }
     if (!summary.failures.empty()) {
-        text.line("");
-        text.line("what went wrong");
+        text.line("\nwhat went wrong");
         for (const EndingCount& ending : summary.failures) {
             text.line("{:>7}  {:<16} {}", ending.proportion.successes, ending.outcome,
                       ending.reason);
@@ -62,8 +60,7 @@ void add_key(Text& text, const KeySummary& key) {
     for (const Group& group : key.groups) {
         width = std::max(width, group.label.size());
     }
-    text.line("");
-    text.line("success against {}", key.key);
+    text.line("\nsuccess against {}", key.key);
     for (const Group& group : key.groups) {
         if (group.proportion.runs > 0) {
             text.line("{:>{}}  {}  {}", group.label, width, bar(group.proportion),
@@ -81,8 +78,7 @@ void add_metrics(Text& text, const std::vector<MetricSummary>& metrics) {
     if (metrics.empty()) {
         return;
     }
-    text.line("");
-    text.line("{:<28} {:>10} {:>10} {:>10}  runs", "", "5 %", "median", "95 %");
+    text.line("\n{:<28} {:>10} {:>10} {:>10}  runs", "", "5 %", "median", "95 %");
     for (const MetricSummary& metric : metrics) {
         text.line("{:<28} {:>10.5g} {:>10.5g} {:>10.5g}  {}", metric.name, metric.p05,
                   metric.median, metric.p95, metric.runs);
@@ -144,8 +140,8 @@ std::string summary_text(const CampaignSummary& summary) {
     if (summary.finished == 0) {
         return text.take();
     }
-    text.line("");
-    text.line("success ({}): {}", fmt::join(summary.success_means, " or "), cells(summary.success));
+    text.line("\nsuccess ({}): {}", fmt::join(summary.success_means, " or "),
+              cells(summary.success));
     add_endings(text, summary);
     for (const KeySummary& key : summary.keys) {
         add_key(text, key);

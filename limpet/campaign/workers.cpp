@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
+#include <future>
+#include <mutex>
 #include <optional>
-#include <thread>
-#include <utility>
+#include <vector>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
@@ -17,125 +16,61 @@
 namespace limpet::campaign {
 namespace {
 
-/// Between the workers and the writer. Bounded: a slow disk slows the workers down, memory does not
-/// grow, and a kill costs no more than a handful of flights that had landed.
-class Landed {
+/// Flies what is missing from the results, the same in every thread. Who has landed writes its row
+/// before it goes on: a slow disk slows the flights down, memory does not grow, and a kill costs no
+/// more than the flights in the air.
+class Work {
 public:
-    explicit Landed(int workers)
-        : workers_(workers), most_(4 * static_cast<std::size_t>(workers)) {}
+    Work(Results& results, const CampaignWatch& watch, Progress& progress)
+        : results_(results),
+          watch_(watch),
+          progress_(progress),
+          finished_(results.finished_runs()) {}
 
-    void put(RunRow row) {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return rows_.size() < most_; });
-        rows_.push_back(std::move(row));
-        changed_.notify_all();
-    }
-    void worker_done(std::exception_ptr error) {
-        const std::lock_guard lock(mutex_);
-        --workers_;
-        if (error && !error_) {
-            error_ = error;
-        }
-        changed_.notify_all();
-    }
-    /// Waits for rows and takes all of them.
-    /// @return none when every worker is done
-    [[nodiscard]] std::vector<RunRow> take() {
-        std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return !rows_.empty() || workers_ == 0; });
-        changed_.notify_all();
-        return std::exchange(rows_, {});
-    }
-    /// What ended a worker.
-    [[nodiscard]] std::exception_ptr error() {
-        const std::lock_guard lock(mutex_);
-        return error_;
-    }
-
-private:
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::vector<RunRow> rows_;
-    std::exception_ptr error_;
-    int workers_;
-    std::size_t most_;
-};
-
-/// Hands out the runs that are missing, in their order.
-class Missing {
-public:
-    explicit Missing(Results& results)
-        : runs_(results.campaign().runs),
-          next_(results.first_missing()),
-          finished_(results.finished_from(static_cast<std::uint32_t>(next_.load()))) {}
-
-    [[nodiscard]] std::optional<std::uint32_t> next() {
-        for (;;) {
-            const std::uint64_t run = next_.fetch_add(1);
-            if (run >= runs_) {
-                return std::nullopt;
-            }
-            if (!std::binary_search(finished_.begin(), finished_.end(), run)) {
-                return static_cast<std::uint32_t>(run);
-            }
-        }
-    }
-
-private:
-    std::uint64_t runs_;
-    std::atomic<std::uint64_t> next_;
-    std::vector<std::uint32_t> finished_;  ///< beyond the first gap: a handful
-};
-
-/// Threads that are joined however the writer ends.
-class Workers {
-public:
-    Workers(const Campaign& campaign, Missing& missing, int jobs, const std::atomic<bool>* stop)
-        : campaign_(campaign), missing_(missing), stop_(stop), landed_(jobs) {
-        for (int i = 0; i < jobs; ++i) {
-            threads_.emplace_back([this] { work(); });
-        }
-    }
-    ~Workers() {
-        halt_ = true;
-        while (!landed_.take().empty()) {
-        }
-        for (std::thread& thread : threads_) {
-            thread.join();
-        }
-    }
-    Workers(const Workers&) = delete;
-    Workers& operator=(const Workers&) = delete;
-
-    [[nodiscard]] Landed& landed() { return landed_; }
-
-private:
-    [[nodiscard]] bool stopped() const { return halt_ || (stop_ != nullptr && *stop_); }
-
-    void work() {
-        std::exception_ptr error;
+    void fly_on() {
         try {
-            while (!stopped()) {
-                const auto run = missing_.next();
-                if (!run) {
-                    break;
-                }
-                landed_.put(fly_run(campaign_, *run, plants_));
+            while (const auto run = next()) {
+                land(fly_run(results_.campaign(), *run, plants_));
             }
         } catch (...) {
-            error = std::current_exception();
             halt_ = true;
+            throw;
         }
-        landed_.worker_done(error);
     }
 
-    const Campaign& campaign_;
-    Missing& missing_;
-    const std::atomic<bool>* stop_;
+private:
+    /// The next run that is missing; none when all have begun or it is time to stop.
+    [[nodiscard]] std::optional<std::uint32_t> next() {
+        const std::lock_guard lock(mutex_);
+        while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
+            ++next_;
+        }
+        const bool stop = halt_ || (watch_.stop != nullptr && *watch_.stop);
+        return stop || next_ >= progress_.runs ? std::nullopt : std::optional(next_++);
+    }
+
+    void land(const RunRow& row) {
+        const std::lock_guard lock(mutex_);
+        results_.add({row});
+        ++progress_.outcomes[row.outcome];
+        ++progress_.finished;
+        ++progress_.flown;
+        progress_.elapsed_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+        if (watch_.on_progress) {
+            watch_.on_progress(progress_);
+        }
+    }
+
+    Results& results_;
+    const CampaignWatch& watch_;
+    Progress& progress_;
+    const std::vector<std::uint32_t> finished_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     PlantCache plants_;
-    Landed landed_;
+    std::mutex mutex_;
+    std::uint32_t next_ = 0;
     std::atomic<bool> halt_ = false;
-    std::vector<std::thread> threads_;
 };
 
 /// @throws InputError naming the run
@@ -151,6 +86,24 @@ std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign
 
 }  // namespace
 
+std::shared_ptr<const plant::PlantModel> PlantCache::get(const scenario::Scenario& scenario) {
+    const models::Scene scene = scene_of(scenario);
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(plants_.begin(), plants_.end(), [&](const Entry& entry) {
+        return entry.engine == scenario.engine && entry.scene == scene &&
+               entry.airframe == scenario.airframe;
+    });
+    if (found != plants_.end()) {
+        return found->plant;
+    }
+    if (plants_.size() >= kMost) {
+        plants_.clear();
+    }
+    plants_.push_back({scenario.engine, scenario.airframe, scene,
+                       scenario.engine->make(scenario.airframe, scene)});
+    return plants_.back().plant;
+}
+
 RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants) {
     RunRow row;
     row.run = run;
@@ -165,7 +118,7 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants) 
         row.metrics = result.metrics;
         row.simulated_s = result.performance.simulated_s;
         row.physics_steps = result.performance.physics_steps;
-        row.state_hash = result.state_hash;
+        row.state_hash = hash_text(result.state_hash);
     } catch (const InternalError& error) {
         row.outcome = kFault;
         row.reason = error.what();
@@ -174,33 +127,18 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants) 
 }
 
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
     Progress progress{.runs = results.campaign().runs,
                       .finished = results.finished(),
                       .flown = 0,
                       .elapsed_s = 0.0,
                       .outcomes = results.outcomes()};
-    Missing missing(results);
-    Workers workers(results.campaign(), missing, jobs, watch.stop);
-    for (;;) {
-        const std::vector<RunRow> rows = workers.landed().take();
-        if (rows.empty()) {
-            break;
-        }
-        results.add(rows);
-        for (const RunRow& row : rows) {
-            ++progress.outcomes[row.outcome];
-        }
-        progress.finished += static_cast<std::uint32_t>(rows.size());
-        progress.flown += static_cast<std::uint32_t>(rows.size());
-        progress.elapsed_s = std::chrono::duration<double>(Clock::now() - begin).count();
-        if (watch.on_progress) {
-            watch.on_progress(progress);
-        }
+    Work work(results, watch, progress);
+    std::vector<std::future<void>> workers;
+    for (int i = 0; i < jobs; ++i) {
+        workers.push_back(std::async(std::launch::async, [&work] { work.fly_on(); }));
     }
-    if (const std::exception_ptr error = workers.landed().error()) {
-        std::rethrow_exception(error);
+    for (std::future<void>& worker : workers) {
+        worker.get();
     }
     results.finish();
     return progress;
@@ -213,12 +151,11 @@ simulation::FlightResult replay_run(Results& results, std::uint32_t run,
     PlantCache plants;
     const auto model = model_of(results.campaign(), row, plants);
     const simulation::FlightResult result = fly(model, recording, watch, run);
-    if (row.outcome != kFault && result.state_hash != row.state_hash) {
+    if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {
         throw InternalError(fmt::format(
             "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "
             "flew the campaign ({}), or a flight depends on more than its seed",
-            run, hash_text(result.state_hash), hash_text(row.state_hash), kVersion,
-            results.version()));
+            run, hash_text(result.state_hash), row.state_hash, kVersion, results.version()));
     }
     return result;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "limpet/campaign/plant_cache.hpp"
+#include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/plant/mujoco_plant.hpp"

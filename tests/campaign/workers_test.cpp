@@ -54,7 +54,7 @@ TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     const scenario::Scenario scenario = scenario_of(campaign, sample);
     EXPECT_EQ(scenario.sensors.lidar_noise_m, std::get<double>(sample[0]));
     EXPECT_EQ(row.state_hash,
-              simulation::fly(simulation::build_model(scenario), {}, {}, 3).state_hash);
+              hash_text(simulation::fly(simulation::build_model(scenario), {}, {}, 3).state_hash));
 }
 
 TEST(Workers, PlantsAreMadeOnceForEachVehicleAndScene) {
@@ -94,8 +94,7 @@ TEST(Workers, FillGapsAndRepeatNothing) {
     PlantCache plants;
     results.add(
         {fly_run(campaign, 0, plants), fly_run(campaign, 2, plants), fly_run(campaign, 5, plants)});
-    EXPECT_EQ(results.first_missing(), 1U);
-    EXPECT_THAT(results.finished_from(1), testing::ElementsAre(2U, 5U));
+    EXPECT_THAT(results.finished_runs(), testing::ElementsAre(0U, 2U, 5U));
     EXPECT_EQ(run_campaign(results, 1).flown, 5U);
     EXPECT_EQ(table_of(bench.folder() / Results::kFileName), whole);
 }
@@ -115,7 +114,8 @@ TEST(Workers, ValuesThatDoNotFitEachOtherNameTheirRun) {
         EXPECT_THAT(error.what(), testing::StartsWith("run "));
         EXPECT_THAT(error.what(), HasSubstr("land_pressure_Pa"));
     }
-    EXPECT_EQ(results.finished(), results.first_missing());  // all before it are kept
+    const auto kept = results.finished_runs();
+    EXPECT_TRUE(kept.empty() || kept.back() + 1 == kept.size());  // all before it
 }
 
 TEST(FolderLock, KeepsASecondOut) {
