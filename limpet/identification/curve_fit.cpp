@@ -2,7 +2,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <unsupported/Eigen/NonLinearOptimization>
 
 #include "limpet/identification/pressure_curve.hpp"
 
@@ -12,60 +13,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// J'J, J'r and r'r of a curve.
-struct Normal {
-    MatrixXd matrix;
-    VectorXd gradient;
-    double squares_Pa2 = 0.0;
-};
-
-VectorXd picked(const CurveGradient& gradient, const std::vector<CurveParameter>& free) {
-    VectorXd some(static_cast<Eigen::Index>(free.size()));
-    for (std::size_t k = 0; k < free.size(); ++k) {
-        some[static_cast<Eigen::Index>(k)] = gradient[static_cast<int>(free[k])];
-    }
-    return some;
-}
-
-Normal normal_equations(const PressureTrace& trace, const PressureCurve& curve,
-                        const std::vector<CurveParameter>& free) {
-    Eigen::Matrix<double, kCurveParameters, kCurveParameters> matrix;
-    matrix.setZero();
-    CurveGradient gradient = CurveGradient::Zero();
-    Normal normal;
-    for (std::size_t i = 0; i < trace.t_s.size(); ++i) {
-        const CurvePoint point = point_of(curve, trace.t_s[i]);
-        const double residual_Pa = trace.pressure_Pa[i] - point.pressure_Pa;
-        matrix.noalias() += point.gradient * point.gradient.transpose();
-        gradient += residual_Pa * point.gradient;
-        normal.squares_Pa2 += residual_Pa * residual_Pa;
-    }
-    const auto size = static_cast<Eigen::Index>(free.size());
-    normal.matrix.resize(size, size);
-    normal.gradient = picked(gradient, free);
-    for (Eigen::Index k = 0; k < size; ++k) {
-        normal.matrix.col(k) =
-            picked(matrix.col(static_cast<int>(free[static_cast<std::size_t>(k)])), free);
-    }
-    return normal;
-}
-
-double squares_Pa2(const PressureTrace& trace, const PressureCurve& curve) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < trace.t_s.size(); ++i) {
-        const double residual_Pa = trace.pressure_Pa[i] - point_of(curve, trace.t_s[i]).pressure_Pa;
-        sum += residual_Pa * residual_Pa;
-    }
-    return sum;
-}
-
-/// The start of a log that begins in the air is the atmosphere.
-void tie(PressureCurve& curve) {
-    if (curve.baseline) {
-        curve.start_Pa = curve.atmosphere_Pa;
-    }
-}
-
 bool sensible(const PressureCurve& curve) {
     return !(curve.sealing && !(curve.tau_1_s > 0.0)) &&
            !(curve.unsealing && !(curve.tau_2_s > 0.0)) &&
@@ -73,63 +20,100 @@ bool sensible(const PressureCurve& curve) {
            curve.vacuum_Pa < curve.atmosphere_Pa && curve.ripple_Hz >= 0.0;
 }
 
-PressureCurve stepped(PressureCurve curve, const std::vector<CurveParameter>& free,
-                      const VectorXd& step) {
-    for (std::size_t k = 0; k < free.size(); ++k) {
-        value_of(curve, free[k]) += step[static_cast<Eigen::Index>(k)];
+/// What curves leave of a trace, over their free parameters; the interface is Eigen's.
+struct Residuals {
+    using Scalar = double;
+    using InputType = VectorXd;
+    using ValueType = VectorXd;
+    using JacobianType = MatrixXd;
+    static constexpr int InputsAtCompileTime = Eigen::Dynamic;
+    static constexpr int ValuesAtCompileTime = Eigen::Dynamic;
+
+    const PressureTrace& trace;
+    const PressureCurve& start;
+    const std::vector<CurveParameter>& free;
+
+    [[nodiscard]] int inputs() const { return static_cast<int>(free.size()); }
+    [[nodiscard]] int values() const { return static_cast<int>(trace.t_s.size()); }
+
+    [[nodiscard]] VectorXd parameters() const {
+        VectorXd some(inputs());
+        std::transform(free.begin(), free.end(), some.begin(),
+                       [this](CurveParameter parameter) { return start.*member_of(parameter); });
+        return some;
     }
-    tie(curve);
-    return curve;
-}
+    [[nodiscard]] PressureCurve curve(const VectorXd& parameters) const {
+        PressureCurve curve = start;
+        for (std::size_t k = 0; k < free.size(); ++k) {
+            curve.*member_of(free[k]) = parameters[static_cast<Eigen::Index>(k)];
+        }
+        if (curve.baseline) {  // the start of a log that begins in the air is the atmosphere
+            curve.start_Pa = curve.atmosphere_Pa;
+        }
+        return curve;
+    }
+    /// [Pa]; of a curve that makes no sense so much that no step leads there.
+    int operator()(const VectorXd& parameters, VectorXd& left_Pa) const {
+        constexpr double kFar_Pa = 1e100;
+        const PressureCurve at = curve(parameters);
+        const bool possible = parameters.allFinite() && sensible(at);
+        for (int i = 0; i < values(); ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            left_Pa[i] =
+                possible ? trace.pressure_Pa[k] - point_of(at, trace.t_s[k]).pressure_Pa : kFar_Pa;
+        }
+        return 0;
+    }
+    /// Its slopes, a row a sample.
+    int df(const VectorXd& parameters, MatrixXd& slopes) const {
+        const PressureCurve at = curve(parameters);
+        for (int i = 0; i < values(); ++i) {
+            const CurvePoint point = point_of(at, trace.t_s[static_cast<std::size_t>(i)]);
+            for (int k = 0; k < inputs(); ++k) {
+                slopes(i, k) = -point.gradient[static_cast<int>(free[static_cast<std::size_t>(k)])];
+            }
+        }
+        return 0;
+    }
+};
 
 double median_step_s(const PressureTrace& trace) {
-    std::vector<double> steps_s(trace.t_s.size() - 1);
-    for (std::size_t i = 0; i < steps_s.size(); ++i) {
-        steps_s[i] = trace.t_s[i + 1] - trace.t_s[i];
-    }
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-    std::nth_element(steps_s.begin(), middle, steps_s.end());
+    std::vector<double> steps_s(trace.t_s.size());
+    std::adjacent_difference(trace.t_s.begin(), trace.t_s.end(), steps_s.begin());
+    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(1 + (steps_s.size() - 1) / 2);
+    std::nth_element(steps_s.begin() + 1, middle, steps_s.end());
     return *middle;
 }
 
 /// Time after which residuals forget: where their autocorrelation has fallen into its noise, twice
 /// over for the kernel's slope; by samples, gaps count as none.
-double memory_of(const PressureTrace& trace, const std::vector<double>& residuals_Pa) {
-    const std::size_t n = residuals_Pa.size();
-    double variance = 0.0;
-    for (const double residual_Pa : residuals_Pa) {
-        variance += residual_Pa * residual_Pa;
+double memory_of(const PressureTrace& trace, const VectorXd& residuals_Pa) {
+    const Eigen::Index n = residuals_Pa.size();
+    const double noise = 2.0 / std::sqrt(static_cast<double>(n)) * residuals_Pa.squaredNorm();
+    const Eigen::Index most = std::clamp<Eigen::Index>(n / 8, 4, 2000);
+    Eigen::Index lag = 1;
+    while (lag < most && residuals_Pa.head(n - lag).dot(residuals_Pa.tail(n - lag)) >= noise) {
+        ++lag;
     }
-    const std::size_t most = std::max<std::size_t>(4, std::min<std::size_t>(n / 8, 2000));
-    std::size_t lag = 1;
-    for (; lag < most; ++lag) {
-        double sum = 0.0;
-        for (std::size_t i = 0; i + lag < n; ++i) {
-            sum += residuals_Pa[i] * residuals_Pa[i + lag];
-        }
-        if (sum < 2.0 / std::sqrt(static_cast<double>(n)) * variance) {
-            break;
-        }
-    }
-    return median_step_s(trace) * static_cast<double>(std::max<std::size_t>(4, 2 * lag));
+    return median_step_s(trace) * static_cast<double>(std::max<Eigen::Index>(4, 2 * lag));
 }
 
 /// Sum over pairs of Bartlett's weight times the product of their scores.
-MatrixXd long_run_scores(const PressureTrace& trace, const std::vector<double>& residuals_Pa,
-                         const MatrixXd& gradients, double memory_s) {
-    const Eigen::Index size = gradients.rows();
-    MatrixXd sum = MatrixXd::Zero(size, size);
-    for (std::size_t i = 0; i < residuals_Pa.size(); ++i) {
-        const auto column = static_cast<Eigen::Index>(i);
-        VectorXd later = 0.5 * residuals_Pa[i] * gradients.col(column);
-        for (std::size_t j = i + 1; j < residuals_Pa.size(); ++j) {
-            const double weight = 1.0 - (trace.t_s[j] - trace.t_s[i]) / memory_s;
+/// @param scores  of a sample, a column each
+MatrixXd long_run(const PressureTrace& trace, const MatrixXd& scores, double memory_s) {
+    MatrixXd sum = MatrixXd::Zero(scores.rows(), scores.rows());
+    for (Eigen::Index i = 0; i < scores.cols(); ++i) {
+        VectorXd later = 0.5 * scores.col(i);
+        for (Eigen::Index j = i + 1; j < scores.cols(); ++j) {
+            const double weight = 1.0 - (trace.t_s[static_cast<std::size_t>(j)] -
+                                         trace.t_s[static_cast<std::size_t>(i)]) /
+                                            memory_s;
             if (weight <= 0.0) {
                 break;
             }
-            later += weight * residuals_Pa[j] * gradients.col(static_cast<Eigen::Index>(j));
+            later += weight * scores.col(j);
         }
-        const MatrixXd half = residuals_Pa[i] * gradients.col(column) * later.transpose();
+        const MatrixXd half = scores.col(i) * later.transpose();
         sum += half + half.transpose();
     }
     return sum;
@@ -146,9 +130,14 @@ VectorXd freedom_of(const MatrixXd& weights, double correlated) {
 }
 
 void add_covariance(const PressureTrace& trace, CurveFit& fit) {
-    const std::size_t n = trace.t_s.size();
-    const auto size = static_cast<Eigen::Index>(fit.free.size());
-    const MatrixXd matrix = normal_equations(trace, fit.curve, fit.free).matrix;
+    const Residuals residuals{trace, fit.curve, fit.free};
+    const int n = residuals.values();
+    const int size = residuals.inputs();
+    VectorXd left_Pa(n);
+    MatrixXd slopes(n, size);
+    residuals(residuals.parameters(), left_Pa);
+    residuals.df(residuals.parameters(), slopes);
+    const MatrixXd matrix = slopes.transpose() * slopes;
     const VectorXd scale = matrix.diagonal().cwiseSqrt();
     if (!(scale.minCoeff() > 0.0)) {
         return;  // a parameter that moves nothing
@@ -159,26 +148,14 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
     if (decomposed.vectorD().minCoeff() < 1e-10) {
         return;  // parameters that move the same
     }
-    std::vector<double> residuals_Pa(n);
-    MatrixXd gradients(size, static_cast<Eigen::Index>(n));
-    double squares = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const CurvePoint point = point_of(fit.curve, trace.t_s[i]);
-        residuals_Pa[i] = trace.pressure_Pa[i] - point.pressure_Pa;
-        squares += residuals_Pa[i] * residuals_Pa[i];
-        gradients.col(static_cast<Eigen::Index>(i)) =
-            picked(point.gradient, fit.free).cwiseQuotient(scale);
-    }
-    fit.residual_Pa = std::sqrt(squares / static_cast<double>(n - fit.free.size()));
-    fit.memory_s = memory_of(trace, residuals_Pa);
+    const MatrixXd gradients = scale.cwiseInverse().asDiagonal() * slopes.transpose();
+    fit.residual_Pa = std::sqrt(left_Pa.squaredNorm() / (n - size));
+    fit.memory_s = memory_of(trace, left_Pa);
     const MatrixXd inverse = decomposed.solve(MatrixXd::Identity(size, size));
     // Samples that pull the curve towards themselves leave less than their noise (HC3).
-    std::vector<double> freed_Pa(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto gradient = gradients.col(static_cast<Eigen::Index>(i));
-        freed_Pa[i] = residuals_Pa[i] / std::max(0.1, 1.0 - gradient.dot(inverse * gradient));
-    }
-    const MatrixXd scores = long_run_scores(trace, freed_Pa, gradients, fit.memory_s);
+    const VectorXd pull = gradients.cwiseProduct(inverse * gradients).colwise().sum();
+    const VectorXd freed_Pa = left_Pa.array() / (1.0 - pull.array()).max(0.1);
+    const MatrixXd scores = long_run(trace, gradients * freed_Pa.asDiagonal(), fit.memory_s);
     fit.covariance = scale.cwiseInverse().asDiagonal() * inverse * scores * inverse *
                      scale.cwiseInverse().asDiagonal();
     fit.freedom = freedom_of(inverse * gradients, fit.memory_s / median_step_s(trace));
@@ -189,33 +166,13 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
 
 PressureCurve improved_curve(const PressureTrace& trace, const PressureCurve& start,
                              const std::vector<CurveParameter>& free, double& left_Pa2) {
-    PressureCurve curve = start;
-    tie(curve);
-    double damping = 1e-3;
-    Normal normal = normal_equations(trace, curve, free);
-    for (int k = 0; k < 100 && damping < 1e12; ++k) {
-        MatrixXd damped = normal.matrix;
-        damped.diagonal() += damping * normal.matrix.diagonal();
-        damped.diagonal().array() += std::numeric_limits<double>::min();
-        const VectorXd step = damped.ldlt().solve(normal.gradient);
-        const PressureCurve next = stepped(curve, free, step);
-        const double squares = step.allFinite() && sensible(next)
-                                   ? squares_Pa2(trace, next)
-                                   : std::numeric_limits<double>::infinity();
-        if (!(squares < normal.squares_Pa2)) {
-            damping *= 8.0;
-            continue;
-        }
-        const bool settled = normal.squares_Pa2 - squares < 1e-9 * squares;
-        curve = next;
-        damping = std::max(1e-9, damping / 8.0);
-        normal = normal_equations(trace, curve, free);
-        if (settled) {
-            break;
-        }
-    }
-    left_Pa2 = normal.squares_Pa2;
-    return curve;
+    const Residuals residuals{trace, start, free};
+    VectorXd parameters = residuals.parameters();
+    Eigen::LevenbergMarquardt<const Residuals> solver(residuals);
+    solver.parameters.ftol = solver.parameters.xtol = 1e-9;
+    (void)solver.minimize(parameters);
+    left_Pa2 = solver.fnorm * solver.fnorm;
+    return residuals.curve(parameters);
 }
 
 CurveFit fit_curve(const PressureTrace& trace, const PressureCurve& start,

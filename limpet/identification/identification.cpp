@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/identification.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -200,12 +200,6 @@ bool add_ripple(const PressureTrace& trace, Guess& guess) {
     return true;
 }
 
-std::string seconds_text(double t_s) {
-    std::ostringstream text;
-    text << std::setprecision(6) << t_s << " s";
-    return text.str();
-}
-
 void check_options(const IdentificationOptions& options) {
     for (const auto& given :
          {options.pump_on_s, options.pump_off_s, options.from_s, options.to_s}) {
@@ -216,7 +210,6 @@ void check_options(const IdentificationOptions& options) {
     if (!(options.atmosphere_Pa > 0.0 && std::isfinite(options.atmosphere_Pa))) {
         throw InputError("the atmosphere must be a finite pressure above zero");
     }
-    require(options.confidence > 0.0 && options.confidence < 1.0, "a confidence between 0 and 1");
     if (options.pump_on_s && options.pump_off_s && *options.pump_on_s >= *options.pump_off_s) {
         throw InputError("the pump must go on before it goes off");
     }
@@ -224,16 +217,15 @@ void check_options(const IdentificationOptions& options) {
 
 void check(const PressureTrace& trace, const IdentificationOptions& options) {
     if (trace.t_s.size() < kFewestSamples) {
-        throw InputError(std::to_string(trace.t_s.size()) +
-                         " samples are too few to fit, at least 20 are needed");
+        throw InputError(fmt::format("{} samples are too few to fit, at least {} are needed",
+                                     trace.t_s.size(), kFewestSamples));
     }
     for (const auto& [name, given] :
          {std::pair("pump on", options.pump_on_s), std::pair("pump off", options.pump_off_s)}) {
         if (given && !(*given >= trace.t_s.front() && *given <= trace.t_s.back())) {
-            throw InputError(std::string(name) + " at " + seconds_text(*given) +
-                             " is outside the log, which is from " +
-                             seconds_text(trace.t_s.front()) + " to " +
-                             seconds_text(trace.t_s.back()));
+            throw InputError(
+                fmt::format("{} at {:g} s is outside the log, which is from {:g} s to {:g} s", name,
+                            *given, trace.t_s.front(), trace.t_s.back()));
         }
     }
 }
@@ -261,36 +253,33 @@ Stages stages_of(const PressureTrace& trace, const IdentificationOptions& option
     return stages;
 }
 
-/// @param confidence  of the two-sided interval, by Student's t
-std::optional<Fitted> fitted(const CurveFit& fit, CurveParameter parameter, double confidence) {
+/// With its two-sided interval, by Student's t.
+std::optional<Fitted> fitted(const CurveFit& fit, CurveParameter parameter) {
     const auto found = std::find(fit.free.begin(), fit.free.end(), parameter);
     if (found == fit.free.end()) {
         return std::nullopt;
     }
     const auto k = static_cast<Eigen::Index>(found - fit.free.begin());
     const boost::math::students_t student(std::max(1.0, fit.freedom[k]));
-    return Fitted{.value = value_of(fit.curve, parameter),
-                  .half_width = boost::math::quantile(student, 0.5 + 0.5 * confidence) *
+    return Fitted{.value = fit.curve.*member_of(parameter),
+                  .half_width = boost::math::quantile(student, 0.5 + 0.5 * kConfidence) *
                                 std::sqrt(fit.covariance(k, k))};
 }
 
 PressureFit result_of(const CurveFit& fit, const IdentificationOptions& options) {
-    const double confidence = options.confidence;
     const PressureCurve& curve = fit.curve;
-    PressureFit result{.atmosphere_Pa = fitted(fit, P::atmosphere, confidence),
-                       .vacuum_Pa = fitted(fit, P::vacuum, confidence),
-                       .sealing_time_s = fitted(fit, P::tau_1, confidence),
-                       .unsealing_time_s = fitted(fit, P::tau_2, confidence),
-                       .sealing_begins_s = fitted(fit, P::on, confidence),
-                       .unsealing_begins_s = fitted(fit, P::off, confidence),
-                       .ripple_Hz = fitted(fit, P::ripple_Hz, confidence),
+    const auto of = [&](P parameter) { return fitted(fit, parameter); };
+    PressureFit result{.atmosphere_Pa = of(P::atmosphere),
+                       .vacuum_Pa = of(P::vacuum),
+                       .sealing_time_s = of(P::tau_1),
+                       .unsealing_time_s = of(P::tau_2),
+                       .sealing_begins_s = of(P::on),
+                       .unsealing_begins_s = of(P::off),
+                       .ripple_Hz = of(P::ripple_Hz),
                        .ripple_Pa = std::hypot(curve.ripple_cos_Pa, curve.ripple_sin_Pa),
                        .residual_Pa = fit.residual_Pa,
                        .memory_s = fit.memory_s,
-                       .first_sample = 0,
-                       .samples = 0,
-                       .curve = curve,
-                       .notes = {}};
+                       .curve = curve};
     if (!curve.sealing) {
         result.notes.emplace_back("no sealing in the log: tau_1 is not fitted");
     } else if (!curve.baseline) {
@@ -372,8 +361,8 @@ PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOp
     result.first_sample = first;
     result.samples = used.t_s.size();
     if (used.t_s.size() < asked.t_s.size()) {
-        result.notes.push_back("the log seals again at " + seconds_text(used.t_s.back()) +
-                               ": only what is before was used");
+        result.notes.push_back(fmt::format(
+            "the log seals again at {:g} s: only what is before was used", used.t_s.back()));
     }
     return result;
 }

@@ -15,8 +15,10 @@ struct IdentificationOptions {
     std::optional<double> from_s = {};      ///< what is before is left out
     std::optional<double> to_s = {};        ///< what is after is left out
     double atmosphere_Pa = kAtmosphere_Pa;  ///< where the log does not show it
-    double confidence = 0.95;               ///< of the intervals, 0..1
 };
+
+/// Of the intervals.
+inline constexpr double kConfidence = 0.95;
 
 /// A number with its interval, value +- half_width.
 struct Fitted {
@@ -39,7 +41,7 @@ struct PressureFit {
     std::size_t first_sample = 0;  ///< of the trace, that was used
     std::size_t samples = 0;       ///< that were used
     PressureCurve curve;
-    std::vector<std::string> notes;  ///< what is missing, assumed or not used: a sentence each
+    std::vector<std::string> notes = {};  ///< what is missing, assumed or not used: a sentence each
 };
 
 /// Fits P_atm, P_vac, tau_1, tau_2 and both beginnings, by least squares, to a log of one sealing,

@@ -67,31 +67,22 @@ void add_ripple(const PressureCurve& curve, double t_s, CurvePoint& point) {
     point.pressure_Pa += share * full_Pa;
 }
 
-template <class Curve>
-auto& field(Curve& curve, CurveParameter parameter) {
-    switch (parameter) {
-        case CurveParameter::atmosphere: return curve.atmosphere_Pa;
-        case CurveParameter::start: return curve.start_Pa;
-        case CurveParameter::vacuum: return curve.vacuum_Pa;
-        case CurveParameter::tau_1: return curve.tau_1_s;
-        case CurveParameter::on: return curve.on_s;
-        case CurveParameter::tau_2: return curve.tau_2_s;
-        case CurveParameter::off: return curve.off_s;
-        case CurveParameter::ripple_cos: return curve.ripple_cos_Pa;
-        case CurveParameter::ripple_sin: return curve.ripple_sin_Pa;
-        case CurveParameter::ripple_Hz: return curve.ripple_Hz;
-    }
-    throw InternalError("parameter of a pressure curve out of range");
-}
-
 }  // namespace
 
-double& value_of(PressureCurve& curve, CurveParameter parameter) {
-    return field(curve, parameter);
-}
-
-double value_of(const PressureCurve& curve, CurveParameter parameter) {
-    return field(curve, parameter);
+double PressureCurve::*member_of(CurveParameter parameter) {
+    switch (parameter) {
+        case CurveParameter::atmosphere: return &PressureCurve::atmosphere_Pa;
+        case CurveParameter::start: return &PressureCurve::start_Pa;
+        case CurveParameter::vacuum: return &PressureCurve::vacuum_Pa;
+        case CurveParameter::tau_1: return &PressureCurve::tau_1_s;
+        case CurveParameter::on: return &PressureCurve::on_s;
+        case CurveParameter::tau_2: return &PressureCurve::tau_2_s;
+        case CurveParameter::off: return &PressureCurve::off_s;
+        case CurveParameter::ripple_cos: return &PressureCurve::ripple_cos_Pa;
+        case CurveParameter::ripple_sin: return &PressureCurve::ripple_sin_Pa;
+        case CurveParameter::ripple_Hz: return &PressureCurve::ripple_Hz;
+    }
+    throw InternalError("parameter of a pressure curve out of range");
 }
 
 bool pump_runs(const PressureCurve& curve, double t_s) {

@@ -54,9 +54,8 @@ enum class CurveParameter {
 inline constexpr int kCurveParameters = 10;
 using CurveGradient = Eigen::Matrix<double, kCurveParameters, 1>;
 
-/// @return where a curve keeps a parameter
-[[nodiscard]] double& value_of(PressureCurve& curve, CurveParameter parameter);
-[[nodiscard]] double value_of(const PressureCurve& curve, CurveParameter parameter);
+/// Where a curve keeps a parameter.
+[[nodiscard]] double PressureCurve::*member_of(CurveParameter parameter);
 
 struct CurvePoint {
     double pressure_Pa;
@@ -81,7 +80,7 @@ struct CurveFit {
     bool regular = false;        ///< the trace tells the free parameters apart
 };
 
-/// Least squares by Levenberg and Marquardt's method, from `start`.
+/// Least squares by Levenberg and Marquardt's method, MINPACK's as Eigen has it, from `start`.
 /// The covariance is J+ (sum of k((t_i - t_j)/T) J_i r_i r_j J_j') J+' with Bartlett's kernel k
 /// over a time T that is read off the residuals' autocorrelation, so that what is left of the
 /// ripple, quantisation and drift count for what they are (Newey and West, Econometrica 55, 1987).

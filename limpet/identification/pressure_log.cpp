@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/pressure_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
-#include <locale>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -22,9 +22,17 @@ using std::size_t;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr size_t kLongestLine = 100'000;  ///< beyond it this is no log
 
-[[noreturn]] void fail(const std::string& name, size_t line, const std::string& what) {
-    throw InputError(name + ":" + std::to_string(line) + ": " + what);
-}
+/// Text of a user's, with the line that it stands in.
+struct Line {
+    std::string_view text;
+    const std::string& file;
+    size_t number = 0;
+
+    template <class... Args>
+    [[noreturn]] void refuse(fmt::format_string<const Args&...> what, const Args&... args) const {
+        throw InputError(fmt::format("{}:{}: {}", file, number, fmt::format(what, args...)));
+    }
+};
 
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view kSpace = " \t\r";
@@ -56,23 +64,13 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     return fields;
 }
 
-/// What came from the user, fit for one line of a terminal.
-std::string shown(std::string_view text) {
-    constexpr size_t kMost = 40;
-    std::string out;
-    for (const char c : text.substr(0, kMost)) {
-        out += (c >= ' ' && c != 127) ? c : '?';
-    }
-    return "\"" + out + (text.size() > kMost ? "...\"" : "\"");
-}
-
 /// Columns are found by the name of a bench's log, or by that of a recording written as CSV.
 size_t column_of(const std::vector<std::string_view>& header, std::string_view column,
-                 std::string_view recorded, const std::string& name, size_t line) {
+                 std::string_view recorded, const Line& line) {
     for (const std::string_view wanted : {column, recorded}) {
         const auto count = std::count(header.begin(), header.end(), wanted);
         if (count > 1) {
-            fail(name, line, "two columns \"" + std::string(wanted) + "\"");
+            line.refuse("two columns \"{}\"", wanted);
         }
         if (count == 1) {
             return static_cast<size_t>(std::find(header.begin(), header.end(), wanted) -
@@ -81,71 +79,56 @@ size_t column_of(const std::vector<std::string_view>& header, std::string_view c
     }
     std::string there;
     for (const std::string_view field : header) {
-        there += (there.empty() ? "" : ", ") + shown(field);
+        there += (there.empty() ? "" : ", ") + in_quotes(field);
         if (there.size() > 200) {
             there += ", ...";
             break;
         }
     }
-    std::string hint;
+    const char* hint = "";
     if (there.find("MCAP") != std::string::npos) {
         hint = " (a recording? `limpet csv` makes CSV of it)";
     } else if (header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos) {
         hint = " (columns are parted by commas)";
     }
-    fail(name, line,
-         "no column \"" + std::string(column) + "\" or \"" + std::string(recorded) +
-             "\"; there are " + there + hint);
-}
-
-double number_of(std::string_view field, std::string_view column, const std::string& name,
-                 size_t line) {
-    // std::from_chars for doubles came with GCC 11; a stream of the classic locale reads the same.
-    double value = 0.0;
-    std::istringstream text{std::string(field)};
-    text.imbue(std::locale::classic());
-    if (!(text >> value) || text.peek() != std::istringstream::traits_type::eof() ||
-        !std::isfinite(value)) {
-        fail(name, line, std::string(column) + " is " + shown(field) + ", not a finite number");
-    }
-    return value;
+    line.refuse("no column \"{}\" or \"{}\"; there are {}{}", column, recorded, there, hint);
 }
 
 /// The columns that are read, once the header is known.
 struct Columns {
+    explicit Columns(const Line& line) {
+        const std::vector<std::string_view> header = fields_of(line.text);
+        time = column_of(header, "t_s", "time_s", line);
+        pressure = column_of(header, "pressure_Pa", "fluid_pressure_Pa", line);
+        count = header.size();
+    }
     size_t time = 0;
     size_t pressure = 0;
     size_t count = 0;
 };
 
-Columns columns_of(std::string_view text, const std::string& name, size_t line) {
-    const std::vector<std::string_view> header = fields_of(text);
-    return {.time = column_of(header, "t_s", "time_s", name, line),
-            .pressure = column_of(header, "pressure_Pa", "fluid_pressure_Pa", name, line),
-            .count = header.size()};
-}
-
-void add_sample(std::string_view text, const Columns& columns, const std::string& name, size_t line,
-                PressureTrace& trace) {
-    const std::vector<std::string_view> fields = fields_of(text);
+void add_sample(const Line& line, const Columns& columns, PressureTrace& trace) {
+    const std::vector<std::string_view> fields = fields_of(line.text);
     if (fields.size() != columns.count) {
-        fail(name, line,
-             std::to_string(fields.size()) + " fields, the header has " +
-                 std::to_string(columns.count));
+        line.refuse("{} fields, the header has {}", fields.size(), columns.count);
     }
-    const double t_s = number_of(fields[columns.time], "t_s", name, line);
-    const double pressure_Pa = number_of(fields[columns.pressure], "pressure_Pa", name, line);
+    const auto number = [&](const char* column, size_t at) {
+        const auto value = decimal(std::string(fields[at]));
+        if (!value) {
+            line.refuse("{} is {}, not a finite number", column, in_quotes(fields[at]));
+        }
+        return *value;
+    };
+    const double t_s = number("t_s", columns.time);
+    const double pressure_Pa = number("pressure_Pa", columns.pressure);
     if (!trace.t_s.empty() && t_s <= trace.t_s.back()) {
-        fail(name, line,
-             "t_s is " + shown(fields[columns.time]) +
-                 (t_s == trace.t_s.back() ? ", as in the row before: times must rise"
-                                          : ", earlier than the row before: times "
-                                            "must rise"));
+        line.refuse(
+            "t_s is {}, {}: times must rise", in_quotes(fields[columns.time]),
+            t_s == trace.t_s.back() ? "as in the row before" : "earlier than the row before");
     }
     if (pressure_Pa < 0.0) {
-        fail(name, line,
-             "pressure_Pa is " + shown(fields[columns.pressure]) +
-                 ", below zero: it must be absolute, in Pa");
+        line.refuse("pressure_Pa is {}, below zero: it must be absolute, in Pa",
+                    in_quotes(fields[columns.pressure]));
     }
     trace.t_s.push_back(t_s);
     trace.pressure_Pa.push_back(pressure_Pa);
@@ -157,23 +140,22 @@ PressureTrace read_pressure_log(std::istream& text, const std::string& name) {
     PressureTrace trace;
     std::optional<Columns> columns;
     std::string row;
-    size_t line = 0;
-    while (std::getline(text, row)) {
-        ++line;
-        if (line == 1 && row.starts_with(kByteOrderMark)) {
+    for (size_t number = 1; std::getline(text, row); ++number) {
+        if (number == 1 && row.starts_with(kByteOrderMark)) {
             row.erase(0, kByteOrderMark.size());
         }
+        const Line line{row, name, number};
         if (row.find('\0') != std::string::npos || row.size() > kLongestLine) {
-            fail(name, line, "not a text file of comma-separated values");
+            line.refuse("not a text file of comma-separated values");
         }
         const std::string_view content = trimmed(row);
         if (content.empty() || content.front() == '#') {
             continue;
         }
-        if (!columns) {
-            columns = columns_of(row, name, line);
+        if (columns) {
+            add_sample(line, *columns, trace);
         } else {
-            add_sample(row, *columns, name, line, trace);
+            columns.emplace(line);
         }
     }
     if (text.bad()) {

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::identification {
@@ -22,33 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A user's text as one short line.
-std::string in_quotes(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    std::string out = "\"";
-    for (const char c : text.substr(0, kLongest)) {
-        out += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-    }
-    return out + (text.size() > kLongest ? "...\"" : "\"");
-}
-
-/// A plain decimal number, the whole text.
-std::optional<double> number(const std::string& text) {
-    if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
-        return std::nullopt;
-    }
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    return *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 std::vector<std::string> words_of(const std::string& line) {
     std::istringstream stream(line);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    return words;
+    return {std::istream_iterator<std::string>(stream), {}};
 }
 
 struct Column {
@@ -91,7 +67,7 @@ PropellerRow read_row(const std::vector<std::string>& words, const Places& place
                                          name, words.size()));
         }
         const std::string& word = words[places[k]];
-        const auto value = number(word);
+        const auto value = decimal(word);
         if (!value || *value <= 0.0 || *value > kColumns[k].most) {
             throw InputError(fmt::format("{}: {}: must be a number above 0, at most {:g}, is {}",
                                          place, name, kColumns[k].most, in_quotes(word)));
@@ -143,7 +119,7 @@ double length_m(std::string_view text, std::string_view what) {
     const std::string digits(text.substr(0, end));
     std::string_view unit = text.substr(end);
     unit.remove_prefix(std::min(unit.find_first_not_of(' '), unit.size()));
-    const auto value = number(digits);
+    const auto value = decimal(digits);
     if (!value) {
         throw InputError(
             fmt::format("{} {}: must be a number and a unit, as in 12in", what, in_quotes(text)));

@@ -43,11 +43,9 @@ std::vector<double> smoothed(const PressureTrace& trace) {
 
 /// Standard deviation of white noise, off the differences of neighbours.
 double noise_Pa(const std::vector<double>& pressure_Pa) {
-    std::vector<double> steps;
-    steps.reserve(pressure_Pa.size());
-    for (size_t i = 0; i + 1 < pressure_Pa.size(); ++i) {
-        steps.push_back(std::abs(pressure_Pa[i + 1] - pressure_Pa[i]));
-    }
+    std::vector<double> steps(pressure_Pa.size() - 1);
+    std::transform(pressure_Pa.begin() + 1, pressure_Pa.end(), pressure_Pa.begin(), steps.begin(),
+                   [](double next, double last) { return std::abs(next - last); });
     const auto middle = steps.begin() + static_cast<ptrdiff_t>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
     return *middle / (0.6745 * std::sqrt(2.0));

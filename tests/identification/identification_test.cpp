@@ -233,11 +233,11 @@ TEST(Identification, TheJacobianIsThatOfTheCurve) {
         const CurvePoint point = point_of(curve, t_s);
         for (int k = 0; k < kCurveParameters; ++k) {
             const auto parameter = static_cast<CurveParameter>(k);
-            const double h = 1e-6 * std::max(1.0, std::abs(value_of(curve, parameter)));
+            const double h = 1e-6 * std::max(1.0, std::abs(curve.*member_of(parameter)));
             PressureCurve up = curve;
             PressureCurve down = curve;
-            value_of(up, parameter) += h;
-            value_of(down, parameter) -= h;
+            up.*member_of(parameter) += h;
+            down.*member_of(parameter) -= h;
             const double slope =
                 (point_of(up, t_s).pressure_Pa - point_of(down, t_s).pressure_Pa) / (2.0 * h);
             EXPECT_NEAR(point.gradient[k], slope, 1e-4 * std::max(1.0, std::abs(slope)))
