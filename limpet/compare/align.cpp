@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 
@@ -16,23 +17,18 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-struct Happening {
-    std::string name;
-    int occurrence = 1;
-    double time_s = 0.0;
-};
-
-std::vector<Happening> happenings(const record::Recording& recording) {
-    std::vector<Happening> found;
+/// What happened in a recording, as if it were the reference.
+std::vector<EventPair> happenings(const record::Recording& recording) {
+    std::vector<EventPair> found;
     for (const record::RecordedEvent& event : recording.events) {
         if (event.name != "parameter_set") {
-            found.push_back({event.name, 1, event.time_s});
+            found.push_back({event.name, 1, event.time_s, kNaN});
         }
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+                     [](const auto& a, const auto& b) { return a.reference_s < b.reference_s; });
     std::map<std::string, int> counts;
-    for (Happening& happening : found) {
+    for (EventPair& happening : found) {
         happening.occurrence = ++counts[happening.name];
     }
     return found;
@@ -141,23 +137,21 @@ bool EventPair::in_both() const {
 
 std::vector<EventPair> pair_events(const record::Recording& reference,
                                    const record::Recording& other) {
-    std::vector<EventPair> pairs;
-    for (const Happening& event : happenings(reference)) {
-        pairs.push_back({event.name, event.occurrence, event.time_s, kNaN});
-    }
-    for (const Happening& event : happenings(other)) {
+    std::vector<EventPair> pairs = happenings(reference);
+    for (EventPair event : happenings(other)) {
+        std::swap(event.reference_s, event.other_s);
         const auto same = std::find_if(pairs.begin(), pairs.end(), [&event](const EventPair& pair) {
             return pair.name == event.name && pair.occurrence == event.occurrence;
         });
         if (same != pairs.end()) {
-            same->other_s = event.time_s;
+            same->other_s = event.other_s;
             continue;
         }
         const auto later =
             std::find_if(pairs.begin(), pairs.end(), [&event](const EventPair& pair) {
-                return pair.other_s > event.time_s || pair.reference_s > event.time_s;
+                return pair.other_s > event.other_s || pair.reference_s > event.other_s;
             });
-        pairs.insert(later, {event.name, event.occurrence, kNaN, event.time_s});
+        pairs.insert(later, event);
     }
     return pairs;
 }

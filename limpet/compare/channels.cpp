@@ -2,7 +2,6 @@
 #include "limpet/compare/channels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -173,15 +172,9 @@ FlightChannel channel_of(const record::Table& table, const ChannelSource& source
 void add_estimated_attitude(std::vector<FlightChannel>& channels,
                             const record::Recording& recording) {
     const record::Table* table = find_table(recording, "/estimate/pose");
-    if (table == nullptr) {
-        return;
-    }
-    constexpr std::array kParts = {"pose.orientation.w", "pose.orientation.x", "pose.orientation.y",
-                                   "pose.orientation.z"};
-    std::array<const record::Column*, kParts.size()> q{};
-    std::transform(kParts.begin(), kParts.end(), q.begin(),
-                   [table](const char* part) { return table->find(part); });
-    if (std::find(q.begin(), q.end(), nullptr) != q.end()) {
+    const auto q = columns_of<4>(table, {"pose.orientation.w", "pose.orientation.x",
+                                         "pose.orientation.y", "pose.orientation.z"});
+    if (q[0] == nullptr) {
         return;
     }
     std::vector<double> roll(table->time_s.size());
@@ -221,12 +214,6 @@ void add_guidance_state(std::vector<FlightChannel>& channels, const record::Reco
                    values));
 }
 
-bool is_ours(const record::Table& table) {
-    return std::any_of(
-        record::kTopics.begin(), record::kTopics.end(),
-        [&table](const record::TopicInfo& topic) { return topic.name == table.topic; });
-}
-
 }  // namespace
 
 std::vector<FlightChannel> flight_channels(const record::Recording& recording,
@@ -243,7 +230,8 @@ std::vector<FlightChannel> flight_channels(const record::Recording& recording,
     add_guidance_state(channels, recording, numbers);
     for (const record::Table& table : recording.tables) {
         for (const record::Column& column : table.columns) {
-            if (!is_ours(table) && column.name.find("stamp") == std::string::npos) {
+            if (find_named(record::kTopics, table.topic) == nullptr &&
+                column.name.find("stamp") == std::string::npos) {
                 const std::string name =
                     table.topic + "/" + record::column_name_with_unit(table.type, column.name);
                 add(channels, channel_of(table, {name, "others", name, "", {}, {}}, column.values));
@@ -251,13 +239,6 @@ std::vector<FlightChannel> flight_channels(const record::Recording& recording,
         }
     }
     return channels;
-}
-
-const FlightChannel* find_channel(const std::vector<FlightChannel>& channels,
-                                  std::string_view name) {
-    const auto found = std::find_if(channels.begin(), channels.end(),
-                                    [name](const FlightChannel& c) { return c.name == name; });
-    return found == channels.end() ? nullptr : &*found;
 }
 
 double difference_of(ChannelKind kind, double reference, double other) {

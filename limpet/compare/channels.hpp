@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -39,9 +42,27 @@ using StateNumbers = std::map<std::string, double, std::less<>>;
 [[nodiscard]] std::vector<FlightChannel> flight_channels(const record::Recording& recording,
                                                          StateNumbers& numbers);
 
-/// @return nullptr if there is none of that name
-[[nodiscard]] const FlightChannel* find_channel(const std::vector<FlightChannel>& channels,
-                                                std::string_view name);
+/// The channel, figure, difference of that name; nullptr if there is none.
+template <class Named>
+[[nodiscard]] auto* find_named(Named& all, std::string_view name) {
+    const auto found = std::find_if(std::begin(all), std::end(all),
+                                    [name](const auto& one) { return one.name == name; });
+    return found == std::end(all) ? nullptr : &*found;
+}
+
+/// Columns of a table by name; all null when one is missing, or the table.
+template <std::size_t N>
+[[nodiscard]] std::array<const record::Column*, N> columns_of(
+    const record::Table* table, const std::array<const char*, N>& names) {
+    std::array<const record::Column*, N> found{};
+    for (std::size_t i = 0; i < N; ++i) {
+        found[i] = table == nullptr ? nullptr : table->find(names[i]);
+        if (found[i] == nullptr) {
+            return {};
+        }
+    }
+    return found;
+}
 
 /// The value at an instant: linear between two samples, angles the short way; of a state the last
 /// one before.

@@ -31,58 +31,45 @@ Extremes extremes(const FlightChannel& channel) {
     return found;
 }
 
-/// Names for instants of the reference.
-class PhaseNames {
-public:
-    PhaseNames(const record::Recording& recording, const std::vector<Piece>& pieces)
-        : phases_(phases(recording)), pieces_(pieces) {}
-    [[nodiscard]] std::string at(double time_s) const {
-        for (const record::Phase& phase : phases_) {
-            if (phase.window.holds(time_s) && time_s < phase.window.to_s) {
-                return phase.state;
-            }
-        }
-        std::string name = "start";
-        for (const Piece& piece : pieces_) {
-            name = piece.window.from_s <= time_s ? piece.from : name;
-        }
-        return phases_.empty() ? name : phases_.back().state;
+/// What an instant of the reference is called: its state of guidance, or the event before.
+std::string name_of(double time_s, const std::vector<record::Phase>& phases,
+                    const std::vector<Piece>& pieces) {
+    std::string name = phases.empty() ? "start" : phases.back().state;
+    for (const Piece& piece : pieces) {
+        name = phases.empty() && piece.window.from_s <= time_s ? piece.from : name;
     }
-
-private:
-    std::vector<record::Phase> phases_;
-    const std::vector<Piece>& pieces_;
-};
+    const auto phase =
+        std::find_if(phases.begin(), phases.end(), [time_s](const record::Phase& one) {
+            return one.window.holds(time_s) && time_s < one.window.to_s;
+        });
+    return phase == phases.end() ? name : phase->state;
+}
 
 ChannelDifference compare_channel(const FlightChannel& reference, const FlightChannel& other,
-                                  const std::vector<Piece>& pieces, const PhaseNames& names) {
+                                  const std::vector<Piece>& pieces,
+                                  const std::vector<record::Phase>& phases) {
     ChannelDifference result{.name = reference.name,
                              .unit = reference.unit,
                              .kind = reference.kind,
                              .reference = extremes(reference),
                              .other = extremes(other)};
     double squares = 0.0;
-    const auto& t = reference.time_s;
-    for (const Piece& piece : pieces) {
-        const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
-        for (auto i = static_cast<std::size_t>(first - t.begin());
-             i < t.size() && t[i] < piece.window.to_s; ++i) {
-            const double difference = std::abs(difference_of(
-                reference.kind, reference.values[i], value_at(other, t[i] + piece.shift_s)));
-            if (std::isnan(difference)) {
-                continue;
-            }
-            if (result.samples == 0 || difference > result.largest) {
-                result.largest = difference;
-                result.at_s = t[i];
-            }
-            squares += difference * difference;
-            ++result.samples;
+    const Differences all = differences(reference, other, pieces);
+    for (std::size_t i = 0; i < all.time_s.size(); ++i) {
+        const double difference = std::abs(all.values[i]);
+        if (std::isnan(difference)) {
+            continue;
         }
+        if (result.samples == 0 || difference > result.largest) {
+            result.largest = difference;
+            result.at_s = all.time_s[i];
+        }
+        squares += difference * difference;
+        ++result.samples;
     }
     if (result.samples > 0) {
         result.rms = std::sqrt(squares / static_cast<double>(result.samples));
-        result.phase = names.at(result.at_s);
+        result.phase = name_of(result.at_s, phases, pieces);
     }
     return result;
 }
@@ -113,17 +100,9 @@ void add_rest(std::vector<FlightFigure>& figures, const record::Recording& refer
     if (!a && !b) {
         return;
     }
-    const auto row = [&](const char* name, double Rest::*field) {
+    for (const auto& [name, field] : kRestNumbers) {
         figures.push_back({name, a ? (*a).*field : kNaN, b ? (*b).*field : kNaN});
-    };
-    row("rest_pitch_deg", &Rest::pitch_deg);
-    row("rest_roll_deg", &Rest::roll_deg);
-    row("rest_slider_mm", &Rest::slider_mm);
-    row("rest_cup_pull_N", &Rest::cup_pull_N);
-    row("rest_cup_shear_N", &Rest::cup_shear_N);
-    row("rest_wall_push_N", &Rest::wall_push_N);
-    row("rest_hanging_load_N", &Rest::hanging_load_N);
-    row("weight_N", &Rest::weight_N);
+    }
     const auto share_off = [](const std::optional<Rest>& rest) {
         return rest ? rest->hanging_load_N / rest->weight_N - 1.0 : kNaN;
     };
@@ -137,9 +116,7 @@ std::vector<FlightFigure> figures_of(const record::Recording& reference,
         figures.push_back({name, value, kNaN});
     }
     for (const auto& [name, value] : metrics(other)) {
-        const auto same = std::find_if(figures.begin(), figures.end(),
-                                       [&n = name](const FlightFigure& f) { return f.name == n; });
-        if (same != figures.end()) {
+        if (FlightFigure* same = find_named(figures, name)) {
             same->other = value;
         } else {
             figures.push_back({name, kNaN, value});
@@ -156,18 +133,18 @@ std::string both(const FlightComparison& comparison) {
 
 void compare_channels(FlightComparison& comparison, const FlightTrace& reference,
                       const FlightTrace& other) {
-    const PhaseNames names(*reference.recording, comparison.pieces);
+    const std::vector<record::Phase> phases = record::phases(*reference.recording);
     for (const FlightChannel& channel : reference.channels) {
-        const FlightChannel* same = find_channel(other.channels, channel.name);
+        const FlightChannel* same = find_named(other.channels, channel.name);
         if (same == nullptr) {
             comparison.only_in_reference.push_back(channel.name);
         } else {
             comparison.channels.push_back(
-                compare_channel(channel, *same, comparison.pieces, names));
+                compare_channel(channel, *same, comparison.pieces, phases));
         }
     }
     for (const FlightChannel& channel : other.channels) {
-        if (find_channel(reference.channels, channel.name) == nullptr) {
+        if (find_named(reference.channels, channel.name) == nullptr) {
             comparison.only_in_other.push_back(channel.name);
         }
     }
@@ -180,6 +157,22 @@ void compare_channels(FlightComparison& comparison, const FlightTrace& reference
 
 double FlightFigure::off() const {
     return against_zero ? std::abs(other) : std::abs(other - reference);
+}
+
+Differences differences(const FlightChannel& reference, const FlightChannel& other,
+                        const std::vector<Piece>& pieces) {
+    Differences found;
+    const auto& t = reference.time_s;
+    for (const Piece& piece : pieces) {
+        const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
+        for (auto i = static_cast<std::size_t>(first - t.begin());
+             i < t.size() && t[i] < piece.window.to_s; ++i) {
+            found.time_s.push_back(t[i]);
+            found.values.push_back(difference_of(reference.kind, reference.values[i],
+                                                 value_at(other, t[i] + piece.shift_s)));
+        }
+    }
+    return found;
 }
 
 double FlightComparison::event_difference_s(const EventPair& event) const {

@@ -73,6 +73,15 @@ struct FlightTrace {
     std::vector<FlightChannel> channels;
 };
 
+/// How far the other flight is off, at the reference's samples within the pieces; NaN where one of
+/// them has no value.
+struct Differences {
+    std::vector<double> time_s;
+    std::vector<double> values;
+};
+[[nodiscard]] Differences differences(const FlightChannel& reference, const FlightChannel& other,
+                                      const std::vector<Piece>& pieces);
+
 /// @throws InputError when there is no common event to align at, or no common channel
 [[nodiscard]] FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
                                        const Alignment& alignment);

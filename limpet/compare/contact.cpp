@@ -66,15 +66,11 @@ double best_shift_s(const FlightChannel& reference, const FlightChannel& other,
 /// The pressure that acts [hPa].
 FlightChannel acting_pressure(const record::Recording& recording,
                               const std::vector<FlightChannel>& channels) {
-    const FlightChannel* recorded = find_channel(channels, "cup_pressure_hPa");
-    FlightChannel acting = *recorded;
+    FlightChannel acting = *find_named(channels, "cup_pressure_hPa");
     const record::Table* table = find_table(recording, "/cup");
-    const record::Column* pull = table->find("pull_N");
-    const record::Column* margin = table->find("pull_margin_N");
-    const record::Column* pressure = table->find("pressure_Pa");
-    const record::Column* phase = table->find("phase");
-    if (pull == nullptr || margin == nullptr || phase == nullptr ||
-        !std::is_sorted(table->time_s.begin(), table->time_s.end())) {
+    const auto [pull, margin, pressure, phase] =
+        columns_of<4>(table, {"pull_N", "pull_margin_N", "pressure_Pa", "phase"});
+    if (pull == nullptr || !std::is_sorted(table->time_s.begin(), table->time_s.end())) {
         return acting;
     }
     // F = A (P_atm - P), the ripple adds to P alone: A by least squares over the sealed stretches.
@@ -104,11 +100,16 @@ double sample_s(const FlightChannel& channel) {
                                            static_cast<double>(channel.time_s.size() - 1);
 }
 
-}  // namespace
+/// A stretch of a flight in which the cup is sealed and the air flows one way.
+struct SealStage {
+    bool sealing = true;  ///< the pump draws, eq. (5); else the air comes back, eq. (6)
+    record::Window window;
+};
 
+/// In time; none when the cup's phase was not recorded.
 std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels) {
     std::vector<SealStage> stages;
-    const FlightChannel* phase = find_channel(channels, "cup_phase");
+    const FlightChannel* phase = find_named(channels, "cup_phase");
     bool open = false;
     for (std::size_t i = 0; phase != nullptr && i < phase->values.size(); ++i) {
         const double value = phase->values[i];
@@ -122,11 +123,11 @@ std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels) {
             stages.back().window.to_s = phase->time_s[i];
         }
     }
-    stages.erase(std::remove_if(stages.begin(), stages.end(),
-                                [](const SealStage& s) { return s.window.span_s() < kLeast_s; }),
-                 stages.end());
+    std::erase_if(stages, [](const SealStage& s) { return s.window.span_s() < kLeast_s; });
     return stages;
 }
+
+}  // namespace
 
 std::vector<ContactDifference> compare_contacts(
     const record::Recording& reference, const std::vector<FlightChannel>& reference_channels,
@@ -135,8 +136,8 @@ std::vector<ContactDifference> compare_contacts(
     const std::vector<SealStage> theirs = seal_stages(other_channels);
     std::vector<ContactDifference> found;
     if (ours.empty() || theirs.empty() ||
-        find_channel(reference_channels, "cup_pressure_hPa") == nullptr ||
-        find_channel(other_channels, "cup_pressure_hPa") == nullptr) {
+        find_named(reference_channels, "cup_pressure_hPa") == nullptr ||
+        find_named(other_channels, "cup_pressure_hPa") == nullptr) {
         return found;
     }
     const FlightChannel a = acting_pressure(reference, reference_channels);

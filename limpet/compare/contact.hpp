@@ -10,14 +10,6 @@
 /// Pressure on the same contact: from the instant of sealing on, whenever that was.
 namespace limpet::compare {
 
-/// A stretch of a flight in which the cup is sealed and the air flows one way.
-struct SealStage {
-    bool sealing = true;  ///< the pump draws, eq. (5); else the air comes back, eq. (6)
-    record::Window window;
-};
-/// In time; none when the cup's phase was not recorded.
-[[nodiscard]] std::vector<SealStage> seal_stages(const std::vector<FlightChannel>& channels);
-
 /// Pressures of the n-th stage of two flights, laid over each other.
 struct ContactDifference {
     bool sealing = true;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
@@ -40,22 +41,6 @@ draw::ChartSeries on_reference_time(const FlightChannel& channel,
              i < t.size() && t[i] - piece.shift_s < piece.window.to_s; ++i) {
             curve.x.push_back(t[i] - piece.shift_s);
             curve.y.push_back(channel.values[i]);
-        }
-    }
-    return curve;
-}
-
-draw::ChartSeries difference_curve(const FlightChannel& reference, const FlightChannel& other,
-                                   const std::vector<Piece>& pieces) {
-    draw::ChartSeries curve;
-    const auto& t = reference.time_s;
-    for (const Piece& piece : pieces) {
-        const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
-        for (auto i = static_cast<std::size_t>(first - t.begin());
-             i < t.size() && t[i] < piece.window.to_s; ++i) {
-            curve.x.push_back(t[i]);
-            curve.y.push_back(difference_of(reference.kind, reference.values[i],
-                                            value_at(other, t[i] + piece.shift_s)));
         }
     }
     return curve;
@@ -111,13 +96,14 @@ std::array<draw::ChartPanel, 2> channel_panels(const FlightChannel& channel,
          .y = channel.values,
          .colour = draw::colours::kDarkBlue});
     for (std::size_t k = 0; k < others.size(); ++k) {
-        const FlightChannel* other = find_channel(others[k].channels, channel.name);
+        const FlightChannel* other = find_named(others[k].channels, channel.name);
         if (other == nullptr) {
             continue;
         }
         draw::ChartSeries series = on_reference_time(*other, comparisons[k].pieces);
         series.mark = state ? draw::ChartSeries::Mark::steps : draw::ChartSeries::Mark::dashes;
-        draw::ChartSeries off = difference_curve(channel, *other, comparisons[k].pieces);
+        Differences all = differences(channel, *other, comparisons[k].pieces);
+        draw::ChartSeries off{.x = std::move(all.time_s), .y = std::move(all.values)};
         for (draw::ChartSeries* one : {&series, &off}) {
             one->name = others[k].label;
             one->colour = kOtherColours[k % kOtherColours.size()];

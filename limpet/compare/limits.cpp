@@ -4,109 +4,81 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::compare {
 namespace {
 
 constexpr double kBeyond = std::numeric_limits<double>::infinity();
 
-/// Size of something and where it is.
+/// A difference that can be limited: its size and where it is.
 struct Found {
+    std::string name;
     double size = 0.0;
-    std::string where;
+    std::string where = {};
 };
 
 Found worst_event(const FlightComparison& comparison) {
-    Found worst;
+    Found worst{"event"};
     for (const EventPair& event : comparison.events) {
         const double off =
             event.in_both() ? std::abs(comparison.event_difference_s(event)) : kBeyond;
         if (off > worst.size) {
-            worst = {off, event.occurrence > 1
+            worst.size = off;
+            worst.where = event.occurrence > 1
                               ? fmt::format("{}, time {}", event.name, event.occurrence)
-                              : event.name};
+                              : event.name;
         }
     }
     return worst;
 }
 
-std::optional<Found> worst_contact(const FlightComparison& comparison) {
-    if (comparison.contacts.empty()) {
-        return std::nullopt;
-    }
-    Found worst;
-    for (const ContactDifference& contact : comparison.contacts) {
-        if (contact.largest_hPa >= worst.size) {
-            worst = {contact.largest_hPa,
-                     fmt::format("{} from {:.3f} s", contact.sealing ? "sealing" : "unsealing",
-                                 contact.reference_from_s)};
-        }
-    }
-    return worst;
+Found worst_contact(const FlightComparison& comparison) {
+    const auto worst = std::max_element(
+        comparison.contacts.rbegin(), comparison.contacts.rend(),
+        [](const auto& a, const auto& b) { return a.largest_hPa < b.largest_hPa; });
+    return {"contact_pressure_hPa", worst->largest_hPa,
+            fmt::format("{} from {:.3f} s", worst->sealing ? "sealing" : "unsealing",
+                        worst->reference_from_s)};
 }
 
-/// @return nullopt when the comparison knows no such name
-std::optional<Found> size_of(const FlightComparison& comparison, const std::string& name) {
-    if (name == "event") {
-        return worst_event(comparison);
-    }
-    if (name == "outcome") {
-        // Flights of which none says how it ended are not told as alike.
-        const std::string& expected = comparison.reference.summary.outcome;
-        const bool alike = !expected.empty() && expected == comparison.other.summary.outcome;
-        return Found{alike ? 0.0 : 1.0, comparison.other.summary.outcome};
-    }
-    if (name == "contact_pressure_hPa") {
-        return worst_contact(comparison);
-    }
-    for (const FlightFigure& figure : comparison.figures) {
-        if (figure.name == name) {
-            return Found{std::isnan(figure.off()) ? kBeyond : figure.off(), ""};
-        }
-    }
-    for (const ChannelDifference& channel : comparison.channels) {
-        if (channel.name == name && channel.samples > 0) {
-            return Found{channel.largest,
-                         fmt::format("at {:.3f} s, {}", channel.at_s, channel.phase)};
-        }
-    }
-    return std::nullopt;
-}
-
-std::vector<std::string> names_of(const FlightComparison& comparison) {
-    std::vector<std::string> names = {"event", "outcome"};
+std::vector<Found> all_of(const FlightComparison& comparison) {
+    // Flights of which none says how it ended are not told as alike.
+    const std::string& expected = comparison.reference.summary.outcome;
+    const std::string& outcome = comparison.other.summary.outcome;
+    const bool alike = !expected.empty() && expected == outcome;
+    std::vector<Found> all = {worst_event(comparison), {"outcome", alike ? 0.0 : 1.0, outcome}};
     if (!comparison.contacts.empty()) {
-        names.emplace_back("contact_pressure_hPa");
+        all.push_back(worst_contact(comparison));
     }
     for (const FlightFigure& figure : comparison.figures) {
-        names.push_back(figure.name);
+        all.push_back({figure.name, std::isnan(figure.off()) ? kBeyond : figure.off()});
     }
     for (const ChannelDifference& channel : comparison.channels) {
         if (channel.samples > 0) {
-            names.push_back(channel.name);
+            all.push_back({channel.name, channel.largest,
+                           fmt::format("at {:.3f} s, {}", channel.at_s, channel.phase)});
         }
     }
-    return names;
+    return all;
 }
 
 }  // namespace
 
 DifferenceLimit parse_limit(const std::string& text) {
     const std::size_t equals = text.rfind('=');
-    const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
-    char* end = nullptr;
-    const double most = std::strtod(value.c_str(), &end);
-    if (equals == 0 || value.empty() || *end != '\0' || !std::isfinite(most) || most < 0.0) {
+    const auto most = equals == std::string::npos ? std::nullopt : decimal(text.substr(equals + 1));
+    if (equals == 0 || !most || *most < 0.0) {
         throw InputError(fmt::format(
             "--limit {}: must be NAME=VALUE with a value of 0 or more, as in event=0.15", text));
     }
-    return {text.substr(0, equals), most};
+    return {text.substr(0, equals), *most};
 }
 
 std::vector<Excess> check_limits(const std::vector<FlightComparison>& comparisons,
@@ -115,12 +87,16 @@ std::vector<Excess> check_limits(const std::vector<FlightComparison>& comparison
     for (const DifferenceLimit& limit : limits) {
         Excess worst{limit, "", -1.0, ""};
         for (const FlightComparison& comparison : comparisons) {
-            const auto found = size_of(comparison, limit.name);
-            if (!found) {
-                throw InputError(
-                    fmt::format("--limit {}: {} and {} have no such difference; there are: {}",
-                                limit.name, comparison.reference.label, comparison.other.label,
-                                fmt::join(names_of(comparison), ", ")));
+            const std::vector<Found> all = all_of(comparison);
+            const Found* found = find_named(all, limit.name);
+            if (found == nullptr) {
+                std::vector<std::string> names;
+                for (const Found& one : all) {
+                    names.push_back(one.name);
+                }
+                throw InputError(fmt::format(
+                    "--limit {}: {} and {} have no such difference; there are: {}", limit.name,
+                    comparison.reference.label, comparison.other.label, fmt::join(names, ", ")));
             }
             if (found->size > worst.measured) {
                 worst = {limit, comparison.other.label, found->size, found->where};

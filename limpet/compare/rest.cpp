@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/compare/rest.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "limpet/core/errors.hpp"
+#include "limpet/compare/channels.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/draw/mjcf.hpp"
 #include "limpet/record/ros_frames.hpp"
@@ -29,20 +28,6 @@ double weight_N(const record::Recording& recording) {
                     : model->body_subtreemass[base] * kGravity_m_s2;
 }
 
-/// Columns of one table by name; empty when one is missing.
-template <std::size_t N>
-std::array<const record::Column*, N> columns(const record::Table* table,
-                                             const std::array<const char*, N>& names) {
-    std::array<const record::Column*, N> found{};
-    for (std::size_t i = 0; i < N; ++i) {
-        found[i] = table == nullptr ? nullptr : table->find(names[i]);
-        if (found[i] == nullptr) {
-            return {};
-        }
-    }
-    return found;
-}
-
 /// The last rest but its first half.
 std::optional<record::Window> settled(const record::Recording& recording) {
     std::optional<record::Window> window;
@@ -62,10 +47,10 @@ std::optional<Rest> rest_of(const record::Recording& recording) {
     const record::Table* wrench = find_table(recording, "/truth/cup_wrench");
     const record::Table* cup = find_table(recording, "/cup");
     const auto v =
-        columns<8>(truth, {"roll_rad", "pitch_rad", "yaw_rad", "cup_pitch_rad", "cup_yaw_rad",
-                           "slider_position_m", "legs_force_north_N", "legs_force_down_N"});
-    const auto w = columns<3>(wrench, {"wrench.force.x", "wrench.force.y", "wrench.force.z"});
-    const auto c = columns<2>(cup, {"pull_N", "shear_N"});
+        columns_of<8>(truth, {"roll_rad", "pitch_rad", "yaw_rad", "cup_pitch_rad", "cup_yaw_rad",
+                              "slider_position_m", "legs_force_north_N", "legs_force_down_N"});
+    const auto w = columns_of<3>(wrench, {"wrench.force.x", "wrench.force.y", "wrench.force.z"});
+    const auto c = columns_of<2>(cup, {"pull_N", "shear_N"});
     // The three are written together: one row of each an instant.
     if (!window || v[0] == nullptr || w[0] == nullptr || c[0] == nullptr ||
         truth->time_s != wrench->time_s || truth->time_s != cup->time_s) {
@@ -96,9 +81,8 @@ std::optional<Rest> rest_of(const record::Recording& recording) {
     if (samples < 1.0) {
         return std::nullopt;
     }
-    for (double* value : {&sum.pitch_deg, &sum.roll_deg, &sum.slider_mm, &sum.cup_pull_N,
-                          &sum.cup_shear_N, &sum.hanging_load_N, &sum.wall_push_N}) {
-        *value /= samples;
+    for (const RestNumber& number : kRestNumbers) {
+        sum.*number.field /= samples;
     }
     sum.weight_N = weight_N(recording);
     return sum;

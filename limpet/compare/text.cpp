@@ -173,14 +173,6 @@ std::string left_out_text(const FlightComparison& c) {
     return text.empty() ? text : "\n" + text;
 }
 
-/// The one of that name, or nullptr.
-template <class T>
-const T* named(const std::vector<T>& all, std::string_view name) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [name](const T& one) { return one.name == name; });
-    return found == all.end() ? nullptr : &*found;
-}
-
 std::string worst_contact(const FlightComparison& comparison) {
     double worst = comparison.contacts.empty() ? std::nan("") : 0.0;
     for (const ContactDifference& contact : comparison.contacts) {
@@ -249,7 +241,7 @@ std::string comparison_markdown(const std::vector<FlightComparison>& comparisons
             std::end(kShownFigures)) {
             add_row(table, figure.name, short_of(figure.reference, 5), comparisons,
                     [&figure](const C& c) {
-                        const FlightFigure* same = named(c.figures, figure.name);
+                        const FlightFigure* same = find_named(c.figures, figure.name);
                         return same == nullptr ? "-" : short_of(same->other, 5);
                     });
         }
@@ -259,7 +251,7 @@ std::string comparison_markdown(const std::vector<FlightComparison>& comparisons
         // Each stretch of the flight laid over its own.
         add_row(table, fmt::format("{}: largest, RMS", name), "", comparisons,
                 [name](const C& c) -> std::string {
-                    const ChannelDifference* channel = named(c.channels, name);
+                    const ChannelDifference* channel = find_named(c.channels, name);
                     return channel == nullptr || channel->samples == 0
                                ? "-"
                                : fmt::format("{:.3g}, {:.2g}", channel->largest, channel->rms);
