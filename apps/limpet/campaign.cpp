@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <string>
-#include <thread>
 
 #include "command_line.hpp"
 #include "limpet/campaign/folder_lock.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "output.hpp"
-#include "signals.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -27,11 +24,19 @@ constexpr std::size_t kBar = 30;
 
 struct CampaignOptions {
     std::string file;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = default_jobs();
     std::string out;
     bool resume = false;
     bool quiet = false;
 };
+
+OptionList options_of(CampaignOptions& options) {
+    return {{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
+            jobs_option(options.jobs),
+            {"--out DIR", &options.out, "folder (default: out/NAME)"},
+            {"--resume", &options.resume, "go on with the results in the folder, if any"},
+            {"--quiet,-q", &options.quiet, "print nothing but errors"}};
+}
 
 std::string time_text(double time_s) {
     const auto whole = static_cast<long long>(std::ceil(time_s));
@@ -83,9 +88,9 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     terminal.line("");
     terminal.line(summary_text(summarise(results)));
     const std::string file = (folder / campaign::Results::kFileName).string();
-    terminal.line(terminal.bold("written    ") + file);
-    terminal.line("           limpet summary " + file + "      figures, JSON");
-    terminal.line("           limpet replay " + file + " 0     one run, recorded");
+    terminal.line("written", file);
+    terminal.line("", "limpet summary " + file + "      figures, JSON");
+    terminal.line("", "limpet replay " + file + " 0     one run, recorded");
     if (const auto faults = progress.outcomes.find(campaign::kFault);
         faults != progress.outcomes.end()) {
         fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
@@ -115,29 +120,13 @@ ExitCode fly_campaign(const CampaignOptions& options) {
 }  // namespace
 
 Verb campaign_verb() {
-    auto options = std::make_shared<CampaignOptions>();
-    return {
-        .name = "campaign",
-        .about = "Fly a scenario many times over grids and distributions of its keys",
-        .options = {{"campaign",
-                     &options->file,
-                     "name in campaigns/, or a YAML file",
-                     "FILE",
-                     {.required = true}},
-                    {"--jobs,-j",
-                     &options->jobs,
-                     "threads (default: one a processor)",
-                     "N",
-                     {.range = {{1, 1024}}}},
-                    {"--out", &options->out, "folder (default: out/NAME)", "DIR"},
-                    {"--resume", &options->resume, "go on with the results in the folder, if any"},
-                    {"--quiet,-q", &options->quiet, "print nothing but errors"}},
-        .footer =
-            "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
-            "Killed "
-            "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly "
-            "(130).\n",
-        .run = [options](const Given&) { return fly_campaign(*options); }};
+    return verb<CampaignOptions>(
+        "campaign", "Fly a scenario many times over grids and distributions of its keys",
+        options_of, fly_campaign,
+        "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
+        "Killed "
+        "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly "
+        "(130).\n");
 }
 
 }  // namespace limpet::app

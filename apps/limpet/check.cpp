@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <memory>
 #include <string>
 
 #include "command_line.hpp"
@@ -49,23 +48,18 @@ void check_file(const std::string& file) {
     }
 }
 
+OptionList options_of(std::string& file) {
+    return {{"file FILE", &file,
+             "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\n"
+             "surfaces.yaml, *.mcap"}};
+}
+
 }  // namespace
 
 Verb check_verb() {
-    auto file = std::make_shared<std::string>();
-    return {.name = "check",
-            .about = "Check a scenario, vehicle, campaign, surfaces.yaml or recording",
-            .options = {{"file",
-                         file.get(),
-                         "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\n"
-                         "surfaces.yaml, *.mcap",
-                         "FILE",
-                         {.required = true}}},
-            .footer = "Exits with 0 when all is good, 2 when not.\n",
-            .run = [file](const Given&) {
-                check_file(*file);
-                return ExitCode::ok;
-            }};
+    return verb<std::string>(
+        "check", "Check a scenario, vehicle, campaign, surfaces.yaml or recording", options_of,
+        check_file, "Exits with 0 when all is good, 2 when not.\n");
 }
 
 }  // namespace limpet::app

@@ -4,12 +4,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <type_traits>
+#include <array>
+#include <string_view>
+#include <thread>
 
 #include "limpet/core/errors.hpp"
 
 namespace limpet::app {
 namespace {
+
+/// Addresses as they are told, in the order of wire::Medium.
+constexpr std::array<std::string_view, 5> kForms = {
+    "tcp:HOST:PORT", "udp:HOST:PORT", "udp-broadcast:HOST:PORT",
+    "udp-multicast:GROUP:PORT[@INTERFACE]", "serial:DEVICE:BAUD"};
 
 /// A number within both bounds; CLI's own range lets NaN pass.
 CLI::Validator between(double least, double most) {
@@ -24,59 +31,27 @@ CLI::Validator between(double least, double most) {
         "");
 }
 
-CLI::Validator range_of(const Option& option) {
-    const auto [least, most] = *option.rules.range;
-    if (!option.rules.told) {
-        return between(least, most);
-    }
-    return std::holds_alternative<int*>(option.target)
-               ? CLI::Range(static_cast<int>(least), static_cast<int>(most))
-               : CLI::Range(least, most);
-}
-
-CLI::Option* add_plain(CLI::App& verb, const Option& option) {
-    return std::visit(
+void add(CLI::App& verb, const Option& option) {
+    const std::size_t blank = option.name.find(' ');
+    const std::string name = option.name.substr(0, blank);
+    CLI::Option* added = std::visit(
         [&](const auto& target) {
             using Target = std::decay_t<decltype(target)>;
             if constexpr (std::is_same_v<Target, bool*>) {
-                return verb.add_flag(option.name, *target, option.about);
+                return verb.add_flag(name, *target, option.about);
             } else if constexpr (std::is_pointer_v<Target>) {
-                return verb.add_option(option.name, *target, option.about);
+                return verb.add_option(name, *target, option.about);
             } else {
-                return verb.add_option_function<std::string>(option.name, target, option.about);
+                return verb.add_option_function<std::string>(name, target, option.about);
             }
         },
         option.target);
-}
-
-void add(CLI::App& verb, const Option& option) {
-    const OptionRules& rules = option.rules;
-    CLI::Option* added = add_plain(verb, option);
-    added->required(rules.required);
-    if (option.value_name != nullptr) {
-        added->type_name(option.value_name);
+    added->required(name[0] != '-');
+    if (blank != std::string::npos) {
+        added->type_name(option.name.substr(blank + 1));
     }
-    if (!rules.one_of.empty()) {
-        CLI::Validator member = CLI::IsMember(rules.one_of);
-        added->check(rules.told ? member : member.description(""));
-    }
-    if (rules.range) {
-        added->check(range_of(option));
-    }
-    if (rules.values) {
-        added->expected(rules.values->first, rules.values->second);
-    }
-    if (rules.repeatable) {
-        added->expected(1)->take_all();
-    }
-    if (rules.value_each_time) {
-        added->allow_extra_args(false);
-    }
-    if (rules.default_told) {
-        added->capture_default_str();
-    }
-    if (rules.not_with != nullptr) {
-        added->excludes(verb.get_option(rules.not_with));
+    if (option.rule) {
+        option.rule(verb, *added);
     }
 }
 
@@ -97,8 +72,56 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
 
 }  // namespace
 
+OptionRule required() {
+    return [](CLI::App&, CLI::Option& option) { option.required(); };
+}
+
+OptionRule optional() {
+    return [](CLI::App&, CLI::Option& option) { option.required(false); };
+}
+
+OptionRule one_of(const std::vector<std::string>& names, bool told) {
+    return [names, told](CLI::App&, CLI::Option& option) {
+        CLI::Validator member = CLI::IsMember(names);
+        option.check(told ? member : member.description(""));
+    };
+}
+
+OptionRule range(double least, double most, bool told) {
+    return [=](CLI::App&, CLI::Option& option) {
+        option.check(told ? CLI::Range(least, most) : between(least, most));
+    };
+}
+
+OptionRule values(int least, int most) {
+    return [=](CLI::App&, CLI::Option& option) { option.expected(least, most); };
+}
+
+OptionRule value_each_time() {
+    return [](CLI::App&, CLI::Option& option) { option.allow_extra_args(false); };
+}
+
+OptionRule default_told() {
+    return [](CLI::App&, CLI::Option& option) { option.capture_default_str(); };
+}
+
+OptionRule not_with(const char* other) {
+    return
+        [other](CLI::App& verb, CLI::Option& option) { option.excludes(verb.get_option(other)); };
+}
+
 Option overrides_option(std::vector<std::string>& overrides, const char* about) {
-    return {"--set", &overrides, about, "KEY=VALUE", {.repeatable = true}};
+    return {"--set KEY=VALUE", &overrides, about,
+            [](CLI::App&, CLI::Option& option) { option.expected(1)->take_all(); }};
+}
+
+Option jobs_option(int& jobs) {
+    return {"--jobs,-j N", &jobs, "threads (default: one a processor)",
+            [](CLI::App&, CLI::Option& option) { option.check(CLI::Range(1, 1024)); }};
+}
+
+int default_jobs() {
+    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 OptionList joined(std::initializer_list<OptionList> parts) {
@@ -107,6 +130,23 @@ OptionList joined(std::initializer_list<OptionList> parts) {
         all.insert(all.end(), part.begin(), part.end());
     }
     return all;
+}
+
+wire::TransportAddress address_of(const std::string& option, const std::string& text,
+                                  std::initializer_list<wire::Medium> media) {
+    std::vector<std::string_view> forms;
+    for (const wire::Medium medium : media) {
+        const std::string_view form = kForms.at(static_cast<std::size_t>(medium));
+        if (text.starts_with(form.substr(0, form.find(':') + 1))) {
+            try {
+                return wire::parse_address(text);
+            } catch (const InputError& error) {
+                throw InputError(option + ": " + error.what());
+            }
+        }
+        forms.push_back(form);
+    }
+    throw InputError(fmt::format("{} '{}': must be {}", option, text, fmt::join(forms, " or ")));
 }
 
 void only_with(const Given& given, bool used, std::initializer_list<const char*> options,

@@ -4,11 +4,19 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <variant>
 #include <vector>
+
+#include "limpet/wire/address.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 // A verb and its options as data. The parser behind them (CLI11) takes ten seconds to compile:
 // command_line.cpp alone includes it.
@@ -29,32 +37,48 @@ using OptionTarget =
     std::variant<bool*, int*, std::uint32_t*, double*, std::optional<double>*, std::string*,
                  std::vector<std::string>*, std::function<void(const std::string&)>>;
 
-/// What an option takes.
-struct OptionRules {
-    bool required = false;
-    std::vector<std::string> one_of = {};
-    std::optional<std::pair<double, double>> range = {};  ///< least and most
-    bool told = true;  ///< the help says what is allowed; a range that it does not refuses NaN
-    std::optional<std::pair<int, int>> values = {};  ///< fewest and most of them
-    bool repeatable = false;         ///< a list: a value each time the option is named
-    bool value_each_time = false;    ///< the same, and the help shows that there may be more
-    bool default_told = false;       ///< the help says what the variable holds
-    const char* not_with = nullptr;  ///< an option described before this one
-};
+/// What an option takes, beyond its type.
+using OptionRule = std::function<void(CLI::App& verb, CLI::Option& option)>;
+[[nodiscard]] OptionRule required();
+/// Of what is told by its place, which is required otherwise.
+[[nodiscard]] OptionRule optional();
+/// @param told  the help says so; else `about` does
+[[nodiscard]] OptionRule one_of(const std::vector<std::string>& names, bool told = true);
+/// @param told  likewise; a range that the help does not tell refuses NaN
+[[nodiscard]] OptionRule range(double least, double most, bool told = true);
+/// Fewest and most values.
+[[nodiscard]] OptionRule values(int least, int most);
+/// A value each time the option is named; the help shows that there may be more.
+[[nodiscard]] OptionRule value_each_time();
+/// The help says what the variable holds.
+[[nodiscard]] OptionRule default_told();
+/// @param option  described before this one
+[[nodiscard]] OptionRule not_with(const char* option);
 
 struct Option {
-    const char* name;  ///< "--out", "--jobs,-j"; without dashes it is told by its place
+    /// Name and, behind a blank, what stands for the value in the help: "--out DIR", "--jobs,-j N";
+    /// a flag has none. Without dashes it is told by its place: "scenario SCENARIO".
+    std::string name;
     OptionTarget target;
     const char* about;
-    const char* value_name = nullptr;  ///< in the help: DIR; none for a flag
-    OptionRules rules = {};
+    OptionRule rule = {};
 };
 using OptionList = std::vector<Option>;
 
 /// --set, of the verbs that load a scenario or a companion.
 [[nodiscard]] Option overrides_option(std::vector<std::string>& overrides, const char* about);
+/// --jobs, of those that keep many threads busy.
+[[nodiscard]] Option jobs_option(int& jobs);
+/// One a processor.
+[[nodiscard]] int default_jobs();
 /// In the order of the help.
 [[nodiscard]] OptionList joined(std::initializer_list<OptionList> parts);
+
+/// The address that an option names.
+/// @param media  what the option can do with
+/// @throws InputError naming the option and what it may be
+[[nodiscard]] wire::TransportAddress address_of(const std::string& option, const std::string& text,
+                                                std::initializer_list<wire::Medium> media);
 
 /// Whether an option stands on the command line: given("--out").
 using Given = std::function<bool(const char* option)>;
@@ -68,9 +92,31 @@ struct Verb {
     std::string name;
     std::string about;
     OptionList options;
-    std::string footer = {};                    ///< of its help; empty: the program's
+    std::string footer;                         ///< of its help; empty: the program's
     std::function<ExitCode(const Given&)> run;  ///< owns what the options point to
 };
+
+/// A verb whose options are the members of a struct, which it owns.
+/// @param run  from const Options& to an ExitCode, or to nothing, which is ExitCode::ok; or from
+///             const Options& and Given to an ExitCode
+template <class Options, class Run>
+[[nodiscard]] Verb verb(const char* name, const char* about, OptionList (*options_of)(Options&),
+                        const Run& run, const std::string& footer = {}) {
+    const auto options = std::make_shared<Options>();
+    return {name, about, options_of(*options), footer, [options, run](const Given& given) {
+                if constexpr (std::is_invocable_v<Run, const Options&, const Given&>) {
+                    return run(*options, given);
+                } else if constexpr (std::is_void_v<std::invoke_result_t<Run, const Options&>>) {
+                    run(*options);
+                    return ExitCode::ok;
+                } else {
+                    return run(*options);
+                }
+            }};
+}
+
+/// Every verb of the program, in the order of --help; apps/limpet/CMakeLists.txt lists them.
+[[nodiscard]] std::vector<Verb> all_verbs();
 
 /// The program as a whole.
 struct Program {

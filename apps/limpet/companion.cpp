@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -16,7 +14,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/key_file.hpp"
 #include "output.hpp"
-#include "signals.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -34,7 +31,7 @@ struct CompanionOptions {
 };
 
 void check_speed(const CompanionOptions& options, const companion::CompanionConfig& config) {
-    if (!(std::isfinite(options.speed) && options.speed >= 0.01 && options.speed <= 100.0)) {
+    if (!(options.speed >= 0.01 && options.speed <= 100.0)) {
         throw InputError(fmt::format("--speed {}: must be 0.01..100", options.speed));
     }
     if (options.speed != 1.0 && has_serial(config)) {
@@ -45,15 +42,16 @@ void check_speed(const CompanionOptions& options, const companion::CompanionConf
 }
 
 /// A terminal that is gone (a closed pipe, a lost connection) must not end a flight.
-void tell(Terminal& terminal, const std::string& text) {
+template <class... Texts>
+void tell(Terminal& terminal, const Texts&... texts) {
     try {
-        terminal.line(text);
+        terminal.line(texts...);
     } catch (const std::system_error&) {
         std::clearerr(stdout);
     }
 }
 
-companion::CompanionWatch watch(Terminal& terminal) {
+companion::CompanionWatch session_watch(Terminal& terminal) {
     return {.on_event =
                 [&terminal](const Event& event) { tell(terminal, simulation::event_line(event)); },
             .on_line =
@@ -81,14 +79,12 @@ void conclude(const companion::CompanionResult& result, const std::filesystem::p
     tell(terminal, "");
     const std::string outcome =
         result.outcome ? std::string(to_string(*result.outcome)) + ": " : "";
-    tell(terminal, terminal.bold("ended      ") + outcome + result.reason);
-    tell(terminal, terminal.bold("loop       ") +
-                       fmt::format("{} ticks, {} of them late by more than a period, the latest by "
-                                   "{:.1f} ms",
-                                   result.ticks, result.late_ticks, 1e3 * result.latest_s));
+    tell(terminal, "ended", outcome + result.reason);
+    tell(terminal, "loop",
+         fmt::format("{} ticks, {} of them late by more than a period, the latest by {:.1f} ms",
+                     result.ticks, result.late_ticks, 1e3 * result.latest_s));
     if (!recording.empty()) {
-        tell(terminal, terminal.bold("written    ") + recording.string() + " (limpet plot " +
-                           recording.string() + ")");
+        tell(terminal, "written", fmt::format("{0} (limpet plot {0})", recording.string()));
     }
 }
 
@@ -102,18 +98,11 @@ ExitCode code_of(const CompanionOptions& options, const companion::CompanionResu
             return ExitCode::other_outcome;
         case companion::CompanionEnd::mission_over: break;
     }
-    if (!options.expect.empty() && expected_outcome(options.expect) != *result.outcome) {
-        fmt::print(stderr, "limpet: expected {}, the mission ended {}: {}\n", options.expect,
-                   to_string(*result.outcome), result.reason);
-        return ExitCode::other_outcome;
-    }
-    return ExitCode::ok;
+    return judged(expected_outcome(options.expect), "mission", *result.outcome, result.reason);
 }
 
 ExitCode companion(const CompanionOptions& options) {
-    if (!options.expect.empty()) {
-        (void)expected_outcome(options.expect);  // before any work
-    }
+    (void)expected_outcome(options.expect);  // before any work
     const companion::CompanionConfig config =
         companion::load_companion(options.config, options.overrides);
     check_speed(options, config);
@@ -134,44 +123,35 @@ ExitCode companion(const CompanionOptions& options) {
         conduct.recording = make_folder(options.out) / "flight.mcap";
     }
     terminal.line(terminal.dim(simulation::event_head()));
-    const companion::CompanionResult result =
-        run(config, wires, companion::steady_clock(options.speed), conduct, watch(terminal));
+    const companion::CompanionResult result = run(
+        config, wires, companion::steady_clock(options.speed), conduct, session_watch(terminal));
     conclude(result, conduct.recording, terminal);
     return code_of(options, result);
+}
+
+OptionList options_of(CompanionOptions& options) {
+    return {{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
+            {"--check", &options.check, "say what it would do, open nothing"},
+            {"--dry-run", &options.dry_run,
+             "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
+            overrides_option(options.overrides,
+                             "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
+            {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
+            {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
+            {"--speed N", &options.speed,
+             "its clock runs so many times real time: beside a simulation only"},
+            {"--no-record", &options.no_record, "write nothing"}};
 }
 
 }  // namespace
 
 Verb companion_verb() {
-    auto options = std::make_shared<CompanionOptions>();
-    return {
-        .name = "companion",
-        .about = "Guidance alone, beside a real autopilot, over wires",
-        .options = {{"config",
-                     &options->config,
-                     "companions/*.yaml: a name, or a file",
-                     "CONFIG",
-                     {.required = true}},
-                    {"--check", &options->check, "say what it would do, open nothing"},
-                    {"--dry-run", &options->dry_run,
-                     "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
-                    overrides_option(options->overrides,
-                                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
-                    {"--out", &options->out, "folder for the recording (default out/companion)",
-                     "DIR"},
-                    {"--expect", &options->expect, "exit with 1 unless the mission ends so",
-                     "OUTCOME"},
-                    {"--speed", &options->speed,
-                     "its clock runs so many times real time: beside a simulation only", "N"},
-                    {"--no-record", &options->no_record, "write nothing"}},
-        .footer =
-            "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes "
-            "to\n"
-            "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
-            "Exit codes: 0 the mission came to its end, 1 control was handed back or another "
-            "outcome\n"
-            "than --expect, 2 bad input or something absent, 130 interrupted.\n",
-        .run = [options](const Given&) { return companion(*options); }};
+    return verb<CompanionOptions>(
+        "companion", "Guidance alone, beside a real autopilot, over wires", options_of, companion,
+        "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes to\n"
+        "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
+        "Exit codes: 0 the mission came to its end, 1 control was handed back or another outcome\n"
+        "than --expect, 2 bad input or something absent, 130 interrupted.\n");
 }
 
 }  // namespace limpet::app

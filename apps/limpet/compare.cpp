@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/compare/compare.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,23 +69,16 @@ record::Recording whole_recording(const std::string& path) {
     return recording;
 }
 
-void print_text(const std::vector<compare::FlightComparison>& comparisons,
-                const std::vector<compare::Excess>& checked) {
-    for (const compare::FlightComparison& comparison : comparisons) {
-        fmt::print("{}{}", &comparison == &comparisons.front() ? "" : "\n",
-                   comparison_text(comparison));
-    }
-    fmt::print("{}{}", checked.empty() ? "" : "\n", limits_text(checked));
-}
-
 ExitCode compare_flights(const CompareOptions& options) {
     const std::vector<std::string> labels = labels_of(options);
     std::vector<compare::DifferenceLimit> limits;
-    std::transform(options.limits.begin(), options.limits.end(), std::back_inserter(limits),
-                   compare::parse_limit);
+    for (const std::string& limit : options.limits) {
+        limits.push_back(compare::parse_limit(limit));
+    }
     std::vector<record::Recording> recordings;
-    std::transform(options.recordings.begin(), options.recordings.end(),
-                   std::back_inserter(recordings), whole_recording);
+    for (const std::string& path : options.recordings) {
+        recordings.push_back(whole_recording(path));
+    }
     compare::StateNumbers numbers;
     std::vector<compare::FlightTrace> others;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
@@ -106,16 +99,18 @@ ExitCode compare_flights(const CompareOptions& options) {
     } else if (options.markdown) {
         fmt::print("{}", comparison_markdown(comparisons));
     } else {
-        print_text(comparisons, checked);
+        std::vector<std::string> texts;
+        std::transform(comparisons.begin(), comparisons.end(), std::back_inserter(texts),
+                       compare::comparison_text);
+        fmt::print("{}{}{}", fmt::join(texts, "\n"), checked.empty() ? "" : "\n",
+                   limits_text(checked));
     }
     if (!options.out.empty()) {
         const fs::path folder = make_folder(options.out);
         const draw::Pictures pictures = draw_comparison(reference, others, comparisons, folder);
         write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
-        for (const fs::path& file : pictures.files) {
-            if (!options.json && !options.markdown) {
-                fmt::print("{}\n", file.string());
-            }
+        if (!options.json && !options.markdown) {
+            print_files(pictures.files);
         }
     }
     bool exceeded = false;
@@ -128,49 +123,32 @@ ExitCode compare_flights(const CompareOptions& options) {
     return exceeded ? ExitCode::other_outcome : ExitCode::ok;
 }
 
+OptionList options_of(CompareOptions& options) {
+    return {
+        {"recordings RECORDING", &options.recordings, "the reference, then the others (.mcap)",
+         values(2, 16)},
+        {"--align HOW", &options.align,
+         "events: each stretch at its own event; start; or the name of one event", default_told()},
+        {"--label NAME", &options.labels, "what a flight is called, in the order given",
+         value_each_time()},
+        {"--limit NAME=VALUE", &options.limits,
+         "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
+         "contact_pressure_hPa",
+         value_each_time()},
+        {"--out DIR", &options.out, "folder for figures and compare.json"},
+        {"--json", &options.json, "one JSON object"},
+        {"--markdown", &options.markdown, "a table, a column a flight", not_with("--json")}};
+}
+
 }  // namespace
 
 Verb compare_verb() {
-    auto options = std::make_shared<CompareOptions>();
-    return {
-        .name = "compare",
-        .about = "Lay flights over each other and tell how they differ from the first",
-        .options = {{"recordings",
-                     &options->recordings,
-                     "the reference, then the others (.mcap)",
-                     "RECORDING",
-                     {.required = true, .values = {{2, 16}}}},
-                    {"--align",
-                     &options->align,
-                     "events: each stretch at its own event; start; or the name of one event",
-                     "HOW",
-                     {.default_told = true}},
-                    {"--label",
-                     &options->labels,
-                     "what a flight is called, in the order given",
-                     "NAME",
-                     {.value_each_time = true}},
-                    {"--limit",
-                     &options->limits,
-                     "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
-                     "contact_pressure_hPa",
-                     "NAME=VALUE",
-                     {.value_each_time = true}},
-                    {"--out", &options->out, "folder for figures and compare.json", "DIR"},
-                    {"--json", &options->json, "one JSON object"},
-                    {"--markdown",
-                     &options->markdown,
-                     "a table, a column a flight",
-                     nullptr,
-                     {.not_with = "--json"}}},
-        .footer =
-            "Values are compared at the reference's samples, the other flight's read between its "
-            "own;\n"
-            "never over a gap. What one flight has longer between two events is left out, and "
-            "said.\n"
-            "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or "
-            "damaged.\n",
-        .run = [options](const Given&) { return compare_flights(*options); }};
+    return verb<CompareOptions>(
+        "compare", "Lay flights over each other and tell how they differ from the first",
+        options_of, compare_flights,
+        "Values are compared at the reference's samples, the other flight's read between its own;\n"
+        "never over a gap. What one flight has longer between two events is left out, and said.\n"
+        "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or damaged.\n");
 }
 
 }  // namespace limpet::app

@@ -2,9 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -98,10 +96,10 @@ std::vector<std::string> lasting(std::vector<std::string> overrides,
     for (std::string& text : overrides) {
         const std::size_t equals = text.find('=');
         const std::string key = text.substr(0, equals);
-        if ((key == "vehicle" || key == "vehicle.base") &&
-            scenario::is_path(text.substr(equals + 1))) {
-            text = key + "=" +
-                   lasting((scenario.path.parent_path() / text.substr(equals + 1)).string());
+        const std::string value = text.substr(equals + 1);
+        if ((key == "vehicle" || key == "vehicle.base") && scenario::is_path(value)) {
+            text.replace(equals + 1, value.size(),
+                         lasting((scenario.path.parent_path() / value).string()));
         }
     }
     return overrides;
@@ -162,75 +160,56 @@ std::string world_text(const ExportOptions& options, const Subject& subject, con
 std::string model_text(const ExportOptions& options) {
     const fs::path root = scenario::data_root();
     const Subject subject = load(options, root);
-    if (options.format == "sdf") {
-        return models::write_sdf(subject.airframe);
-    }
-    if (options.format == "urdf") {
-        return models::write_urdf(subject.airframe);
-    }
-    return options.format == "world" ? world_text(options, subject, root)
-                                     : mjcf_text(options, subject, root);
+    return options.format == "sdf"     ? models::write_sdf(subject.airframe)
+           : options.format == "urdf"  ? models::write_urdf(subject.airframe)
+           : options.format == "world" ? world_text(options, subject, root)
+                                       : mjcf_text(options, subject, root);
 }
 
-void check_together(const Given& given, const ExportOptions& options) {
+ExitCode export_model(const ExportOptions& options, const Given& given) {
     const bool world = options.format == "world";
     only_with(given, world, {"--sensors", "--ros", "--camera"}, "--format world");
     only_with(given, world || options.format == "mjcf", {"--wall"}, "--format mjcf or world");
     only_with(given, !options.camera.empty(), {"--view", "--camera-rate"}, "--camera");
+    const std::string text = model_text(options);
+    if (options.out.empty()) {
+        fmt::print("{}", text);
+    } else {
+        write_file(options.out, text);
+    }
+    return ExitCode::ok;
+}
+
+OptionList options_of(ExportOptions& options) {
+    return {
+        {"name VEHICLE|SCENARIO", &options.wanted,
+         "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
+         "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface"},
+        {"--format FORMAT", &options.format, "mjcf, sdf, urdf or world (default: mjcf)",
+         one_of({"mjcf", "sdf", "urdf", "world"})},
+        {"--wall SURFACE", &options.wall, "mjcf and world of a vehicle: a wall of this surface"},
+        overrides_option(options.overrides, "turn one number of a scenario, as for fly"),
+        {"--sensors", &options.sensors,
+         "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
+        {"--ros", &options.ros, "world of a scenario only: flown over ROS topics (ros/README.md)"},
+        {"--camera FOLDER", &options.camera,
+         "world only: a camera saves its frames in this folder"},
+        {"--view VIEW", &options.view,
+         "of the camera: overview, quarter or side (default: overview)",
+         one_of({"overview", "quarter", "side"})},
+        {"--camera-rate HZ", &options.camera_rate_Hz, "frames a second (default: 10)",
+         range(0.1, 1000.0, false)},
+        {"--out FILE", &options.out,
+         "file (default: standard output); a world's textures go in\nmaterials/ beside "
+         "it: its folder belongs on GAZEBO_RESOURCE_PATH"}};
 }
 
 }  // namespace
 
 Verb export_verb() {
-    auto options = std::make_shared<ExportOptions>();
-    return {
-        .name = "export",
-        .about = "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo",
-        .options = {{"name",
-                     &options->wanted,
-                     "vehicle or scenario: name (limpet list) or YAML file.\nThe world of a "
-                     "scenario flies it, that of a vehicle shows it\nbefore a wall of each surface",
-                     "VEHICLE|SCENARIO",
-                     {.required = true}},
-                    {"--format",
-                     &options->format,
-                     "mjcf, sdf, urdf or world (default: mjcf)",
-                     "FORMAT",
-                     {.one_of = {"mjcf", "sdf", "urdf", "world"}}},
-                    {"--wall", &options->wall,
-                     "mjcf and world of a vehicle: a wall of this surface", "SURFACE"},
-                    overrides_option(options->overrides,
-                                     "turn one number of a scenario, as for fly"),
-                    {"--sensors", &options->sensors,
-                     "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
-                    {"--ros", &options->ros,
-                     "world of a scenario only: flown over ROS topics (ros/README.md)"},
-                    {"--camera", &options->camera,
-                     "world only: a camera saves its frames in this folder", "FOLDER"},
-                    {"--view",
-                     &options->view,
-                     "of the camera: overview, quarter or side (default: overview)",
-                     "VIEW",
-                     {.one_of = {"overview", "quarter", "side"}}},
-                    {"--camera-rate",
-                     &options->camera_rate_Hz,
-                     "frames a second (default: 10)",
-                     "HZ",
-                     {.range = {{0.1, 1000.0}}, .told = false}},
-                    {"--out", &options->out,
-                     "file (default: standard output); a world's textures go in\nmaterials/ beside "
-                     "it: its folder belongs on GAZEBO_RESOURCE_PATH",
-                     "FILE"}},
-        .run = [options](const Given& given) {
-            check_together(given, *options);
-            const std::string text = model_text(*options);
-            if (options->out.empty()) {
-                fmt::print("{}", text);
-            } else {
-                write_file(options->out, text);
-            }
-            return ExitCode::ok;
-        }};
+    return verb<ExportOptions>("export",
+                               "Write a vehicle as MJCF, SDF or URDF, or a world for Gazebo",
+                               options_of, export_model);
 }
 
 }  // namespace limpet::app

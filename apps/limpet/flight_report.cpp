@@ -1,24 +1,121 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "flight_report.hpp"
 
+#include <fmt/core.h>
+
 #include "limpet/core/errors.hpp"
+#include "limpet/record/csv.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/report/figures.hpp"
+#include "limpet/simulation/result_json.hpp"
 
 namespace limpet::app {
+namespace {
 
-Outcome expected_outcome(const std::string& name) {
+namespace fs = std::filesystem;
+
+/// Tables and figures of the recording, beside it; returns what was written.
+std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path, Terminal& terminal) {
+    if (!options.figures() && !options.csv) {
+        return {};
+    }
+    const record::Recording recording = record::read_recording(path);
+    std::vector<fs::path> files;
+    if (options.csv) {
+        files = write_csv(recording, path.parent_path() / "csv");
+    }
+    if (options.figures()) {
+        terminal.progress("drawing figures ...");
+        const auto figures = report::plot(recording, path.parent_path()).files;
+        files.insert(files.end(), figures.begin(), figures.end());
+    }
+    return files;
+}
+
+}  // namespace
+
+Terminal::Voice FlightOptions::voice() const {
+    return quiet  ? Terminal::Voice::quiet
+           : json ? Terminal::Voice::machine
+                  : Terminal::Voice::normal;
+}
+
+fs::path FlightOptions::folder(const std::string& name) const {
+    return out.empty() ? fs::path("out") / name : fs::path(out);
+}
+
+std::optional<Outcome> expected_outcome(const std::string& name) {
     const auto outcome = outcome_from(name);
-    if (!outcome) {
+    if (!name.empty() && !outcome) {
         throw InputError("--expect " + name +
                          ": no such outcome; there are perched, released, failed_to_seal, "
                          "release_aborted, crashed, timed_out");
     }
-    return *outcome;
+    return outcome;
 }
 
-std::vector<std::string> flight_summary(const simulation::FlightResult& result,
-                                        const Terminal& terminal) {
-    return limpet::simulation::flight_summary(
-        result, [&terminal](const std::string& text) { return terminal.bold(text); });
+ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outcome,
+                const std::string& reason) {
+    if (!expected || *expected == outcome) {
+        return ExitCode::ok;
+    }
+    fmt::print(stderr, "limpet: expected {}, the {} ended {}: {}\n", to_string(*expected), what,
+               to_string(outcome), reason);
+    return ExitCode::other_outcome;
+}
+
+void introduce(const scenario::Scenario& scenario, Terminal& terminal) {
+    terminal.line(terminal.bold(scenario.name) +
+                  fmt::format(", seed {}: {}", scenario.seed, scenario.description));
+}
+
+simulation::FlightWatch watch(Terminal& terminal) {
+    return {.on_event =
+                [&terminal](const Event& event) { terminal.line(simulation::event_line(event)); },
+            .on_progress =
+                [&terminal](double time_s, guidance::PerchingState state) {
+                    terminal.progress(fmt::format("{:8.1f}  {}", time_s, to_string(state)));
+                }};
+}
+
+void tell(const simulation::FlightResult& result, Terminal& terminal) {
+    terminal.line("");
+    for (const std::string& line : flight_summary(
+             result, [&terminal](const std::string& text) { return terminal.bold(text); })) {
+        terminal.line(line);
+    }
+}
+
+ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& result,
+                  bool interrupted, const std::string& about, const std::string& text, Px4Link* px4,
+                  Terminal& terminal) {
+    tell(result, terminal);
+    if (!text.empty()) {
+        terminal.line(about, text);
+    }
+    if (px4 != nullptr) {
+        px4->tell(result.performance, terminal);
+    }
+    if (!result.recording.empty()) {
+        std::vector<fs::path> files = {result.recording};
+        const auto add = [&files](const std::vector<fs::path>& more) {
+            files.insert(files.end(), more.begin(), more.end());
+        };
+        add(draw(options, result.recording, terminal));
+        if (px4 != nullptr) {
+            add(px4->write(result.performance, result.recording.parent_path(), options.figures()));
+        }
+        terminal.written(files);
+    }
+    if (interrupted) {
+        terminal.line("interrupted; the recording is whole up to here");
+    }
+    if (options.json) {
+        fmt::print("{}\n", result_json(result));
+    }
+    return interrupted
+               ? ExitCode::interrupted
+               : judged(expected_outcome(options.expect), "flight", result.outcome, result.reason);
 }
 
 }  // namespace limpet::app

@@ -1,20 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/flight_text.hpp"
+#include "px4_link.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
 
-/// The outcome of an option --expect.
-/// @throws InputError naming all there are
-[[nodiscard]] Outcome expected_outcome(const std::string& name);
+/// Options of the verbs that fly a scenario.
+struct FlightOptions {
+    std::string scenario;
+    std::vector<std::string> overrides;
+    std::string out;
+    std::string expect;
+    Px4LinkOptions px4;
+    bool json = false;
+    bool quiet = false;
+    bool csv = false;
+    bool no_figures = false;
 
-/// What a person wants to know of a flight, a line each.
-[[nodiscard]] std::vector<std::string> flight_summary(const simulation::FlightResult& result,
-                                                      const Terminal& terminal);
+    [[nodiscard]] Terminal::Voice voice() const;
+    [[nodiscard]] bool figures() const { return !no_figures && !json && !quiet; }
+    /// Where recording and figures go.
+    [[nodiscard]] std::filesystem::path folder(const std::string& name) const;
+};
+
+/// The outcome of an option --expect; nothing when it is not given.
+/// @throws InputError naming all there are
+[[nodiscard]] std::optional<Outcome> expected_outcome(const std::string& name);
+/// Says when another outcome was expected.
+/// @param what  has ended: "flight"
+[[nodiscard]] ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outcome,
+                              const std::string& reason);
+
+/// What is to be flown, for people.
+void introduce(const scenario::Scenario& scenario, Terminal& terminal);
+/// Tells events as they come, and where the flight is.
+[[nodiscard]] simulation::FlightWatch watch(Terminal& terminal);
+/// What a person wants to know of a flight.
+void tell(const simulation::FlightResult& result, Terminal& terminal);
+
+/// Tells what came of a flight and its wires, draws it, names what was written.
+/// @param about, text  a line of the verb's own; none without a text
+/// @param px4          null: none was there
+[[nodiscard]] ExitCode conclude(const FlightOptions& options,
+                                const simulation::FlightResult& result, bool interrupted,
+                                const std::string& about, const std::string& text, Px4Link* px4,
+                                Terminal& terminal);
 
 }  // namespace limpet::app

@@ -3,17 +3,15 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
+#include <sstream>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/mavlink/key_file.hpp"
-#include "options.hpp"
 
 namespace limpet::app {
 namespace {
 
-constexpr const char* kDefaultAddress = "udp:127.0.0.1:14550";  // where QGroundControl listens
 constexpr int kUpdates_Hz = 100;
 constexpr std::size_t kLongestName = 16;  // on the wire
 
@@ -32,15 +30,10 @@ mavlink::Link open(const GroundStationOptions& options) {
 
 /// "0.1.0" as MAVLink has it, a byte each from the top; a development version.
 std::uint32_t software_version() {
+    std::istringstream text{std::string(kVersion)};
     std::uint32_t version = 0;
-    std::uint32_t part = 0;
-    for (const char letter : std::string(kVersion) + ".") {
-        if (letter == '.') {
-            version = version << 8U | part;
-            part = 0;
-        } else {
-            part = part * 10U + static_cast<std::uint32_t>(letter - '0');
-        }
+    for (std::uint32_t part = 0; text >> part; text.ignore()) {
+        version = version << 8U | part;
     }
     return version << 8U;
 }
@@ -56,19 +49,17 @@ mavlink::TelemetrySetup setup(const simulation::FlightModel& model) {
 }  // namespace
 
 OptionList options_of(GroundStationOptions& options) {
-    return {{"--ground-station",
+    return {{"--ground-station ADDRESS",
              [&options](const std::string& address) {
                  options.wanted = true;
-                 options.address = address.empty() ? kDefaultAddress : address;
+                 options.address = address.empty() ? options.address : address;
              },
              "let a ground station watch and set the autopilot's parameters;\n"
              "where it listens (default udp:127.0.0.1:14550, QGroundControl's)",
-             "ADDRESS",
-             {.values = {{0, 1}}}},
-            {"--signing-key", &options.signing_key,
+             values(0, 1)},
+            {"--signing-key FILE", &options.signing_key,
              "sign the ground station's link and refuse what it does not sign;\n"
-             "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)",
-             "FILE"}};
+             "64 hex digits or 32 bytes, for its owner's eyes (chmod 600)"}};
 }
 
 void check(const GroundStationOptions& options, bool builtin) {

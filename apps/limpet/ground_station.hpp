@@ -13,8 +13,8 @@ namespace limpet::app {
 
 struct GroundStationOptions {
     bool wanted = false;
-    std::string address = "udp:127.0.0.1:14550";
-    std::string signing_key;  ///< file; empty: nothing is signed
+    std::string address = "udp:127.0.0.1:14550";  ///< where QGroundControl listens
+    std::string signing_key;                      ///< file; empty: nothing is signed
 };
 [[nodiscard]] OptionList options_of(GroundStationOptions& options);
 /// @param builtin  the built-in autopilot flies

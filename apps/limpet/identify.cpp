@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -28,10 +27,7 @@ struct IdentifyOptions {
     std::string out;
     bool json = false;
     double atmosphere_hPa = hectopascals(kAtmosphere_Pa);
-    std::optional<double> pump_on_s;
-    std::optional<double> pump_off_s;
-    std::optional<double> from_s;
-    std::optional<double> to_s;
+    identification::IdentificationOptions of_log;
 };
 
 /// A line of the table: what, in which unit, and Table II's if it has one.
@@ -39,9 +35,13 @@ struct Row {
     const char* name;
     const char* key;
     const char* unit;
-    double scale;
     std::optional<identification::Fitted> fitted;
-    std::optional<double> table_two = {};
+    double suction::Surface::*table_two = nullptr;
+
+    /// How people read it: pressures in hPa.
+    [[nodiscard]] double shown(double value) const {
+        return unit == std::string_view("hPa") ? hectopascals(value) : value;
+    }
 };
 
 /// The surface of Table II whose numbers are nearest, each as a ratio; none where one is off by
@@ -53,16 +53,16 @@ std::optional<suction::Surface> nearest_surface(const identification::PressureFi
         const suction::Surface surface = scenario::load_surface(name, scenario::data_root());
         double distance = 0.0;
         bool near = true;
-        const auto add = [&](const std::optional<identification::Fitted>& fitted, double value) {
+        for (const auto& [fitted, value] :
+             {std::pair(fit.vacuum_Pa, surface.vacuum_pressure_Pa),
+              std::pair(fit.sealing_time_s, surface.sealing_time_constant_s),
+              std::pair(fit.unsealing_time_s, surface.unsealing_time_constant_s)}) {
             if (fitted) {
-                const double ratio = fitted->value > 0.0 ? fitted->value / value : 1e9;
-                distance += std::pow(std::log(ratio), 2);
-                near = near && std::abs(std::log(ratio)) < std::log(1.5);
+                const double off = std::log(fitted->value > 0.0 ? fitted->value / value : 1e9);
+                distance += off * off;
+                near = near && std::abs(off) < std::log(1.5);
             }
-        };
-        add(fit.vacuum_Pa, surface.vacuum_pressure_Pa);
-        add(fit.sealing_time_s, surface.sealing_time_constant_s);
-        add(fit.unsealing_time_s, surface.unsealing_time_constant_s);
+        }
         if (near && (!nearest || distance < least)) {
             nearest = surface;
             least = distance;
@@ -71,28 +71,22 @@ std::optional<suction::Surface> nearest_surface(const identification::PressureFi
     return nearest;
 }
 
-std::vector<Row> rows_of(const identification::PressureFit& fit,
-                         const std::optional<suction::Surface>& surface) {
+std::vector<Row> rows_of(const identification::PressureFit& fit) {
     using S = suction::Surface;
-    const auto of_table = [&](double S::*member, double scale) {
-        return surface ? std::optional(scale * ((*surface).*member)) : std::nullopt;
-    };
     std::optional<identification::Fitted> offset = fit.atmosphere_Pa;
     if (offset) {
         offset->value -= kAtmosphere_Pa;
     }
     return {
-        {"P_atm", "atmosphere_Pa", "hPa", hectopascals(1.0), fit.atmosphere_Pa},
-        {"  - 1013.25", "atmosphere_offset_Pa", "hPa", hectopascals(1.0), offset},
-        {"P_vac", "vacuum_pressure_Pa", "hPa", hectopascals(1.0), fit.vacuum_Pa,
-         of_table(&S::vacuum_pressure_Pa, hectopascals(1.0))},
-        {"tau_1", "sealing_time_constant_s", "s", 1.0, fit.sealing_time_s,
-         of_table(&S::sealing_time_constant_s, 1.0)},
-        {"tau_2", "unsealing_time_constant_s", "s", 1.0, fit.unsealing_time_s,
-         of_table(&S::unsealing_time_constant_s, 1.0)},
-        {"sealing from", "sealing_begins_s", "s", 1.0, fit.sealing_begins_s},
-        {"unsealing from", "unsealing_begins_s", "s", 1.0, fit.unsealing_begins_s},
-        {"ripple", "ripple_Hz", "Hz", 1.0, fit.ripple_Hz},
+        {"P_atm", "atmosphere_Pa", "hPa", fit.atmosphere_Pa},
+        {"  - 1013.25", "atmosphere_offset_Pa", "hPa", offset},
+        {"P_vac", "vacuum_pressure_Pa", "hPa", fit.vacuum_Pa, &S::vacuum_pressure_Pa},
+        {"tau_1", "sealing_time_constant_s", "s", fit.sealing_time_s, &S::sealing_time_constant_s},
+        {"tau_2", "unsealing_time_constant_s", "s", fit.unsealing_time_s,
+         &S::unsealing_time_constant_s},
+        {"sealing from", "sealing_begins_s", "s", fit.sealing_begins_s},
+        {"unsealing from", "unsealing_begins_s", "s", fit.unsealing_begins_s},
+        {"ripple", "ripple_Hz", "Hz", fit.ripple_Hz},
     };
 }
 
@@ -112,11 +106,13 @@ std::string text_of(const identification::PressureFit& fit, const std::vector<Ro
         if (!row.fitted) {
             continue;
         }
-        const double half = row.scale * row.fitted->half_width;
+        const double half = row.shown(row.fitted->half_width);
         const int digits = decimals(half);
         text += fmt::format("{:<16}{:>12.{}f} +- {:<9.{}f} {:<4}", row.name,
-                            row.scale * row.fitted->value, digits, half, digits, row.unit);
-        text += row.table_two ? fmt::format("{:>6.4g}\n", *row.table_two) : "\n";
+                            row.shown(row.fitted->value), digits, half, digits, row.unit);
+        text += surface && row.table_two != nullptr
+                    ? fmt::format("{:>6.4g}\n", row.shown((*surface).*row.table_two))
+                    : "\n";
     }
     if (fit.ripple_Hz) {
         text += fmt::format("{:<16}{:>12.4g}              hPa\n", "  amplitude",
@@ -142,7 +138,7 @@ ordered_json json_of(const identification::PressureFit& fit, const std::vector<R
                              {"high", row.fitted->value + row.fitted->half_width}};
         }
     }
-    json["confidence"] = 0.95;
+    json["confidence"] = identification::kConfidence;
     json["ripple_Pa"] = fit.ripple_Pa;
     json["residual_Pa"] = fit.residual_Pa;
     json["residual_memory_s"] = fit.memory_s;
@@ -177,16 +173,15 @@ draw::Chart chart_of(const identification::PressureTrace& trace,
     const double first_s = trace.t_s[fit.first_sample];
     const double last_s = trace.t_s[fit.first_sample + fit.samples - 1];
     for (int k = 0; k <= kPoints; ++k) {
-        const double t_s = first_s + (last_s - first_s) * k / kPoints;
-        curve.x.push_back(t_s);
-        curve.y.push_back(hectopascals(mean_pressure_Pa(fit.curve, t_s)));
+        curve.x.push_back(first_s + (last_s - first_s) * k / kPoints);
+        curve.y.push_back(hectopascals(mean_pressure_Pa(fit.curve, curve.x.back())));
     }
     std::vector<draw::ChartLine> moments;
-    if (fit.sealing_begins_s) {
-        moments.push_back({fit.sealing_begins_s->value, "sealing"});
-    }
-    if (fit.unsealing_begins_s) {
-        moments.push_back({fit.unsealing_begins_s->value, "unsealing"});
+    for (const auto& [begins_s, name] : {std::pair(fit.sealing_begins_s, "sealing"),
+                                         std::pair(fit.unsealing_begins_s, "unsealing")}) {
+        if (begins_s) {
+            moments.push_back({begins_s->value, name});
+        }
     }
     return {.title = title,
             .panels = {draw::ChartPanel{.y_label = "pressure  [hPa]",
@@ -200,95 +195,74 @@ draw::Chart chart_of(const identification::PressureTrace& trace,
                                         .height_px = 140.0}}};
 }
 
-void require_sense(const IdentifyOptions& options) {
-    const auto check = [](const char* name, const std::optional<double>& value) {
+void require_sense(const identification::IdentificationOptions& options) {
+    for (const auto& [name, value] :
+         {std::pair("--pump-on", options.pump_on_s), std::pair("--pump-off", options.pump_off_s),
+          std::pair("--from", options.from_s), std::pair("--to", options.to_s)}) {
         if (value && !std::isfinite(*value)) {
             throw InputError(fmt::format("{} {}: must be a time in s", name, *value));
         }
-    };
-    check("--pump-on", options.pump_on_s);
-    check("--pump-off", options.pump_off_s);
-    check("--from", options.from_s);
-    check("--to", options.to_s);
+    }
     if (options.from_s && options.to_s && *options.from_s >= *options.to_s) {
         throw InputError(
             fmt::format("--from {}: must be before --to {}", *options.from_s, *options.to_s));
     }
 }
 
-void identify(const IdentifyOptions& options) {
-    require_sense(options);
+void identify(IdentifyOptions options) {
+    require_sense(options.of_log);
+    options.of_log.atmosphere_Pa = 100.0 * options.atmosphere_hPa;
     const identification::PressureTrace trace =
         identification::read_pressure_log(fs::path(options.log));
     identification::PressureFit fit;
     try {
-        fit = identify_pressure(trace, {.pump_on_s = options.pump_on_s,
-                                        .pump_off_s = options.pump_off_s,
-                                        .from_s = options.from_s,
-                                        .to_s = options.to_s,
-                                        .atmosphere_Pa = 100.0 * options.atmosphere_hPa});
+        fit = identify_pressure(trace, options.of_log);
     } catch (const InputError& error) {
         throw InputError(options.log + ": " + error.what());
     }
     const std::optional<suction::Surface> surface = nearest_surface(fit);
-    const std::vector<Row> rows = rows_of(fit, surface);
+    const std::vector<Row> rows = rows_of(fit);
     const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
     const fs::path folder = options.out.empty() ? "out/identify" : options.out;
     if (draws) {
         (void)make_folder(folder);
     }
-    if (options.json) {
-        fmt::print("{}\n", json_of(fit, rows, surface).dump(2));
-    } else {
-        fmt::print("{}", text_of(fit, rows, surface));
-    }
+    fmt::print("{}", options.json ? json_of(fit, rows, surface).dump(2) + "\n"
+                                  : text_of(fit, rows, surface));
     if (!draws) {
         return;
     }
     const draw::Pictures pictures = draw_chart(
         chart_of(trace, fit, fs::path(options.log).filename().string()), "identify", folder);
-    for (const fs::path& file : pictures.files) {
-        if (!options.json) {
-            fmt::print("{}\n", file.string());
-        }
+    if (!options.json) {
+        print_files(pictures.files);
     }
+}
+
+OptionList options_of(IdentifyOptions& options) {
+    return {{"log CSV", &options.log, "CSV with columns t_s and pressure_Pa among any others"},
+            {"--pump-on S", &options.of_log.pump_on_s, "when sealing begins (default: found)"},
+            {"--pump-off S", &options.of_log.pump_off_s, "when unsealing begins (default: found)"},
+            {"--from S", &options.of_log.from_s, "leave out what is before"},
+            {"--to S", &options.of_log.to_s, "leave out what is after, as where the cup lets go"},
+            {"--atmosphere HPA", &options.atmosphere_hPa,
+             "where the log does not show it (default: 1013.25)", range(10.0, 1200.0)},
+            {"--out DIR", &options.out, "folder of the figure (default: out/identify)"},
+            {"--json", &options.json, "one JSON object, in SI; the figure only with --out"}};
 }
 
 }  // namespace
 
 Verb identify_verb() {
-    auto options = std::make_shared<IdentifyOptions>();
-    return {
-        .name = "identify",
-        .about = "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure",
-        .options =
-            {{"log",
-              &options->log,
-              "CSV with columns t_s and pressure_Pa among any others",
-              "CSV",
-              {.required = true}},
-             {"--pump-on", &options->pump_on_s, "when sealing begins (default: found)", "S"},
-             {"--pump-off", &options->pump_off_s, "when unsealing begins (default: found)", "S"},
-             {"--from", &options->from_s, "leave out what is before", "S"},
-             {"--to", &options->to_s, "leave out what is after, as where the cup lets go", "S"},
-             {"--atmosphere",
-              &options->atmosphere_hPa,
-              "where the log does not show it (default: 1013.25)",
-              "HPA",
-              {.range = {{10.0, 1200.0}}}},
-             {"--out", &options->out, "folder of the figure (default: out/identify)", "DIR"},
-             {"--json", &options->json, "one JSON object, in SI; the figure only with --out"}},
-        .footer =
-            "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
-            "recording:\n"
-            "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
-            "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "
-            "are for\n"
-            "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n",
-        .run = [options](const Given&) {
-            identify(*options);
-            return ExitCode::ok;
-        }};
+    return verb<IdentifyOptions>(
+        "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure", options_of,
+        identify,
+        "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
+        "recording:\n"
+        "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
+        "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "
+        "are for\n"
+        "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");
 }
 
 }  // namespace limpet::app

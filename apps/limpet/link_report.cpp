@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "link_report.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/draw/chart.hpp"
+#include "output.hpp"
+#include "px4_link.hpp"
 
 namespace limpet::app {
 namespace {
@@ -40,9 +40,9 @@ Json json_of(const wire::DurationHistogram& histogram) {
             {"bins", bins}};
 }
 
-Json json_of(const LinkReport::Wire& wire) {
-    const mavlink::LinkCount& count = wire.count;
-    return {{"wire", wire.where},
+Json json_of(const mavlink::Link& link) {
+    const mavlink::LinkCount count = link.count();
+    return {{"wire", link.transport().describe()},
             {"sent", count.sent},
             {"not_sent", count.not_sent},
             {"received", count.received},
@@ -77,61 +77,69 @@ draw::ChartPanel panel_of(const std::string& title, const std::string& what,
     return panel;
 }
 
-}  // namespace
-
-std::vector<std::string> lines_of(const LinkReport& report, const Terminal& terminal) {
-    std::vector<std::string> lines;
-    const auto add = [&](const std::string& label, const std::string& text) {
-        lines.push_back(terminal.bold(fmt::format("{:<11}", label)) + text);
-    };
-    add("sensors", fmt::format("{} sent, {} answered, {} missed", report.hil.sensors_sent,
-                               report.hil.answers, report.hil.unanswered));
-    for (const LinkReport::Wire& wire : report.wires) {
-        add(wire.name,
-            fmt::format("{} messages sent, {} received, {} lost, {} damaged", wire.count.sent,
-                        wire.count.received, wire.count.lost, wire.count.damaged));
-    }
-    if (report.hil.round_trip.count() > 0) {
-        add("round trip", quantiles(report.hil.round_trip));
-    }
-    if (report.hil.send_jitter.count() > 0) {
-        add("jitter", quantiles(report.hil.send_jitter));
-    }
-    if (report.wall_s > 0.0 && !report.held_back) {
-        add("share", fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
-                                 "the autopilot's",
-                                 100.0 * (1.0 - report.waited_s / report.wall_s)));
-    }
-    return lines;
-}
-
-std::string json_of(const LinkReport& report) {
-    Json json = Json::object();
-    for (const LinkReport::Wire& wire : report.wires) {
-        json["wires"][wire.name] = json_of(wire);
-    }
-    json["sensors"] = report.hil.sensors_sent;
-    json["answers"] = report.hil.answers;
-    json["unanswered"] = report.hil.unanswered;
-    json["strays"] = report.hil.strays;
-    json["round_trip"] = json_of(report.hil.round_trip);
-    json["send_jitter"] = json_of(report.hil.send_jitter);
-    json["wall_s"] = report.wall_s;
-    json["waited_for_autopilot_s"] = report.waited_s;
-    return json.dump(2);
-}
-
-std::vector<std::filesystem::path> draw(const LinkReport& report,
+std::vector<std::filesystem::path> draw(const mavlink::HilCount& hil,
                                         const std::filesystem::path& folder) {
     draw::Chart chart{.title = "What the link cost", .subtitle = "in wall time; logarithmic axis"};
-    chart.panels.push_back(
-        panel_of("From HIL_SENSOR to its answer", "round trip", report.hil.round_trip));
-    if (report.hil.send_jitter.count() > 0) {
-        chart.panels.push_back(
-            panel_of("HIL_SENSOR beside its time", "jitter", report.hil.send_jitter));
+    chart.panels.push_back(panel_of("From HIL_SENSOR to its answer", "round trip", hil.round_trip));
+    if (hil.send_jitter.count() > 0) {
+        chart.panels.push_back(panel_of("HIL_SENSOR beside its time", "jitter", hil.send_jitter));
     }
-    const draw::Pictures pictures = draw_chart(chart, "link", folder);
-    return pictures.files;
+    return draw_chart(chart, "link", folder).files;
+}
+
+}  // namespace
+
+void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& terminal) const {
+    const mavlink::HilCount& hil = wires_->autopilot().count();
+    terminal.line("sensors", fmt::format("{} sent, {} answered, {} missed", hil.sensors_sent,
+                                         hil.answers, hil.unanswered));
+    for (const auto& [name, link] : links()) {
+        const mavlink::LinkCount count = link->count();
+        terminal.line(name, fmt::format("{} messages sent, {} received, {} lost, {} damaged",
+                                        count.sent, count.received, count.lost, count.damaged));
+    }
+    if (hil.round_trip.count() > 0) {
+        terminal.line("round trip", quantiles(hil.round_trip));
+    }
+    if (hil.send_jitter.count() > 0) {
+        terminal.line("jitter", quantiles(hil.send_jitter));
+    }
+    if (performance.wall_s > 0.0 && !(speed_ > 0.0)) {
+        terminal.line("share",
+                      fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
+                                  "the autopilot's",
+                                  100.0 * (1.0 - performance.waited_s / performance.wall_s)));
+    }
+}
+
+std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerformance& performance,
+                                                  const std::filesystem::path& folder,
+                                                  bool figures) {
+    const mavlink::HilCount& hil = wires_->autopilot().count();
+    Json json = Json::object();
+    for (const auto& [name, link] : links()) {
+        json["wires"][name] = json_of(*link);
+    }
+    json["sensors"] = hil.sensors_sent;
+    json["answers"] = hil.answers;
+    json["unanswered"] = hil.unanswered;
+    json["strays"] = hil.strays;
+    json["round_trip"] = json_of(hil.round_trip);
+    json["send_jitter"] = json_of(hil.send_jitter);
+    json["wall_s"] = performance.wall_s;
+    json["waited_for_autopilot_s"] = performance.waited_s;
+    std::vector<std::filesystem::path> files = {folder / "link.json"};
+    write_file(files.front(), json.dump(2) + "\n");
+    if (figures) {
+        const auto drawn = draw(hil, folder);
+        files.insert(files.end(), drawn.begin(), drawn.end());
+    }
+    if (wire_log_) {
+        wire_finished_ = true;
+        wire_log_->finish();
+        files.push_back(wire_log_->path());
+    }
+    return files;
 }
 
 }  // namespace limpet::app

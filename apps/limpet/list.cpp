@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,22 +24,16 @@ void print(const std::string& kind) {
     }
 }
 
+OptionList options_of(std::string& kind) {
+    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces or vehicles",
+             one_of({"scenarios", "campaigns", "surfaces", "vehicles"})}};
+}
+
 }  // namespace
 
 Verb list_verb() {
-    auto kind = std::make_shared<std::string>();
-    return {.name = "list",
-            .about = "List scenarios, campaigns, surfaces or vehicles",
-            .options = {{"kind",
-                         kind.get(),
-                         "scenarios, campaigns, surfaces or vehicles",
-                         "KIND",
-                         {.required = true,
-                          .one_of = {"scenarios", "campaigns", "surfaces", "vehicles"}}}},
-            .run = [kind](const Given&) {
-                print(*kind);
-                return ExitCode::ok;
-            }};
+    return verb<std::string>("list", "List scenarios, campaigns, surfaces or vehicles", options_of,
+                             print);
 }
 
 }  // namespace limpet::app

@@ -6,9 +6,9 @@
 #include <exception>
 #include <string>
 
+#include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
-#include "verbs.hpp"
 
 namespace {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output.hpp"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -27,6 +28,11 @@ fs::path make_folder(const fs::path& folder) {
     return folder;
 }
 
+fs::path folder_or_beside(const std::string& out, const fs::path& file) {
+    const fs::path beside = file.has_parent_path() ? file.parent_path() : ".";
+    return out.empty() ? beside : make_folder(out);
+}
+
 OutFolder::OutFolder(const fs::path& folder) : path_(folder) {
     std::error_code ignored;
     for (fs::path above = folder; !above.empty() && !fs::exists(above, ignored);
@@ -40,6 +46,12 @@ OutFolder::~OutFolder() {
     for (const fs::path& folder : made_) {
         std::error_code not_empty;
         fs::remove(folder, not_empty);
+    }
+}
+
+void print_files(const std::vector<fs::path>& files) {
+    for (const fs::path& file : files) {
+        fmt::print("{}\n", file.string());
     }
 }
 

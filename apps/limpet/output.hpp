@@ -11,8 +11,12 @@ namespace limpet::app {
 /// @throws InputError naming it and why it cannot be
 std::filesystem::path make_folder(const std::filesystem::path& folder);
 
-/// The same for work that may end before it begins: when nothing has come into it, what was made
-/// goes with this.
+/// The folder of --out, made; where none is named, that of the file.
+/// @throws InputError as make_folder
+std::filesystem::path folder_or_beside(const std::string& out, const std::filesystem::path& file);
+
+/// As make_folder, for work that may end before it begins: when nothing has come into it, what was
+/// made goes with this.
 class OutFolder {
 public:
     /// @throws InputError as make_folder
@@ -27,6 +31,9 @@ private:
     std::filesystem::path path_;
     std::vector<std::filesystem::path> made_;  ///< innermost first
 };
+
+/// For scripts: a path a line.
+void print_files(const std::vector<std::filesystem::path>& files);
 
 /// Writes a file whole or not at all.
 /// @throws InputError naming it

@@ -4,7 +4,6 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/wire/transport.hpp"
-#include "options.hpp"
 
 namespace limpet::app {
 namespace {
@@ -12,30 +11,18 @@ namespace {
 constexpr std::string_view kPseudoTerminal = "pty:";
 constexpr std::uint64_t kClock_Hz = 1000000;  // of NatNet's ticks: RemoteGuidance's microseconds
 
-bool begins(const std::string& text, std::string_view head) {
-    return text.rfind(head, 0) == 0;
-}
-
 /// A serial device, real or made for the occasion; null: none is asked for.
 std::unique_ptr<wire::Transport> open_device(const std::string& option, const std::string& text) {
     if (text.empty()) {
         return nullptr;
     }
-    if (begins(text, kPseudoTerminal)) {
+    if (text.starts_with(kPseudoTerminal)) {
         return wire::open_pseudo_terminal(text.substr(kPseudoTerminal.size()));
     }
-    if (begins(text, "serial:")) {
+    if (text.starts_with("serial:")) {
         return open_transport(wire::parse_address(text), wire::Role::connect);
     }
     throw InputError(option + " " + text + ": must be serial:DEVICE:BAUD or pty:PATH");
-}
-
-devices::NatNetVersion natnet_version(const std::string& text) {
-    if (text == "3.0" || text == "3.1" || text == "4.0" || text == "4.1") {
-        return {.major = static_cast<std::uint8_t>(text[0] - '0'),
-                .minor = static_cast<std::uint8_t>(text[2] - '0')};
-    }
-    throw InputError("--natnet " + text + ": must be 3.0, 3.1, 4.0 or 4.1");
 }
 
 std::unique_ptr<devices::NatNetSource> open_motion_capture(const OutsideWireOptions& options) {
@@ -43,8 +30,10 @@ std::unique_ptr<devices::NatNetSource> open_motion_capture(const OutsideWireOpti
         return nullptr;
     }
     const wire::TransportAddress address = wire::parse_address(options.motion_capture);
-    const devices::NatNetServer server{.version = natnet_version(options.natnet),
-                                       .clock_Hz = kClock_Hz};
+    const devices::NatNetServer server{
+        .version = {.major = static_cast<std::uint8_t>(options.natnet[0] - '0'),
+                    .minor = static_cast<std::uint8_t>(options.natnet[2] - '0')},
+        .clock_Hz = kClock_Hz};
     switch (address.medium) {
         case wire::Medium::udp_multicast:
             return std::make_unique<devices::NatNetSource>(
@@ -103,27 +92,24 @@ OutsideWireOptions resolved(OutsideWireOptions options) {
 }
 
 OptionList options_of(OutsideWireOptions& options) {
-    return {
-        {"companion", &options.companion,
-         "the companion's name or YAML file: all its wires, from outside;\n"
-         "serial ports become pseudo-terminals of those names",
-         "COMPANION"},
-        {"--sensors", &options.sensors,
-         "where the companion listens for MAVLink sensors and speaks to pump and\n"
-         "valve (default udp:127.0.0.1:14600)",
-         "ADDRESS"},
-        {"--motion-capture", &options.motion_capture,
-         "mavlink (ODOMETRY on the sensors' wire, default), or NatNet as Motive:\n"
-         "udp-multicast:239.255.42.99:1511@127.0.0.1, unicast udp:127.0.0.1:1510",
-         "WIRE"},
-        {"--natnet", &options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1", "VERSION"},
-        {"--lidar-left", &options.lidar_left,
-         "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
-         "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)",
-         "DEVICE"},
-        {"--lidar-right", &options.lidar_right, "likewise", "DEVICE"},
-        {"--mechanism", &options.mechanism,
-         "pump, valve, force and pressure as lines on such a device", "DEVICE"}};
+    return {{"companion COMPANION", &options.companion,
+             "the companion's name or YAML file: all its wires, from outside;\n"
+             "serial ports become pseudo-terminals of those names",
+             optional()},
+            {"--sensors ADDRESS", &options.sensors,
+             "where the companion listens for MAVLink sensors and speaks to pump and\n"
+             "valve (default udp:127.0.0.1:14600)"},
+            {"--motion-capture WIRE", &options.motion_capture,
+             "mavlink (ODOMETRY on the sensors' wire, default), or NatNet as Motive:\n"
+             "udp-multicast:239.255.42.99:1511@127.0.0.1, unicast udp:127.0.0.1:1510"},
+            {"--natnet VERSION", &options.natnet, "version of NatNet: 3.0, 3.1 (default), 4.0, 4.1",
+             one_of({"3.0", "3.1", "4.0", "4.1"}, false)},
+            {"--lidar-left DEVICE", &options.lidar_left,
+             "TFmini Plus frames on serial:DEVICE:BAUD, or on a pseudo-terminal that\n"
+             "others open as PATH: pty:PATH (default: DISTANCE_SENSOR)"},
+            {"--lidar-right DEVICE", &options.lidar_right, "likewise"},
+            {"--mechanism DEVICE", &options.mechanism,
+             "pump, valve, force and pressure as lines on such a device"}};
 }
 
 simulation::OutsideWires open_wires(const OutsideWireOptions& options) {
@@ -152,8 +138,8 @@ simulation::OutsideOptions outside_options(const OutsideWireOptions& options,
 }
 
 bool has_serial(const OutsideWireOptions& options) {
-    return begins(options.lidar_left, "serial:") || begins(options.lidar_right, "serial:") ||
-           begins(options.mechanism, "serial:");
+    return options.lidar_left.starts_with("serial:") ||
+           options.lidar_right.starts_with("serial:") || options.mechanism.starts_with("serial:");
 }
 
 }  // namespace limpet::app

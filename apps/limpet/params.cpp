@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,20 +45,14 @@ std::string range(const BoundParameter& row) {
 
 /// Keys that take a name, after those that take a number.
 void print_choices(const scenario::Section& section, bool markdown) {
+    const auto head =
+        fmt::runtime(markdown ? "\n## {}.{}\n\n| name | what |\n|---|---|\n" : "\n{}.{}:\n");
+    const auto row = fmt::runtime(markdown ? "| `{}`{} | {} |\n" : "  {}{}  {}\n");
     for (const scenario::Choice& choice : section.choices) {
-        const std::string title = fmt::format("{}.{}", section.name, choice.key);
-        if (markdown) {
-            fmt::print("\n## {}\n\n| name | what |\n|---|---|\n", title);
-        } else {
-            fmt::print("\n{}:\n", title);
-        }
+        fmt::print(head, section.name, choice.key);
+        const char* note = " (default)";
         for (const scenario::CatalogueEntry& entry : choice.names) {
-            const char* note = &entry == &choice.names.front() ? " (default)" : "";
-            if (markdown) {
-                fmt::print("| `{}`{} | {} |\n", entry.name, note, entry.description);
-            } else {
-                fmt::print("  {}{}  {}\n", entry.name, note, entry.description);
-            }
+            fmt::print(row, entry.name, std::exchange(note, ""), entry.description);
         }
     }
 }
@@ -97,32 +90,30 @@ void print_markdown(const std::vector<scenario::Section>& sections) {
     }
 }
 
+OptionList options_of(ParamsOptions& options) {
+    return {{"room ROOM", &options.room,
+             "one room or section only: guidance, autopilot, sensors, suction,\n"
+             "vehicle, companion, ...",
+             optional()},
+            {"--format FORMAT", &options.format, "text or markdown", one_of({"text", "markdown"})}};
+}
+
+void print(const ParamsOptions& options) {
+    Defaults defaults;
+    const auto sections = sections_in(options.room, defaults);
+    const bool markdown = options.format == "markdown";
+    markdown ? print_markdown(sections) : print_text(sections);
+    for (const scenario::Section& section : sections) {
+        print_choices(section, markdown);
+    }
+}
+
 }  // namespace
 
 Verb params_verb() {
-    auto options = std::make_shared<ParamsOptions>();
-    return {.name = "params",
-            .about = "Print every number that can be set: default, range, source",
-            .options = {{"room", &options->room,
-                         "one room or section only: guidance, autopilot, sensors, suction,\n"
-                         "vehicle, companion, ...",
-                         "ROOM"},
-                        {"--format",
-                         &options->format,
-                         "text or markdown",
-                         "FORMAT",
-                         {.one_of = {"text", "markdown"}}}},
-            .footer = "Columns: name, default, unit, allowed range, what it does, [source].\n",
-            .run = [options](const Given&) {
-                Defaults defaults;
-                const auto sections = sections_in(options->room, defaults);
-                const bool markdown = options->format == "markdown";
-                markdown ? print_markdown(sections) : print_text(sections);
-                for (const scenario::Section& section : sections) {
-                    print_choices(section, markdown);
-                }
-                return ExitCode::ok;
-            }};
+    return verb<ParamsOptions>(
+        "params", "Print every number that can be set: default, range, source", options_of, print,
+        "Columns: name, default, unit, allowed range, what it does, [source].\n");
 }
 
 }  // namespace limpet::app

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,10 +28,7 @@ using Draw =
 /// Reads, says what is missing, draws what is there, prints what was written.
 void draw(const PictureOptions& options, const Draw& work) {
     const record::Recording recording = record::read_recording(options.recording);
-    const std::filesystem::path beside = std::filesystem::path(options.recording).parent_path();
-    const std::filesystem::path folder =
-        options.out.empty() ? (beside.empty() ? std::filesystem::path(".") : beside)
-                            : make_folder(options.out);
+    const std::filesystem::path folder = folder_or_beside(options.out, options.recording);
     const std::string damage =
         recording.damage.empty() ? "" : options.recording + ": " + recording.damage;
     draw::Pictures pictures;
@@ -44,9 +40,7 @@ void draw(const PictureOptions& options, const Draw& work) {
         }
         throw InputError(damage);  // too little is whole to be used
     }
-    for (const auto& file : pictures.files) {
-        fmt::print("{}\n", file.string());
-    }
+    print_files(pictures.files);
     for (const std::string& missing : pictures.missing) {
         fmt::print(stderr, "limpet: {}\n", missing);
     }
@@ -55,56 +49,46 @@ void draw(const PictureOptions& options, const Draw& work) {
     }
 }
 
-Verb picture_verb(const std::string& name, const std::string& about, Draw work) {
-    auto options = std::make_shared<PictureOptions>();
-    return {.name = name,
-            .about = about,
-            .options = {{"recording",
-                         &options->recording,
-                         "an .mcap file, also one that was cut short",
-                         "RECORDING",
-                         {.required = true}},
-                        {"--out", &options->out, "folder (default: that of the recording)", "DIR"}},
-            .footer =
-                "Prints the files that it wrote. A damaged recording is used as far as it is "
-                "whole;\n"
-                "what is missing is said on standard error and the exit code is 2.\n",
-            .run = [options, work = std::move(work)](const Given&) {
-                draw(*options, work);
-                return ExitCode::ok;
-            }};
+OptionList options_of(PictureOptions& options) {
+    return {
+        {"recording RECORDING", &options.recording, "an .mcap file, also one that was cut short"},
+        {"--out DIR", &options.out, "folder (default: that of the recording)"}};
+}
+
+Verb picture_verb(const char* name, const char* about, const Draw& work) {
+    return verb<PictureOptions>(
+        name, about, options_of, [work](const PictureOptions& options) { draw(options, work); },
+        "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
+        "what is missing is said on standard error and the exit code is 2.\n");
+}
+
+/// The recording as tables, with what is attached to it.
+draw::Pictures write_tables(const record::Recording& recording,
+                            const std::filesystem::path& folder) {
+    draw::Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
+    for (const mcap::Attachment& attachment : recording.attachments) {
+        written.files.push_back(folder / "csv" / attachment.name);
+        write_file(written.files.back(), attachment.text);
+    }
+    return written;
 }
 
 }  // namespace
 
 Verb plot_verb() {
-    return picture_verb(
-        "plot", "Draw pressure, pitch, force, thrust and distance against time",
-        [](const record::Recording& recording, const std::filesystem::path& folder) {
-            return report::plot(recording, folder);
-        });
+    return picture_verb("plot", "Draw pressure, pitch, force, thrust and distance against time",
+                        report::plot);
 }
 
 Verb film_verb() {
-    return picture_verb(
-        "film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
-        [](const record::Recording& recording, const std::filesystem::path& folder) {
-            return report::film(recording, folder);
-        });
+    return picture_verb("film", "Draw the manoeuvre as a filmstrip, rendered off-screen",
+                        report::film);
 }
 
 Verb csv_verb() {
-    return picture_verb(
-        "csv", "Write a recording as CSV, a file a topic, and the files attached to it",
-        [](const record::Recording& recording, const std::filesystem::path& folder) {
-            draw::Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
-            for (const mcap::Attachment& attachment : recording.attachments) {
-                const auto path = folder / "csv" / attachment.name;
-                write_file(path, attachment.text);
-                written.files.push_back(path);
-            }
-            return written;
-        });
+    return picture_verb("csv",
+                        "Write a recording as CSV, a file a topic, and the files attached to it",
+                        write_tables);
 }
 
 }  // namespace limpet::app

@@ -3,11 +3,10 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "options.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::app {
 namespace {
@@ -42,23 +41,19 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
 }  // namespace
 
 OptionList options_of(Px4LinkOptions& options, bool flies) {
-    OptionList list = {{"--hil", &options.hil,
+    OptionList list = {{"--hil ADDRESS", &options.hil,
                         "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
-                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)",
-                        "ADDRESS"}};
-    if (flies) {
-        list.push_back({"--offboard", &options.offboard,
+                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)"},
+                       {"--offboard ADDRESS", &options.offboard,
                         "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
-                        "serial all goes over the one wire)",
-                        "ADDRESS"});
+                        "serial all goes over the one wire)"},
+                       {"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
+                        range(0.1, 86400.0, false)},
+                       {"--record-wire", &options.record_wire,
+                        "write every byte of the simulator link as well, into wire.mcap"}};
+    if (!flies) {
+        list.erase(list.begin() + 1);
     }
-    list.push_back({"--wait",
-                    &options.wait_s,
-                    "longest wait for PX4 [s] (default 60)",
-                    "SECONDS",
-                    {.range = {{0.1, 86400.0}}, .told = false}});
-    list.push_back({"--record-wire", &options.record_wire,
-                    "write every byte of the simulator link as well, into wire.mcap"});
     return list;
 }
 
@@ -69,13 +64,11 @@ double speed_of(const std::string& text, double by_default) {
     if (text == "max") {
         return 0.0;
     }
-    char* end = nullptr;
-    const double speed = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != '\0' || !std::isfinite(speed) || speed < 0.01 ||
-        speed > 1000.0) {
+    const auto speed = decimal(text);
+    if (!speed || *speed < 0.01 || *speed > 1000.0) {
         throw InputError("--speed " + text + ": must be max or a number, 0.01 to 1000");
     }
-    return speed;
+    return *speed;
 }
 
 void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
@@ -134,26 +127,12 @@ Px4Link::~Px4Link() {
     }
 }
 
-std::filesystem::path Px4Link::finish_wire_log() {
-    if (!wire_log_) {
-        return {};
-    }
-    wire_finished_ = true;
-    wire_log_->finish();
-    return wire_log_->path();
-}
-
-LinkReport Px4Link::report(const simulation::FlightPerformance& performance) const {
-    LinkReport report;
-    report.hil = wires_->autopilot().count();
-    report.wires.emplace_back("hil", wires_->hil());
+std::vector<std::pair<const char*, const mavlink::Link*>> Px4Link::links() const {
+    std::vector<std::pair<const char*, const mavlink::Link*>> links = {{"hil", &wires_->hil()}};
     if (wires_->offboard() != nullptr) {
-        report.wires.emplace_back("offboard", *wires_->offboard());
+        links.emplace_back("offboard", wires_->offboard());
     }
-    report.wall_s = performance.wall_s;
-    report.waited_s = performance.waited_s;
-    report.held_back = speed_ > 0.0;
-    return report;
+    return links;
 }
 
 }  // namespace limpet::app

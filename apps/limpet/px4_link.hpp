@@ -6,12 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "limpet/px4/wires.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
-#include "link_report.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -24,7 +24,7 @@ struct Px4LinkOptions {
     bool record_wire = false;
     std::string speed;  ///< "" as suits the wire, "max", or a factor
 
-    [[nodiscard]] bool serial() const { return hil.rfind("serial:", 0) == 0; }
+    [[nodiscard]] bool serial() const { return hil.starts_with("serial:"); }
 };
 /// Before any work, and whether or not a wire is there.
 /// @throws InputError naming the option that cannot be, alone or beside the others
@@ -57,16 +57,25 @@ public:
 
     [[nodiscard]] px4::Px4Autopilot& autopilot() { return wires_->autopilot(); }
     [[nodiscard]] double speed() const { return speed_; }
-    /// After the flight: closes wire.mcap.
-    /// @return it, or an empty path
-    std::filesystem::path finish_wire_log();
 
-    [[nodiscard]] LinkReport report(const simulation::FlightPerformance& performance) const;
+    /// After the flight, for people: messages, misses, latency; whose time it was.
+    void tell(const simulation::FlightPerformance& performance, Terminal& terminal) const;
+    /// The same for programs, with the histograms: link.json; beside the recording, because that
+    /// one must not depend on wall time. Closes wire.mcap.
+    /// @param figures  draws the histograms too, as link.png and link.svg
+    /// @return what was written
+    /// @throws InputError when it cannot
+    [[nodiscard]] std::vector<std::filesystem::path> write(
+        const simulation::FlightPerformance& performance, const std::filesystem::path& folder,
+        bool figures);
 
 private:
+    /// Those that there are, named.
+    [[nodiscard]] std::vector<std::pair<const char*, const mavlink::Link*>> links() const;
+
     std::unique_ptr<simulation::WireLog> wire_log_;
     std::optional<px4::Px4Wires> wires_;
-    double speed_ = 0.0;
+    double speed_ = 0.0;  ///< times real time; 0: not held back, then waiting says something
     bool wire_finished_ = false;
 };
 

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -105,48 +104,35 @@ void write_both(const Px4Options& options) {
     how_to_go_on(airframe);
 }
 
+OptionList options_of(Px4Options& options) {
+    return {{"vehicle VEHICLE", &options.wanted,
+             "vehicle or scenario, by name or YAML file; a scenario brings its\n"
+             "autopilot section along"},
+            overrides_option(options.overrides, "turn one number, as in limpet fly (repeatable)"),
+            {"--out DIR", &options.out, "folder for both files (default: here)"},
+            {"--airframe-id N", &options.airframe_id,
+             "PX4's number of this airframe, 22000 .. 22999 (default 22001)"},
+            {"--target TARGET",
+             [&options](const std::string& text) { options.target = kTargets.at(text); },
+             "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
+             "simulator; flight: the vehicle itself, with its companion on TELEM 2",
+             one_of({"sitl", "hitl", "flight"}, false)},
+            {"--mocap", &options.mocap,
+             "position by motion capture (default unless the\nscenario's EKF2_EV_CTRL is 0)"},
+            {"--gps", &options.gps, "position by GPS and compass", not_with("--mocap")}};
+}
+
 }  // namespace
 
 Verb px4_params_verb() {
-    auto options = std::make_shared<Px4Options>();
-    return {
-        .name = "px4-params",
-        .about = "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe",
-        .options =
-            {{"vehicle",
-              &options->wanted,
-              "vehicle or scenario, by name or YAML file; a scenario brings its\n"
-              "autopilot section along",
-              "VEHICLE",
-              {.required = true}},
-             overrides_option(options->overrides, "turn one number, as in limpet fly (repeatable)"),
-             {"--out", &options->out, "folder for both files (default: here)", "DIR"},
-             {"--airframe-id", &options->airframe_id,
-              "PX4's number of this airframe, 22000 .. 22999 (default 22001)", "N"},
-             {"--target",
-              [options](const std::string& text) { options->target = kTargets.at(text); },
-              "sitl: PX4 on this machine (default); hitl: a board that is fed by the\n"
-              "simulator; flight: the vehicle itself, with its companion on TELEM 2",
-              "TARGET",
-              {.one_of = {"sitl", "hitl", "flight"}, .told = false}},
-             {"--mocap", &options->mocap,
-              "position by motion capture (default unless the\nscenario's EKF2_EV_CTRL is 0)"},
-             {"--gps",
-              &options->gps,
-              "position by GPS and compass",
-              nullptr,
-              {.not_with = "--mocap"}}},
-        .footer =
-            "Examples:\n"
-            "  limpet px4-params perching_uav --out out/px4\n"
-            "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
-            "Every line has its reason above it. --target flight leaves outputs, remote control "
-            "and\n"
-            "the supply check as they are on the board.\n",
-        .run = [options](const Given&) {
-            write_both(*options);
-            return ExitCode::ok;
-        }};
+    return verb<Px4Options>(
+        "px4-params", "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe",
+        options_of, write_both,
+        "Examples:\n"
+        "  limpet px4-params perching_uav --out out/px4\n"
+        "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
+        "Every line has its reason above it. --target flight leaves outputs, remote control and\n"
+        "the supply check as they are on the board.\n");
 }
 
 }  // namespace limpet::app

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "command_line.hpp"
@@ -23,12 +22,6 @@ struct ReplayOptions {
     std::uint32_t run = 0;
     std::string out;
 };
-
-simulation::FlightWatch watch(Terminal& terminal) {
-    return {.on_event =
-                [&terminal](const Event& event) { terminal.line(simulation::event_line(event)); },
-            .on_progress = {}};
-}
 
 void introduce(const campaign::Campaign& campaign, const campaign::RunRow& row,
                Terminal& terminal) {
@@ -51,41 +44,28 @@ void replay(const ReplayOptions& options) {
     introduce(results.campaign(), row, terminal);
     const simulation::FlightResult result =
         replay_run(results, options.run, folder / "flight.mcap", watch(terminal));
-    terminal.line("");
-    for (const std::string& line : flight_summary(result, terminal)) {
-        terminal.line(line);
-    }
-    terminal.line("           the same as in the row: the flight is the same to the last bit");
-    terminal.line(terminal.bold("written    ") + result.recording.string());
+    tell(result, terminal);
+    terminal.line("", "the same as in the row: the flight is the same to the last bit");
     terminal.progress("drawing figures ...");
-    for (const fs::path& file :
-         report::plot(record::read_recording(result.recording), folder).files) {
-        terminal.line("           " + file.string());
-    }
+    std::vector<fs::path> files =
+        report::plot(record::read_recording(result.recording), folder).files;
+    files.insert(files.begin(), result.recording);
+    terminal.written(files);
+}
+
+OptionList options_of(ReplayOptions& options) {
+    return {{"database DB", &options.database, "results.sqlite, or the folder that holds it"},
+            {"run RUN", &options.run, "number of the run, from 0"},
+            {"--out DIR", &options.out, "folder (default: run_RUN beside the database)"}};
 }
 
 }  // namespace
 
 Verb replay_verb() {
-    auto options = std::make_shared<ReplayOptions>();
-    return {
-        .name = "replay",
-        .about = "Fly a run of a campaign again, with recording and figures",
-        .options = {{"database",
-                     &options->database,
-                     "results.sqlite, or the folder that holds it",
-                     "DB",
-                     {.required = true}},
-                    {"run", &options->run, "number of the run, from 0", "RUN", {.required = true}},
-                    {"--out", &options->out, "folder (default: run_RUN beside the database)",
-                     "DIR"}},
-        .footer =
-            "Needs the database alone. Exits with 70 when the flight does not end at the row's "
-            "state hash.\n",
-        .run = [options](const Given&) {
-            replay(*options);
-            return ExitCode::ok;
-        }};
+    return verb<ReplayOptions>(
+        "replay", "Fly a run of a campaign again, with recording and figures", options_of, replay,
+        "Needs the database alone. Exits with 70 when the flight does not end at the row's "
+        "state hash.\n");
 }
 
 }  // namespace limpet::app

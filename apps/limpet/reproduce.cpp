@@ -3,15 +3,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
-#include <memory>
 #include <string>
-#include <thread>
 
 #include "command_line.hpp"
 #include "output.hpp"
-#include "signals.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -23,7 +19,7 @@ struct Options {
     std::string out = "out/reproduce";
     std::string only;
     bool quick = false;
-    int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    int jobs = default_jobs();
 };
 
 std::string command_of(const Options& options) {
@@ -32,7 +28,7 @@ std::string command_of(const Options& options) {
                        options.only.empty() ? "" : " --only " + options.only);
 }
 
-void run(const Options& options) {
+void fly_parts(const Options& options) {
     const Clock::time_point begin = Clock::now();
     Terminal terminal(Terminal::Voice::normal);
     std::string part;
@@ -65,50 +61,47 @@ void run(const Options& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
-    terminal.line(terminal.bold("claims     ") +
-                  fmt::format("{} reproduced, {} differ, {} not modelled",
-                              result.count(report::Verdict::reproduced),
-                              result.count(report::Verdict::differs),
-                              result.count(report::Verdict::not_modelled)));
-    for (const auto& file : result.files) {
-        terminal.line(terminal.bold("written    ") + file.string());
+    terminal.line("claims", fmt::format("{} reproduced, {} differ, {} not modelled",
+                                        result.count(report::Verdict::reproduced),
+                                        result.count(report::Verdict::differs),
+                                        result.count(report::Verdict::not_modelled)));
+    terminal.written(result.files);
+}
+
+ExitCode reproduce_paper(const Options& options) {
+    try {
+        fly_parts(options);
+    } catch (const Interrupted&) {
+        fmt::print(stderr, "limpet: stopped; no page was written\n");
+        return ExitCode::interrupted;
     }
+    return ExitCode::ok;
+}
+
+OptionList options_of(Options& options) {
+    std::vector<std::string> names;
+    for (const auto& [name, title] : paper::part_titles()) {
+        names.push_back(name);
+    }
+    return {{"--out DIR", &options.out, "folder (default: out/reproduce)"},
+            {"--only NAME", &options.only, "one part, named below", one_of(names)},
+            {"--quick", &options.quick, "fewer missions, coarser maps; under two minutes"},
+            jobs_option(options.jobs)};
 }
 
 }  // namespace
 
 Verb reproduce_verb() {
-    auto options = std::make_shared<Options>();
-    std::vector<std::string> names;
     std::string footer = "Parts:\n";
     for (const auto& [name, title] : paper::part_titles()) {
-        names.push_back(name);
         footer += fmt::format("  {:<12} {}\n", name, title);
     }
-    return {
-        .name = "reproduce",
-        .about = "Fly the paper's experiments; its tables, figures, claims on one page",
-        .options = {{"--out", &options->out, "folder (default: out/reproduce)", "DIR"},
-                    {"--only", &options->only, "one part, named below", "NAME", {.one_of = names}},
-                    {"--quick", &options->quick, "fewer missions, coarser maps; under two minutes"},
-                    {"--jobs,-j",
-                     &options->jobs,
-                     "threads (default: one a processor)",
-                     "N",
-                     {.range = {{1, 1024}}}}},
-        .footer =
-            footer +
+    return verb<Options>(
+        "reproduce", "Fly the paper's experiments; its tables, figures, claims on one page",
+        options_of, reproduce_paper,
+        footer +
             "\nWrites index.html (opens offline), results.json, figures/, and the recordings\n"
-            "and campaigns behind them.\n",
-        .run = [options](const Given&) {
-            try {
-                run(*options);
-            } catch (const Interrupted&) {
-                fmt::print(stderr, "limpet: stopped; no page was written\n");
-                return ExitCode::interrupted;
-            }
-            return ExitCode::ok;
-        }};
+            "and campaigns behind them.\n");
 }
 
 }  // namespace limpet::app

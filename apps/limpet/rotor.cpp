@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -58,27 +57,21 @@ Finding find(const RotorOptions& options) {
     return found;
 }
 
-struct Range {
-    double low = 0.0;
-    double high = 0.0;
-};
-
-Range range_of(const std::vector<identification::RotorConstants>& all,
-               double identification::RotorConstants::*field) {
-    const auto [low, high] =
-        std::minmax_element(all.begin(), all.end(),
-                            [field](const auto& a, const auto& b) { return a.*field < b.*field; });
-    return {(*low).*field, (*high).*field};
-}
-
 std::string how(const RotorOptions& options) {
     return options.speed_rpm ? fmt::format("at {:g} rpm", *options.speed_rpm)
                              : "least squares over all rows";
 }
 
-std::string spread(const Range& range, double chosen) {
-    return fmt::format("rows {:.4g} .. {:.4g}, {:+.1f} .. {:+.1f} %", range.low, range.high,
-                       100.0 * (range.low / chosen - 1.0), 100.0 * (range.high / chosen - 1.0));
+/// Ends of a constant over the rows, and how far they are off the one that is chosen.
+std::string spread(const Finding& found, double identification::RotorConstants::*field) {
+    const auto [least, most] =
+        std::minmax_element(found.constants.begin(), found.constants.end(),
+                            [field](const auto& a, const auto& b) { return a.*field < b.*field; });
+    const double low = (*least).*field;
+    const double high = (*most).*field;
+    const double chosen = found.chosen.*field;
+    return fmt::format("rows {:.4g} .. {:.4g}, {:+.1f} .. {:+.1f} %", low, high,
+                       100.0 * (low / chosen - 1.0), 100.0 * (high / chosen - 1.0));
 }
 
 void print_text(const RotorOptions& options, const Finding& found) {
@@ -90,17 +83,15 @@ void print_text(const RotorOptions& options, const Finding& found) {
                    row.thrust_coefficient, row.power_coefficient,
                    found.constants[i].motor_constant_kg_m, found.constants[i].moment_constant_m);
     }
-    const Range k_mot =
-        range_of(found.constants, &identification::RotorConstants::motor_constant_kg_m);
-    const Range k_mom =
-        range_of(found.constants, &identification::RotorConstants::moment_constant_m);
-    fmt::print("\nD {:g} m, rho {:g} kg/m3, eqs. (3) and (4), {}:\n", found.diameter_m,
-               options.density_kg_m3, how(options));
-    fmt::print("  motor_constant_kg_m: {:.4e}   # {}\n", found.chosen.motor_constant_kg_m,
-               spread(k_mot, found.chosen.motor_constant_kg_m));
-    fmt::print("  moment_constant_m: {:.4e}     # {}\n", found.chosen.moment_constant_m,
-               spread(k_mom, found.chosen.moment_constant_m));
-    fmt::print("as the section `rotor` of a vehicle takes them\n");
+    using K = identification::RotorConstants;
+    fmt::print(
+        "\nD {:g} m, rho {:g} kg/m3, eqs. (3) and (4), {}:\n"
+        "  motor_constant_kg_m: {:.4e}   # {}\n"
+        "  moment_constant_m: {:.4e}     # {}\n"
+        "as the section `rotor` of a vehicle takes them\n",
+        found.diameter_m, options.density_kg_m3, how(options), found.chosen.motor_constant_kg_m,
+        spread(found, &K::motor_constant_kg_m), found.chosen.moment_constant_m,
+        spread(found, &K::moment_constant_m));
 }
 
 Json json_of(const identification::RotorConstants& constants) {
@@ -126,38 +117,31 @@ void print_json(const RotorOptions& options, const Finding& found) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
+OptionList options_of(RotorOptions& options) {
+    return {{"file FILE", &options.file, "UIUC static file: columns RPM, CT, CP"},
+            {"--diameter LENGTH", &options.diameter, "of the propeller, with its unit: 12in, 305mm",
+             required()},
+            {"--density RHO", &options.density_kg_m3, "of the air in the result, 1.225 kg/m3"},
+            {"--rpm R", &options.speed_rpm,
+             "take the coefficients at this speed, as at hover; else a fit over\n"
+             "all rows, in which a row counts with the fourth power of its speed"},
+            {"--json", &options.json, "one JSON object on standard output"}};
+}
+
+void work_out(const RotorOptions& options) {
+    const Finding found = find(options);
+    options.json ? print_json(options, found) : print_text(options, found);
+}
+
 }  // namespace
 
 Verb rotor_verb() {
-    auto options = std::make_shared<RotorOptions>();
-    return {.name = "rotor",
-            .about = "Work out a rotor's constants from a propeller's static measurement",
-            .options = {{"file",
-                         &options->file,
-                         "UIUC static file: columns RPM, CT, CP",
-                         "FILE",
-                         {.required = true}},
-                        {"--diameter",
-                         &options->diameter,
-                         "of the propeller, with its unit: 12in, 305mm",
-                         "LENGTH",
-                         {.required = true}},
-                        {"--density", &options->density_kg_m3,
-                         "of the air in the result, 1.225 kg/m3", "RHO"},
-                        {"--rpm", &options->speed_rpm,
-                         "take the coefficients at this speed, as at hover; else a fit over\n"
-                         "all rows, in which a row counts with the fourth power of its speed",
-                         "R"},
-                        {"--json", &options->json, "one JSON object on standard output"}},
-            .footer =
-                "Example:\n"
-                "  limpet rotor apce_12x5.5_static.txt --diameter 12in --rpm 5350\n"
-                "Files: m-selig.ae.illinois.edu/props/propDB.html\n",
-            .run = [options](const Given&) {
-                const Finding found = find(*options);
-                options->json ? print_json(*options, found) : print_text(*options, found);
-                return ExitCode::ok;
-            }};
+    return verb<RotorOptions>("rotor",
+                              "Work out a rotor's constants from a propeller's static measurement",
+                              options_of, work_out,
+                              "Example:\n"
+                              "  limpet rotor apce_12x5.5_static.txt --diameter 12in --rpm 5350\n"
+                              "Files: m-selig.ae.illinois.edu/props/propDB.html\n");
 }
 
 }  // namespace limpet::app

@@ -4,20 +4,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
-#include "options.hpp"
-#include "signals.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -50,12 +46,11 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
         throw InputError("--param " + text + ": no parameter of the stand-in is called '" + name +
                          "'");
     }
-    char* end = nullptr;
-    const double number = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != '\0' || !row->allows(number)) {
+    const auto number = decimal(value);
+    if (!number || !row->allows(*number)) {
         throw InputError("--param " + text + ": '" + value + "' is no value for it");
     }
-    row->value.set(number);
+    row->value.set(*number);
 }
 
 void serve(const Options& options) {
@@ -71,55 +66,43 @@ void serve(const Options& options) {
     }
     px4::StandIn autopilot(std::move(model), stand_in);
     const std::atomic<bool>* stop = stop_on_signals();
-    const auto say = [](const std::string& text) {
-        fmt::print("{}\n", text);
-        std::fflush(stdout);
-    };
-    say("the built-in autopilot behind PX4's wire: " + autopilot.hil().transport().describe() +
+    Terminal terminal(Terminal::Voice::normal);
+    terminal.line(
+        "the built-in autopilot behind PX4's wire: " + autopilot.hil().transport().describe() +
         (autopilot.onboard_address() ? ", onboard " + to_text(*autopilot.onboard_address()) : "") +
         "; Ctrl-C ends it");
     bool there = false;
     while (!*stop) {
         const bool now = autopilot.serve(std::chrono::milliseconds(100));
         if (now != there) {
-            say(now ? "a simulator is there" : "no simulator; it goes on trying");
+            terminal.line(now ? "a simulator is there" : "no simulator; it goes on trying");
             there = now;
         }
     }
-    say(fmt::format("{} HIL_SENSOR, {} answers", autopilot.count().sensors,
-                    autopilot.count().answers));
+    terminal.line(fmt::format("{} HIL_SENSOR, {} answers", autopilot.count().sensors,
+                              autopilot.count().answers));
+}
+
+OptionList options_of(Options& options) {
+    return {{"what SCENARIO", &options.what, "scenario (name or file) or vehicle (name) to fly"},
+            {"--hil ADDRESS", &options.hil,
+             "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
+             "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)"},
+            {"--onboard ADDRESS", &options.onboard,
+             "where its onboard link listens (default udp:127.0.0.1:14580)"},
+            {"--peer ADDRESS", &options.peer,
+             "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)"},
+            {"--param NAME=VALUE", &options.parameters,
+             "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given"}};
 }
 
 }  // namespace
 
 Verb stand_in_verb() {
-    auto options = std::make_shared<Options>();
-    return {.name = "stand-in",
-            .about = "The built-in autopilot behind PX4's wire, in place of a PX4",
-            .options = {{"what",
-                         &options->what,
-                         "scenario (name or file) or vehicle (name) to fly",
-                         "SCENARIO",
-                         {.required = true}},
-                        {"--hil", &options->hil,
-                         "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
-                         "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)",
-                         "ADDRESS"},
-                        {"--onboard", &options->onboard,
-                         "where its onboard link listens (default udp:127.0.0.1:14580)", "ADDRESS"},
-                        {"--peer", &options->peer,
-                         "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)",
-                         "ADDRESS"},
-                        {"--param", &options->parameters,
-                         "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given",
-                         "NAME=VALUE"}},
-            .footer =
-                "In another terminal: limpet fly SCENARIO --autopilot px4\n"
-                "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n",
-            .run = [options](const Given&) {
-                serve(*options);
-                return ExitCode::ok;
-            }};
+    return verb<Options>("stand-in", "The built-in autopilot behind PX4's wire, in place of a PX4",
+                         options_of, serve,
+                         "In another terminal: limpet fly SCENARIO --autopilot px4\n"
+                         "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n");
 }
 
 }  // namespace limpet::app

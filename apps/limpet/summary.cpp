@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <memory>
 #include <string>
 
 #include "command_line.hpp"
@@ -28,37 +27,27 @@ void summarise_campaign(const SummaryOptions& options) {
     if (options.json && options.out.empty()) {
         return;  // a program asked: it gets what it asked for
     }
-    const fs::path beside = database.parent_path();
-    const fs::path folder =
-        options.out.empty() ? (beside.empty() ? fs::path(".") : beside) : make_folder(options.out);
-    for (const fs::path& file : draw_summary(summary, folder)) {
-        if (!options.json) {
-            fmt::print("{}\n", file.string());
-        }
+    const fs::path folder = folder_or_beside(options.out, database);
+    const auto files = draw_summary(summary, folder);
+    if (!options.json) {
+        print_files(files);
     }
+}
+
+OptionList options_of(SummaryOptions& options) {
+    return {{"database DB", &options.database, "results.sqlite, or the folder that holds it"},
+            {"--out DIR", &options.out, "folder of the figures (default: that of the database)"},
+            {"--json", &options.json, "one JSON object; figures only with --out"}};
 }
 
 }  // namespace
 
 Verb summary_verb() {
-    auto options = std::make_shared<SummaryOptions>();
-    return {.name = "summary",
-            .about = "Print and draw what a campaign found: probabilities, failures, fits",
-            .options = {{"database",
-                         &options->database,
-                         "results.sqlite, or the folder that holds it",
-                         "DB",
-                         {.required = true}},
-                        {"--out", &options->out,
-                         "folder of the figures (default: that of the database)", "DIR"},
-                        {"--json", &options->json, "one JSON object; figures only with --out"}},
-            .footer =
-                "Works while the campaign is still flying. Draws summary.png and summary.svg. "
-                "Intervals are\nWilson's, 95 %.\n",
-            .run = [options](const Given&) {
-                summarise_campaign(*options);
-                return ExitCode::ok;
-            }};
+    return verb<SummaryOptions>(
+        "summary", "Print and draw what a campaign found: probabilities, failures, fits",
+        options_of, summarise_campaign,
+        "Works while the campaign is still flying. Draws summary.png and summary.svg. "
+        "Intervals are\nWilson's, 95 %.\n");
 }
 
 }  // namespace limpet::app

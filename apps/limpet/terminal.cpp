@@ -2,11 +2,19 @@
 #include "terminal.hpp"
 
 #include <fmt/core.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace limpet::app {
+namespace {
+
+/// A signal handler can reach nothing else.
+std::atomic<bool> interrupted = false;
+
+}  // namespace
 
 Terminal::Terminal(Voice voice)
     : out_(voice == Voice::quiet     ? nullptr
@@ -26,6 +34,17 @@ void Terminal::line(const std::string& text) {
     clear_progress();
     fmt::print(out_, "{}\n", text);
     std::fflush(out_);
+}
+
+void Terminal::line(const std::string& about, const std::string& text) {
+    line(bold(fmt::format("{:<11}", about)) + text);
+}
+
+void Terminal::written(const std::vector<std::filesystem::path>& files) {
+    std::string about = "written";
+    for (const std::filesystem::path& file : files) {
+        line(std::exchange(about, ""), file.string());
+    }
 }
 
 void Terminal::progress(const std::string& text) {
@@ -51,6 +70,16 @@ void Terminal::clear_progress() {
         std::fflush(out_);
         progress_shown_ = false;
     }
+}
+
+const std::atomic<bool>* stop_on_signals() {
+    struct sigaction action = {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGHUP, &action, nullptr);  // the terminal is gone
+    return &interrupted;
 }
 
 }  // namespace limpet::app

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdio>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace limpet::app {
 
@@ -21,6 +24,10 @@ public:
     Terminal& operator=(const Terminal&) = delete;
 
     void line(const std::string& text);
+    /// What the text is about, then the text.
+    void line(const std::string& about, const std::string& text);
+    /// What was written, a line a file.
+    void written(const std::vector<std::filesystem::path>& files);
     /// A line that the next one replaces; nothing where no person watches.
     void progress(const std::string& text);
     /// Whether a person watches, so that progress() shows.
@@ -35,5 +42,9 @@ private:
     bool live_ = false;
     bool progress_shown_ = false;
 };
+
+/// From now on the first Ctrl-C, SIGTERM or SIGHUP sets the flag, for long work to end in good
+/// order; the second ends the program as ever.
+[[nodiscard]] const std::atomic<bool>* stop_on_signals();
 
 }  // namespace limpet::app
