@@ -7,7 +7,11 @@
 namespace limpet {
 namespace {
 
-enum class Colour { red, dark_green, blue };
+enum class Colour {
+    red,
+    dark_green,
+    blue
+};
 
 TEST(EnumNames, AreThoseOfTheCode) {
     EXPECT_THAT(kNamesOf<Colour>, testing::ElementsAre("red", "dark_green", "blue"));
