@@ -160,7 +160,7 @@ draw::Chart chart_of(const identification::PressureTrace& trace,
     constexpr std::size_t kMostDrawn = 10'000;
     const std::size_t stride = trace.t_s.size() / kMostDrawn + 1;
     for (std::size_t i = 0; i < trace.t_s.size(); i += stride) {
-        const double curve_Pa = point_of(fit.curve, trace.t_s[i]).pressure_Pa;
+        const double curve_Pa = pressure_Pa(fit.curve, trace.t_s[i]);
         data.x.push_back(trace.t_s[i]);
         data.y.push_back(hectopascals(trace.pressure_Pa[i]));
         if (i >= fit.first_sample && i < fit.first_sample + fit.samples) {

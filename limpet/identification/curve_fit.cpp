@@ -59,8 +59,7 @@ struct Residuals {
         const bool possible = parameters.allFinite() && sensible(at);
         for (int i = 0; i < values(); ++i) {
             const auto k = static_cast<std::size_t>(i);
-            left_Pa[i] =
-                possible ? trace.pressure_Pa[k] - point_of(at, trace.t_s[k]).pressure_Pa : kFar_Pa;
+            left_Pa[i] = possible ? trace.pressure_Pa[k] - pressure_Pa(at, trace.t_s[k]) : kFar_Pa;
         }
         return 0;
     }

@@ -155,41 +155,37 @@ Guess best_guess(const PressureTrace& trace, const Stages& stages,
 /// The strongest line in what the mean curve leaves while the pump runs, if it stands out.
 bool add_ripple(const PressureTrace& trace, Guess& guess) {
     constexpr std::size_t kMost = 4000;
-    std::vector<double> t_s;
-    std::vector<double> rest_Pa;
-    for (std::size_t i = 0; i < trace.t_s.size() && t_s.size() < kMost; ++i) {
+    std::vector<double> times_s;
+    std::vector<double> left_Pa;
+    for (std::size_t i = 0; i < trace.t_s.size() && times_s.size() < kMost; ++i) {
         if (pump_runs(guess.curve, trace.t_s[i])) {
-            t_s.push_back(trace.t_s[i]);
-            rest_Pa.push_back(trace.pressure_Pa[i] - mean_pressure_Pa(guess.curve, t_s.back()));
+            times_s.push_back(trace.t_s[i]);
+            left_Pa.push_back(trace.pressure_Pa[i] - mean_pressure_Pa(guess.curve, trace.t_s[i]));
         }
     }
-    if (t_s.size() < kFewestSamples) {
+    if (times_s.size() < kFewestSamples) {
         return false;
     }
-    const double duration_s = t_s.back() - t_s.front();
-    const double mean_step_s = duration_s / static_cast<double>(t_s.size() - 1);
-    double variance = 0.0;
-    for (const double rest : rest_Pa) {
-        variance += rest * rest / static_cast<double>(rest_Pa.size());
-    }
+    const auto samples = static_cast<Eigen::Index>(times_s.size());
+    const Eigen::Map<const Eigen::ArrayXd> t_s(times_s.data(), samples);
+    const Eigen::Map<const Eigen::ArrayXd> rest_Pa(left_Pa.data(), samples);
+    const double duration_s = times_s.back() - times_s.front();
+    const double mean_step_s = duration_s / static_cast<double>(samples - 1);
+    const double variance = rest_Pa.square().mean();
     double best_power = 0.0;
     // From three periods in the log to just below Nyquist's frequency, four steps a line's width.
     const int lines = static_cast<int>(1.92 * duration_s / mean_step_s);
     for (int line = 12; line < lines; ++line) {
         const double f_Hz = 0.25 * line / duration_s;
-        double c = 0.0;
-        double s = 0.0;
-        for (std::size_t i = 0; i < t_s.size(); ++i) {
-            const double angle = 2.0 * kPi * f_Hz * (t_s[i] - guess.curve.on_s);
-            c += rest_Pa[i] * std::cos(angle);
-            s += rest_Pa[i] * std::sin(angle);
-        }
-        const double power = (c * c + s * s) / static_cast<double>(t_s.size());
+        const Eigen::ArrayXd angle = 2.0 * kPi * f_Hz * (t_s - guess.curve.on_s);
+        const double c = (rest_Pa * angle.cos()).mean();
+        const double s = (rest_Pa * angle.sin()).mean();
+        const double power = (c * c + s * s) * static_cast<double>(samples);
         if (power > best_power) {
             best_power = power;
             guess.curve.ripple_Hz = f_Hz;
-            guess.curve.ripple_cos_Pa = 2.0 * c / static_cast<double>(t_s.size());
-            guess.curve.ripple_sin_Pa = 2.0 * s / static_cast<double>(t_s.size());
+            guess.curve.ripple_cos_Pa = 2.0 * c;
+            guess.curve.ripple_sin_Pa = 2.0 * s;
         }
     }
     if (!(best_power > kRippleStandsOut * variance)) {

@@ -1,70 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/pressure_curve.hpp"
 
+#include <array>
 #include <cmath>
+#include <unsupported/Eigen/AutoDiff>
 
 #include "limpet/core/errors.hpp"
 
 namespace limpet::identification {
 namespace {
 
-int row(CurveParameter parameter) {
-    return static_cast<int>(parameter);
-}
+/// A number with its slopes by every parameter.
+using Dual = Eigen::AutoDiffScalar<CurveGradient>;
 
-/// Pressure and slopes while the pump runs, without ripple.
-CurvePoint sealing_point(const PressureCurve& curve, double t_s) {
-    CurvePoint point{.pressure_Pa = curve.vacuum_Pa, .gradient = CurveGradient::Zero()};
-    if (!curve.sealing) {
-        point.gradient[row(CurveParameter::vacuum)] = 1.0;
-        return point;
+/// The curve over numbers or duals.
+/// @param parameters  in the order of CurveParameter
+template <class Number>
+Number pressure(const PressureCurve& curve, const std::array<Number, kCurveParameters>& parameters,
+                double t_s) {
+    using std::cos;
+    using std::exp;
+    using std::sin;
+    const auto& [atmosphere, start, vacuum, tau_1, on, tau_2, off, by_cos, by_sin, f] = parameters;
+    const auto sealed = [&, vacuum = vacuum, start = start, on = on,
+                         tau_1 = tau_1](const Number& t) -> Number {
+        if (!curve.sealing) {
+            return vacuum;
+        }
+        return vacuum + (start - vacuum) * exp((on - t) / tau_1);
+    };
+    if (curve.unsealing && t_s >= curve.off_s) {
+        const Number span = atmosphere - sealed(off);
+        return atmosphere - span * exp((off - t_s) / tau_2);
     }
-    const double span_Pa = curve.start_Pa - curve.vacuum_Pa;
-    const double e = std::exp(-(t_s - curve.on_s) / curve.tau_1_s);
-    point.pressure_Pa += span_Pa * e;
-    point.gradient[row(CurveParameter::vacuum)] = 1.0 - e;
-    point.gradient[row(CurveParameter::start)] = e;
-    point.gradient[row(CurveParameter::tau_1)] =
-        span_Pa * e * (t_s - curve.on_s) / (curve.tau_1_s * curve.tau_1_s);
-    point.gradient[row(CurveParameter::on)] = span_Pa * e / curve.tau_1_s;
-    return point;
-}
-
-CurvePoint unsealing_point(const PressureCurve& curve, double t_s) {
-    const CurvePoint from = sealing_point(curve, curve.off_s);
-    const double span_Pa = curve.atmosphere_Pa - from.pressure_Pa;
-    const double e = std::exp(-(t_s - curve.off_s) / curve.tau_2_s);
-    CurvePoint point{.pressure_Pa = curve.atmosphere_Pa - span_Pa * e,
-                     .gradient = from.gradient * e};
-    point.gradient[row(CurveParameter::atmosphere)] += 1.0 - e;
-    point.gradient[row(CurveParameter::tau_2)] =
-        -span_Pa * e * (t_s - curve.off_s) / (curve.tau_2_s * curve.tau_2_s);
-    // Shifting t_off delays eq. (6) and lets eq. (5) go on.
-    const double slope_before =
-        curve.sealing ? -(from.pressure_Pa - curve.vacuum_Pa) / curve.tau_1_s : 0.0;
-    point.gradient[row(CurveParameter::off)] = e * (slope_before - span_Pa / curve.tau_2_s);
-    return point;
-}
-
-/// The pump's ripple, in proportion to the vacuum reached.
-void add_ripple(const PressureCurve& curve, double t_s, CurvePoint& point) {
-    const double span_Pa = curve.atmosphere_Pa - curve.vacuum_Pa;
-    const double share = (curve.atmosphere_Pa - point.pressure_Pa) / span_Pa;
-    const double angle = 2.0 * kPi * curve.ripple_Hz * (t_s - curve.on_s);
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    const double full_Pa = curve.ripple_cos_Pa * c + curve.ripple_sin_Pa * s;
-    const double by_angle_Pa = curve.ripple_sin_Pa * c - curve.ripple_cos_Pa * s;
-    CurveGradient by_share = -point.gradient / span_Pa;
-    by_share[row(CurveParameter::atmosphere)] += (1.0 - share) / span_Pa;
-    by_share[row(CurveParameter::vacuum)] += share / span_Pa;
-    point.gradient += full_Pa * by_share;
-    point.gradient[row(CurveParameter::ripple_cos)] = share * c;
-    point.gradient[row(CurveParameter::ripple_sin)] = share * s;
-    point.gradient[row(CurveParameter::ripple_Hz)] =
-        share * by_angle_Pa * 2.0 * kPi * (t_s - curve.on_s);
-    point.gradient[row(CurveParameter::on)] -= share * by_angle_Pa * 2.0 * kPi * curve.ripple_Hz;
-    point.pressure_Pa += share * full_Pa;
+    if (curve.sealing && t_s < curve.on_s) {
+        return start;
+    }
+    const Number mean = sealed(Number(t_s));
+    if (!(curve.ripple_Hz > 0.0)) {
+        return mean;
+    }
+    // The pump's ripple is in proportion to the vacuum reached.
+    const Number share = (atmosphere - mean) / (atmosphere - vacuum);
+    const Number angle = 2.0 * kPi * f * (t_s - on);
+    const Number full = by_cos * cos(angle) + by_sin * sin(angle);
+    return mean + share * full;
 }
 
 }  // namespace
@@ -90,29 +70,32 @@ bool pump_runs(const PressureCurve& curve, double t_s) {
 }
 
 CurvePoint point_of(const PressureCurve& curve, double t_s) {
-    CurvePoint point{};
-    if (curve.unsealing && t_s >= curve.off_s) {
-        point = unsealing_point(curve, t_s);
-    } else if (curve.sealing && t_s < curve.on_s) {
-        point = {.pressure_Pa = curve.start_Pa, .gradient = CurveGradient::Zero()};
-        point.gradient[row(CurveParameter::start)] = 1.0;
-    } else {
-        point = sealing_point(curve, t_s);
-        if (curve.ripple_Hz > 0.0) {
-            add_ripple(curve, t_s, point);
-        }
+    std::array<Dual, kCurveParameters> parameters;
+    for (int k = 0; k < kCurveParameters; ++k) {
+        parameters[static_cast<std::size_t>(k)] =
+            Dual(curve.*member_of(static_cast<CurveParameter>(k)), kCurveParameters, k);
     }
+    const Dual at = pressure(curve, parameters, t_s);
+    CurvePoint point{.pressure_Pa = at.value(), .gradient = at.derivatives()};
     if (curve.baseline) {  // one parameter for both
-        point.gradient[row(CurveParameter::atmosphere)] +=
-            point.gradient[row(CurveParameter::start)];
+        point.gradient[static_cast<int>(CurveParameter::atmosphere)] +=
+            point.gradient[static_cast<int>(CurveParameter::start)];
     }
     return point;
+}
+
+double pressure_Pa(const PressureCurve& curve, double t_s) {
+    return pressure<double>(
+        curve,
+        {curve.atmosphere_Pa, curve.start_Pa, curve.vacuum_Pa, curve.tau_1_s, curve.on_s,
+         curve.tau_2_s, curve.off_s, curve.ripple_cos_Pa, curve.ripple_sin_Pa, curve.ripple_Hz},
+        t_s);
 }
 
 double mean_pressure_Pa(const PressureCurve& curve, double t_s) {
     PressureCurve smooth = curve;
     smooth.ripple_Hz = 0.0;
-    return point_of(smooth, t_s).pressure_Pa;
+    return pressure_Pa(smooth, t_s);
 }
 
 }  // namespace limpet::identification

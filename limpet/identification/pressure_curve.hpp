@@ -63,6 +63,8 @@ struct CurvePoint {
 };
 [[nodiscard]] CurvePoint point_of(const PressureCurve& curve, double t_s);
 
+[[nodiscard]] double pressure_Pa(const PressureCurve& curve, double t_s);
+
 /// @return the curve without its ripple [Pa]
 [[nodiscard]] double mean_pressure_Pa(const PressureCurve& curve, double t_s);
 
