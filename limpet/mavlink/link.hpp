@@ -23,6 +23,8 @@ inline constexpr std::uint8_t kCompanionComponent = 191;
 /// So many frames are taken from a wire before other work has its turn: a flood of them must not
 /// stop a loop. No autopilot sends as many in 10 ms.
 inline constexpr int kFramesAtOnce = 1000;
+/// For send(): who does not listen is not waited for.
+inline constexpr std::chrono::nanoseconds kAtOnce{0};
 
 /// Signs what goes, refuses what comes without a right signature.
 struct LinkSigning {

@@ -7,6 +7,9 @@
 /// tests/mavlink/message_table.hpp.
 namespace limpet::mavlink {
 
+/// As a HEARTBEAT tells it.
+inline constexpr std::uint8_t kMavlinkVersion = 3;
+
 /// @return what is known of a message, nullptr when Limpet does not speak it
 [[nodiscard]] const MessageInfo* find_message(std::uint32_t id);
 

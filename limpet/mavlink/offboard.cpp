@@ -13,7 +13,6 @@
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kMavlinkVersion = 3;
 /// Room in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;

@@ -16,7 +16,6 @@ namespace limpet::mavlink {
 namespace {
 
 constexpr std::size_t kLongestName = 16;
-constexpr std::chrono::nanoseconds kAtOnce{0};  // who does not listen is not waited for
 
 std::uint8_t type_of(const ServedParameter& parameter) {
     return parameter.int32 ? MavParamType::int32 : MavParamType::real32;

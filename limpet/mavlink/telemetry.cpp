@@ -13,7 +13,6 @@
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::chrono::nanoseconds kAtOnce{0};  // who does not listen is not waited for
 constexpr int kFramesAnUpdate = 100;            // a peer that floods must not stop the flight
 
 // MAV_CMD

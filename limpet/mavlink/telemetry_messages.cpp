@@ -6,7 +6,6 @@
 namespace limpet::mavlink {
 namespace {
 
-constexpr std::uint8_t kMavlinkVersion = 3;
 constexpr std::uint16_t kNoCell = 65535;
 constexpr std::int16_t kUnknownTemperature = 32767;
 constexpr double kSilence_s = 1.0;  // assumed: slower than every sensor here, GPS at 5 Hz

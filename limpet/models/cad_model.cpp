@@ -209,7 +209,7 @@ bool is_stl(const std::filesystem::path& file) {
     return extension == ".stl";
 }
 
-void add_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
+void draw_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
                const Vector3& centre_m) {
     for (const UrdfLink& link : robot.links) {
         const PlacedLink& at = placed.at(link.name);
@@ -262,7 +262,7 @@ CadModel make_cad_model(const UrdfRobot& robot, const std::string& file, const C
         cad.cup_yoke = body("cup_yoke");
         cad.cup = body("cup");
     }
-    add_parts(cad, robot, placed, whole.centre_B_m);
+    draw_parts(cad, robot, placed, whole.centre_B_m);
     return cad;
 }
 
