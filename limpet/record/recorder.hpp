@@ -50,7 +50,7 @@ struct RecordingInfo {
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from
 /// 0, so that the same flight gives the same bytes. Our signals become ROS 2 messages in CDR, whose
-/// fields stand in message_definitions.cpp: ROS's own in its frames (ros_frames.hpp), limpet_msgs
+/// fields stand in msg/: ROS's own in its frames (ros_frames.hpp), limpet_msgs
 /// as they are. A text has at most 256 characters, else InternalError: texts are names and reasons.
 ///
 /// The file grows as PATH.part and becomes PATH in finish(); PATH.part of a run that died is

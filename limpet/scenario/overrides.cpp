@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -76,6 +78,33 @@ void set_override(YamlNode& root, std::string_view assignment) {
     adopt(value, path, place);
     value.key = node->key;
     *node = std::move(value);
+}
+
+std::vector<std::string> split_settings(std::string_view text) {
+    constexpr const char* kBlanks = " \t\r\n";
+    std::vector<std::string> pieces;
+    std::istringstream stream{std::string(text)};
+    for (std::string piece; std::getline(stream, piece, ';');) {
+        const std::size_t first = piece.find_first_not_of(kBlanks);
+        if (first != std::string::npos) {
+            pieces.push_back(piece.substr(first, piece.find_last_not_of(kBlanks) + 1 - first));
+        }
+    }
+    return pieces;
+}
+
+std::vector<std::string> read_settings(const YamlNode& node) {
+    if (node.kind == YamlNode::Kind::scalar) {
+        return split_settings(node.text);
+    }
+    if (node.kind != YamlNode::Kind::list) {
+        fail(node, "must be a list of KEY=VALUE, or one text with ; between them");
+    }
+    std::vector<std::string> settings;
+    for (const YamlNode& item : node.children) {
+        settings.push_back(read_text(item));
+    }
+    return settings;
 }
 
 }  // namespace limpet::scenario

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpet/scenario/yaml_tree.hpp"
 
@@ -12,5 +14,12 @@ namespace limpet::scenario {
 /// `vehicle.mass_kg=3.4` goes with `vehicle: perching_uav`.
 /// @throws InputError when it is not written as key=value or leads through a list
 void set_override(YamlNode& root, std::string_view assignment);
+
+/// "a=1; b=2" into its pieces.
+[[nodiscard]] std::vector<std::string> split_settings(std::string_view text);
+
+/// Such assignments where they are data: a list of texts, or one text with ; between them.
+/// @throws InputError for anything else
+[[nodiscard]] std::vector<std::string> read_settings(const YamlNode& node);
 
 }  // namespace limpet::scenario

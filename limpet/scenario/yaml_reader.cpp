@@ -166,9 +166,14 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
         allowed.push_back(row.name);
     }
     const std::string room = section->path.substr(0, section->path.find('.'));
-    check_keys(*section, allowed, fmt::format("`limpet params {}` lists what there is", room));
+    check_keys(*section, allowed,
+               room.empty() ? "" : fmt::format("`limpet params {}` lists what there is", room));
+    read_given(*section, rows);
+}
+
+void read_given(const YamlNode& map, const std::vector<BoundParameter>& rows) {
     for (const BoundParameter& row : rows) {
-        if (const YamlNode* node = section->find(row.name)) {
+        if (const YamlNode* node = map.find(row.name)) {
             row.value.set(read_number(*node, row));
         }
     }

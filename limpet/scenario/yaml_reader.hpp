@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "limpet/core/enum_names.hpp"
@@ -69,6 +71,38 @@ void read_given(const YamlNode& map, std::string_view key, Value& value) {
 /// @param others   keys that are allowed besides the rows' and are read elsewhere
 void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
                const std::vector<std::string_view>& others = {});
+/// The same of a map whose keys have been checked.
+void read_given(const YamlNode& map, const std::vector<BoundParameter>& rows);
+
+/// Sets a value where its key is given.
+/// @param read  read_text, or what else takes a node
+template <class Read, class Value>
+void read_if_given(const YamlNode& map, std::string_view key, Read read, Value& value) {
+    if (const YamlNode* node = map.find(key)) {
+        value = read(*node);
+    }
+}
+
+/// The same of one of some words, each with what it stands for.
+template <class Choice>
+void read_word_if_given(
+    const YamlNode& map, std::string_view key, Choice& choice,
+    std::initializer_list<std::pair<std::string_view, std::type_identity_t<Choice>>> words) {
+    const YamlNode* const node = map.find(key);
+    if (node == nullptr) {
+        return;
+    }
+    const std::string given = read_text(*node);
+    std::string all;
+    for (const auto& [word, meaning] : words) {
+        if (word == given) {
+            choice = meaning;
+            return;
+        }
+        all.append(all.empty() ? "" : ", ").append(word);
+    }
+    fail(*node, "\"" + shown(given) + "\" is none of " + all);
+}
 
 /// @return the same digits for the same bits, as few as tell it from its neighbours
 [[nodiscard]] std::string number_text(double value);
