@@ -4,8 +4,6 @@
 #include <boost/coroutine2/protected_fixedsize_stack.hpp>
 #include <utility>
 
-#include "limpet/models/links.hpp"
-
 namespace limpet::gazebo11 {
 namespace {
 
@@ -16,15 +14,8 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
-    const vehicle::Airframe& airframe = flight_.scenario.airframe;
-    const GazeboNames names{
-        .base = models::called(airframe, "base"),
-        .carriage = models::called(airframe, "carriage"),
-        .cup = models::called(airframe, "cup"),
-        .slider = models::called(airframe, "slider"),
-        .hinges = {models::called(airframe, "cup_pitch"), models::called(airframe, "cup_yaw")}};
-    const auto plant = std::make_shared<const GazeboModel>(
-        std::move(vehicle), flight_.scenario, [this] { wait_for_gazebo(); }, names);
+    const auto plant = std::make_shared<const GazeboModel>(std::move(vehicle), flight_.scenario,
+                                                           [this] { wait_for_gazebo(); });
     flight_.conduct.stop = &interrupted_;
     model_ = simulation::build_model(flight_.scenario, plant);
 }

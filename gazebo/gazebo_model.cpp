@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <gazebo/ode/error.h>
 
+#include <atomic>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
 #include <gazebo/physics/ContactManager.hh>
 #include <utility>
 
 #include "gazebo/frames.hpp"
 #include "gazebo/gazebo_plant.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/models/links.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
@@ -20,35 +26,41 @@ constexpr double kSame = 1e-6;
 /// Beyond anything that the slider does.
 constexpr double kFree_m = 1e3;
 
-[[noreturn]] void differs(const std::string& what, double here, double expected, const char* unit) {
-    throw InputError(
-        fmt::format("{} is {:.9g} {} in the world, {:.9g} {} in the scenario; export "
-                    "the world anew",
-                    what, here, unit, expected, unit));
+std::atomic<long long> complaints{0};
+
+void hear_ode(int /*number*/, const char* text, std::va_list values) {
+    if (std::strstr(text, "LCP internal error") != nullptr) {
+        ++complaints;
+        return;
+    }
+    std::fputs("ODE: ", stderr);
+    std::vfprintf(stderr, text, values);
+    std::fputs("\n", stderr);
 }
 
-void require_same(const std::string& what, double here, double expected, const char* unit) {
+void require_same(const char* what, double here, double expected, const char* unit) {
     if (!(std::abs(here - expected) <= kSame * std::max(1.0, std::abs(expected)))) {
-        differs(what, here, expected, unit);
+        throw InputError(
+            fmt::format("{} is {:.9g} {} in the world, {:.9g} {} in the scenario; export the world "
+                        "anew",
+                        what, here, unit, expected, unit));
     }
 }
 
-physics::LinkPtr find_link(const physics::Model& model, const std::string& name) {
-    const physics::LinkPtr found = model.GetLink(name);
+/// @param part  "link" or "joint"
+template <class Found>
+Found require_there(const physics::Model& model, const char* part, const std::string& name,
+                    Found found) {
     if (found == nullptr) {
-        throw InputError(fmt::format("model \"{}\" has no link \"{}\", which perching needs",
-                                     model.GetName(), name));
+        throw InputError(fmt::format("model \"{}\" has no {} \"{}\", which perching needs",
+                                     model.GetName(), part, name));
     }
     return found;
 }
 
 physics::JointPtr find_joint(physics::Model& model, const std::string& name,
                              physics::Base::EntityType type, const char* kind) {
-    const physics::JointPtr found = model.GetJoint(name);
-    if (found == nullptr) {
-        throw InputError(fmt::format("model \"{}\" has no joint \"{}\", which perching needs",
-                                     model.GetName(), name));
-    }
+    const physics::JointPtr found = require_there(model, "joint", name, model.GetJoint(name));
     if (!found->HasType(type)) {
         throw InputError(
             fmt::format("joint \"{}\" of model \"{}\" is not {}", name, model.GetName(), kind));
@@ -57,26 +69,25 @@ physics::JointPtr find_joint(physics::Model& model, const std::string& name,
 }
 
 /// Explicit springs and dampers of ODE are not stable on a light cup.
-void check_hinge(physics::Joint& hinge, const std::string& name) {
-    if (!(hinge.GetStiffness(0) > 0.0 && hinge.GetDamping(0) > 0.0)) {
+physics::JointPtr find_hinge(physics::Model& model, const std::string& name) {
+    const physics::JointPtr hinge = find_joint(model, name, physics::Base::HINGE_JOINT, "revolute");
+    if (!(hinge->GetStiffness(0) > 0.0 && hinge->GetDamping(0) > 0.0)) {
         throw InputError(fmt::format(
             "joint \"{}\" has no spring and damper, which perching needs; export the model anew",
             name));
     }
+    return hinge;
 }
 
-void check_gravity(const physics::World& world) {
-    const Vector3 gravity_W = turn(world.Gravity());
+void check_gravity_and_mass(const physics::Model& model, double expected_kg) {
+    const Vector3 gravity_W = turn(model.GetWorld()->Gravity());
     require_same("gravity", gravity_W.z(), kGravity_m_s2, "m/s^2 downwards");
     require_same("gravity across", std::hypot(gravity_W.x(), gravity_W.y()), 0.0, "m/s^2");
-}
-
-void check_mass(const physics::Model& model, const vehicle::Airframe& airframe) {
     double mass_kg = 0.0;
     for (const physics::LinkPtr& link : model.GetLinks()) {
         mass_kg += link->GetInertial()->Mass();
     }
-    require_same("the vehicle's mass", mass_kg, airframe.mass_kg, "kg");
+    require_same("the vehicle's mass", mass_kg, expected_kg, "kg");
 }
 
 /// The face that rays see must be the one on which the cup seals.
@@ -110,8 +121,12 @@ void check_wall(physics::RayShape& ray, const scenario::Scenario& scenario) {
 
 }  // namespace
 
+long long take_solver_complaints() {
+    return complaints.exchange(0);
+}
+
 GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& scenario,
-                         NextUpdate next, const GazeboNames& names)
+                         NextUpdate next)
     : vehicle_(std::move(vehicle)),
       world_(vehicle_->GetWorld()),
       engine_(world_->Physics()),
@@ -120,15 +135,20 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
         throw InputError(fmt::format("physics engine \"{}\": only \"ode\" flies this vehicle",
                                      engine_->GetType()));
     }
+    dSetMessageHandler(&hear_ode);
     const vehicle::Airframe& airframe = scenario.airframe;
-    links_[0] = find_link(*vehicle_, names.base);
+    const auto link = [&](const char* part) {
+        const std::string name = models::called(airframe, part);
+        return require_there(*vehicle_, "link", name, vehicle_->GetLink(name));
+    };
+    links_[0] = link("base");
     if (airframe.has_cup) {
-        links_[1] = find_link(*vehicle_, names.carriage);
-        links_[2] = find_link(*vehicle_, names.cup);
-        slider_ = find_joint(*vehicle_, names.slider, physics::Base::SLIDER_JOINT, "prismatic");
-        for (const std::string& name : names.hinges) {
-            hinges_.push_back(find_joint(*vehicle_, name, physics::Base::HINGE_JOINT, "revolute"));
-            check_hinge(*hinges_.back(), name);
+        links_[1] = link("carriage");
+        links_[2] = link("cup");
+        slider_ = find_joint(*vehicle_, models::called(airframe, "slider"),
+                             physics::Base::SLIDER_JOINT, "prismatic");
+        for (const char* hinge : {"cup_pitch", "cup_yaw"}) {
+            hinges_.push_back(find_hinge(*vehicle_, models::called(airframe, hinge)));
         }
         slider_->SetLowerLimit(0, -kFree_m);
         slider_->SetUpperLimit(0, kFree_m);
@@ -139,8 +159,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
     ray_ = boost::dynamic_pointer_cast<physics::RayShape>(
         engine_->CreateShape("ray", physics::CollisionPtr()));
     require(ray_ != nullptr, "ODE has rays");
-    check_gravity(*world_);
-    check_mass(*vehicle_, airframe);
+    check_gravity_and_mass(*vehicle_, airframe.mass_kg);
     check_wall(*ray_, scenario);
     first_ = GazeboPlant::state_of(*vehicle_);
 }

@@ -5,22 +5,12 @@
 #include <functional>
 #include <gazebo/physics/physics.hh>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 
 namespace limpet::gazebo11 {
-
-/// Names of the parts of a model in Gazebo that a plant talks to.
-struct GazeboNames {
-    std::string base = "base";
-    std::string carriage = "carriage";
-    std::string cup = "cup";
-    std::string slider = "slider";
-    std::array<std::string, 2> hinges = {"cup_pitch", "cup_yaw"};
-};
 
 /// A vehicle that stands in a Gazebo world, with ODE as its engine. One world has one plant.
 class GazeboModel final : public plant::PlantModel,
@@ -31,13 +21,16 @@ public:
 
     /// Takes the slider's own limits and ODE's auto-disable out of the model: the loop applies the
     /// stops, and a vehicle at rest must not fall asleep.
+    /// From then on ODE's complaints of its contact solver are counted instead of printed, a line
+    /// a step: with friction the direct solver now and then takes what it has found until then. All
+    /// else that ODE says goes on to stderr.
     /// @param scenario  what the loop believes; the world must agree
     /// @param next      called once by each step of the plant
     /// @throws InputError in one line when the engine is not ODE, when a link or joint is missing
     ///         or of another kind, or where the world differs from the scenario: gravity, mass,
     ///         lip, wall
     GazeboModel(gazebo::physics::ModelPtr vehicle, const scenario::Scenario& scenario,
-                NextUpdate next, const GazeboNames& names = {});
+                NextUpdate next);
 
     /// A plant in the state in which the model was found.
     [[nodiscard]] std::unique_ptr<plant::Plant> make() const override;
@@ -56,6 +49,9 @@ private:
     NextUpdate next_;
     plant::PlantState first_;
 };
+
+/// @return how many complaints of the contact solver there were since the last call
+[[nodiscard]] long long take_solver_complaints();
 
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
 /// length follows the loop's. Contacts are ODE's, always on.

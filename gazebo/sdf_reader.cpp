@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,58 +17,42 @@
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
 
-std::string trimmed(const std::string& text) {
-    constexpr const char* kBlanks = " \t\r\n";
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    return first == std::string::npos
-               ? std::string()
-               : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 scenario::YamlNode scalar(const std::string& key, const std::string& path, const std::string& place,
                           const std::string& text) {
-    scenario::YamlNode node;
-    node.kind = text.empty() ? scenario::YamlNode::Kind::null : scenario::YamlNode::Kind::scalar;
-    node.key = key;
-    node.path = path;
-    node.place = place;
-    node.text = text;
-    return node;
+    using Kind = scenario::YamlNode::Kind;
+    return {.kind = text.empty() ? Kind::null : Kind::scalar,
+            .key = key,
+            .path = path,
+            .place = place,
+            .text = text,
+            .children = {}};
 }
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
+bool contains(const std::vector<std::string_view>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-scenario::YamlNode* entry(scenario::YamlNode& map, const std::string& key) {
-    const auto found =
-        std::find_if(map.children.begin(), map.children.end(),
-                     [&](const scenario::YamlNode& child) { return child.key == key; });
-    return found == map.children.end() ? nullptr : &*found;
-}
-
-/// Adds an entry to a map; one of `lists` to its list.
-void add_entry(scenario::YamlNode& map, scenario::YamlNode child,
-               const std::vector<std::string>& lists) {
-    scenario::YamlNode* const there = entry(map, child.key);
-    if (!contains(lists, child.key)) {
-        if (there != nullptr) {
+/// Adds an entry to a map, or to its list of that name.
+void add_entry(scenario::YamlNode& map, scenario::YamlNode child, bool to_list) {
+    auto there = std::find_if(map.children.begin(), map.children.end(),
+                              [&](const auto& other) { return other.key == child.key; });
+    const bool is_there = there != map.children.end();
+    if (!to_list) {
+        if (is_there) {
             fail(child, "stands twice, allowed once");
         }
         map.children.push_back(std::move(child));
         return;
     }
-    if (there == nullptr) {
-        scenario::YamlNode list = scalar(child.key, child.path, child.place, "");
-        list.kind = scenario::YamlNode::Kind::list;
-        map.children.push_back(std::move(list));
-        add_entry(map, std::move(child), lists);
-        return;
+    if (!is_there) {
+        there = map.children.insert(there, scalar(child.key, child.path, child.place, ""));
+        there->kind = scenario::YamlNode::Kind::list;
     }
     child.path += fmt::format("[{}]", there->children.size());
     child.key.clear();
@@ -79,7 +64,7 @@ scenario::YamlNode node_of(const sdf::ElementPtr& element, const std::string& pa
                            const SdfReading& reading) {
     const sdf::ParamPtr value = element->GetValue();
     scenario::YamlNode node = scalar(element->GetName(), path, reading.place,
-                                     value ? trimmed(value->GetAsString()) : std::string());
+                                     value ? boost::trim_copy(value->GetAsString()) : "");
     const auto below = [&](const std::string& key) {
         return path.empty() ? key : path + "." + key;
     };
@@ -87,12 +72,12 @@ scenario::YamlNode node_of(const sdf::ElementPtr& element, const std::string& pa
         const sdf::ParamPtr attribute = element->GetAttribute(i);
         add_entry(node,
                   scalar(attribute->GetKey(), below(attribute->GetKey()), reading.place,
-                         trimmed(attribute->GetAsString())),
-                  {});
+                         boost::trim_copy(attribute->GetAsString())),
+                  false);
     }
     for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
         add_entry(node, node_of(child, below(child->GetName()), true, reading),
-                  path.empty() ? reading.lists : std::vector<std::string>{});
+                  path.empty() && contains(reading.lists, child->GetName()));
     }
     if (!node.children.empty()) {
         if (!node.text.empty()) {
@@ -104,28 +89,18 @@ scenario::YamlNode node_of(const sdf::ElementPtr& element, const std::string& pa
     return node;
 }
 
-void override_from_environment(scenario::YamlNode& map, const std::string& key,
-                               const SdfReading& reading) {
-    std::string variable = "LIMPET_" + key;
-    std::transform(variable.begin(), variable.end(), variable.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+void override_from_environment(scenario::YamlNode& map, const std::string& key, bool is_list) {
+    const std::string variable = "LIMPET_" + boost::to_upper_copy(key);
     const char* const set = std::getenv(variable.c_str());
     if (set == nullptr || *set == '\0') {
         return;
     }
-    map.children.erase(
-        std::remove_if(map.children.begin(), map.children.end(),
-                       [&](const scenario::YamlNode& child) { return child.key == key; }),
-        map.children.end());
-    const bool is_list = contains(reading.lists, key);
-    std::string rest = set;
-    while (!rest.empty()) {
-        const std::size_t end = is_list ? rest.find(';') : std::string::npos;
-        const std::string text = trimmed(rest.substr(0, end));
+    std::erase_if(map.children, [&](const scenario::YamlNode& child) { return child.key == key; });
+    for (const std::string& text : is_list ? scenario::split_settings(set)
+                                           : std::vector{boost::trim_copy(std::string(set))}) {
         if (!text.empty()) {
-            add_entry(map, scalar(key, key, variable, text), reading.lists);
+            add_entry(map, scalar(key, key, variable, text), is_list);
         }
-        rest = end == std::string::npos ? std::string() : rest.substr(end + 1);
     }
 }
 
@@ -135,8 +110,8 @@ scenario::YamlNode sdf_tree(const sdf::ElementPtr& element, const SdfReading& re
     scenario::YamlNode root = node_of(element, "", false, reading);
     root.kind = scenario::YamlNode::Kind::map;
     root.key.clear();
-    for (const std::string& key : reading.from_environment) {
-        override_from_environment(root, key, reading);
+    for (const std::string_view key : reading.from_environment) {
+        override_from_environment(root, std::string(key), contains(reading.lists, key));
     }
     return root;
 }

@@ -18,11 +18,11 @@ namespace limpet::gazebo11 {
 
 /// How sdf_tree() takes an element.
 struct SdfReading {
-    std::string place;                    ///< in messages: "world perch: LimpetVehiclePlugin"
-    std::vector<std::string> lists = {};  ///< children that may stand more than once
+    std::string place;                         ///< in messages: "world perch: LimpetVehiclePlugin"
+    std::vector<std::string_view> lists = {};  ///< children that may stand more than once
     /// Children that the environment overrides: `speed` by LIMPET_SPEED. Those of `lists` are
     /// parted by ';'. An empty variable is none.
-    std::vector<std::string> from_environment = {};
+    std::vector<std::string_view> from_environment = {};
 };
 
 /// The children of an element, and theirs, as a map. An element with children or attributes is a

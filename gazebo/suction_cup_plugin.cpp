@@ -34,17 +34,12 @@ gazebo::physics::LinkPtr find_link(const gazebo::physics::Model& model, const st
                                  scenario::hint(name, {names.begin(), names.end()})));
 }
 
-WallGeometry wall_at(const Pose3d& X_WT) {
-    return {.p_WT_m = turn(X_WT.Pos()), .R_WT = turn(X_WT.Rot()).toRotationMatrix()};
-}
-
 Kinematics lip_kinematics(const gazebo::physics::Link& link, const Pose3d& X_LC) {
     const Pose3d X_WC = link.WorldPose() * X_LC;
-    const auto w_W_rad_s = link.WorldAngularVel();
     return {.p_WF_m = turn(X_WC.Pos()),
             .q_WF = turn(X_WC.Rot()),
             .v_WF_W_m_s = turn(link.WorldLinearVel(X_LC.Pos())),
-            .w_WF_F_rad_s = turn(X_WC.Rot().RotateVectorReverse(w_W_rad_s))};
+            .w_WF_F_rad_s = turn(X_WC.Rot().RotateVectorReverse(link.WorldAngularVel()))};
 }
 
 }  // namespace
@@ -58,8 +53,8 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     settings_ = suction_cup_settings(sdf_tree(sdf, {.place = place_, .lists = {"target"}}));
     model_ = model;
     link_ = find_link(*model, settings_.link, place_);
-    const std::string engine = model->GetWorld()->Physics()->GetType();
     if (settings_.attachment != Attachment::compliant) {
+        const std::string engine = model->GetWorld()->Physics()->GetType();
         if (engine != "ode") {
             throw InputError(
                 fmt::format("{}: attachment: a joint that is made as the world runs "
@@ -67,7 +62,7 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
                             place_, engine));
         }
         joint_ = std::make_unique<CupJoint>(model, link_, settings_.X_LC, settings_.attachment,
-                                            settings_.plugin.load_time_constant_s);
+                                            settings_.load_time_constant_s);
     }
     // A cup at rest on a wall must not fall asleep: it would hang there without pressure.
     for (const gazebo::physics::LinkPtr& link : model->GetLinks()) {
@@ -76,16 +71,16 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     topics_ = std::make_unique<SuctionCupTopics>(
         model->GetWorld(), model->GetName(),
         CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
-        settings_.cup.valve_fitted, settings_.plugin.publish_rate_Hz);
+        settings_.cup.valve_fitted, settings_.publish_rate_Hz);
     cup_.parameters = settings_.cup;
-    start();
+    Reset();
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
         [this](const gazebo::common::UpdateInfo& info) {
             load_or_end([this, &info] { update(info); });
         });
 }
 
-void SuctionCupPlugin::start() {
+void SuctionCupPlugin::Reset() {
     if (joint_) {
         joint_->release();
     }
@@ -93,10 +88,6 @@ void SuctionCupPlugin::start() {
     state_ = suction::CupState{};
     state_.random = RandomStream(settings_.seed, 0, Stream::seal);
     topics_->reset();
-}
-
-void SuctionCupPlugin::Reset() {
-    start();
 }
 
 void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
@@ -112,7 +103,7 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
         cup_.wall = WallGeometry{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
         return;
     }
-    cup_.wall = wall_at(*X_WT);
+    cup_.wall = {.p_WT_m = turn(X_WT->Pos()), .R_WT = turn(X_WT->Rot()).toRotationMatrix()};
 }
 
 void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
@@ -153,7 +144,7 @@ void SuctionCupPlugin::report(const suction::CupOutput& output) const {
     }
     gzmsg << fmt::format("limpet: {:.3f} s {}: {} {}: {}\n", output.event->time_s,
                          model_->GetName(), to_string(output.event->name),
-                         spot_ ? (spot_->of_world ? "the world" : spot_->collision) : "no wall",
+                         spot_ ? (spot_->of_world() ? "the world" : spot_->collision) : "no wall",
                          output.event->reason);
 }
 

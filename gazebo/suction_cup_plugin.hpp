@@ -72,7 +72,6 @@ public:
 
 private:
     void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);
-    void start();
     void update(const gazebo::common::UpdateInfo& info);
     void look_for_wall(const ignition::math::Pose3d& X_WC);
     void report(const suction::CupOutput& output) const;

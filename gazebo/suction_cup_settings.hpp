@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "limpet/core/parameters.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
 #include "limpet/suction/cup.hpp"
 
@@ -22,20 +21,12 @@ enum class Attachment {
 
 /// What a cup may hold.
 struct CupTarget {
-    std::string model;      ///< a static model; empty: `plane`
-    std::string collision;  ///< one of its collisions; empty: all
+    std::string model = {};      ///< a static model; empty: `plane`
+    std::string collision = {};  ///< one of its collisions; empty: all
     /// In Gazebo's world: a plane of the world itself that has no model, x into it.
     std::optional<ignition::math::Pose3d> plane = {};
     suction::Surface surface;
 };
-
-/// Numbers of the plugin itself.
-struct CupPluginParameters {
-    double publish_rate_Hz = 50.0;
-    double flatness_m = 0.004;
-    double load_time_constant_s = 0.005;
-};
-[[nodiscard]] const ParameterTable<CupPluginParameters>& cup_plugin_table();
 
 /// What LimpetSuctionCupPlugin's element says; its keys are described there.
 struct SuctionCupSettings {
@@ -45,10 +36,12 @@ struct SuctionCupSettings {
     suction::Surface surface;        ///< of what no target names
     std::vector<CupTarget> targets;  ///< none: every static model
     Attachment attachment = Attachment::compliant;
+    std::uint64_t seed = 1;
     bool pump_on = false;
     bool valve_open = false;
-    std::uint64_t seed = 1;
-    CupPluginParameters plugin;
+    double publish_rate_Hz = 50.0;
+    double flatness_m = 0.004;
+    double load_time_constant_s = 0.005;
 };
 
 /// @param tree  of the plugin's element (sdf_tree), with `target` a list

@@ -86,40 +86,42 @@ void SuctionCupTopics::publish(const CupStatus& status, double time_s) {
     }
 }
 
-void SuctionCupTopics::on_pump(const IntPtr& message) {
+bool SuctionCupTopics::turn(const std::string& what, bool on) {
+    if ((what != "pump" && what != "valve") || (what == "valve" && on && !valve_fitted_)) {
+        return false;
+    }
     const std::lock_guard lock(mutex_);
-    commands_.pump_on = message->data() != 0;
+    (what == "pump" ? commands_.pump_on : commands_.valve_open) = on;
+    return true;
+}
+
+void SuctionCupTopics::on_pump(const IntPtr& message) {
+    static_cast<void>(turn("pump", message->data() != 0));
 }
 
 void SuctionCupTopics::on_valve(const IntPtr& message) {
-    if (message->data() != 0 && !valve_fitted_) {
+    if (!turn("valve", message->data() != 0)) {
         gzwarn << "limpet: " << prefix_ << "valve: no valve is fitted (suction.valve_fitted)\n";
-        return;
     }
-    const std::lock_guard lock(mutex_);
-    commands_.valve_open = message->data() != 0;
 }
 
 bool SuctionCupTopics::answer(const gazebo::msgs::Request& request, const std::string& what,
                               gazebo::msgs::Response& response) {
-    const std::lock_guard lock(mutex_);
-    if (what == "pressure") {
-        const auto message = pressure_message(status_);
+    const auto tell = [&](const auto& message) {
         response.set_type(message.GetTypeName());
         return message.SerializeToString(response.mutable_serialized_data());
+    };
+    std::unique_lock lock(mutex_);
+    const CupStatus status = status_;
+    lock.unlock();
+    if (what == "pressure") {
+        return tell(pressure_message(status));
     }
     if (what == "state") {
-        const auto message = state_message(status_);
-        response.set_type(message.GetTypeName());
-        return message.SerializeToString(response.mutable_serialized_data());
+        return tell(state_message(status));
     }
     const std::optional<bool> wanted = switch_of(request.data());
-    if (!wanted || (what != "pump" && what != "valve") ||
-        (what == "valve" && *wanted && !valve_fitted_)) {
-        return false;
-    }
-    (what == "pump" ? commands_.pump_on : commands_.valve_open) = *wanted;
-    return true;
+    return wanted && turn(what, *wanted);
 }
 
 void SuctionCupTopics::on_request(const RequestPtr& request) {

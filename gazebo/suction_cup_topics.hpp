@@ -27,8 +27,6 @@ public:
                      const CupCommands& start, bool valve_fitted, double rate_Hz);
 
     ~SuctionCupTopics();
-    SuctionCupTopics(const SuctionCupTopics&) = delete;
-    SuctionCupTopics& operator=(const SuctionCupTopics&) = delete;
 
     [[nodiscard]] CupCommands commands() const;
     void command(const CupCommands& commands);
@@ -40,6 +38,9 @@ public:
 private:
     using IntPtr = boost::shared_ptr<const gazebo::msgs::Int>;
     using RequestPtr = boost::shared_ptr<const gazebo::msgs::Request>;
+    /// @param what  "pump" or "valve"
+    /// @return false for another one, and for a valve to be opened where none is fitted
+    [[nodiscard]] bool turn(const std::string& what, bool on);
     void on_pump(const IntPtr& message);
     void on_valve(const IntPtr& message);
     void on_request(const RequestPtr& request);

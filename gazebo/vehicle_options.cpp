@@ -8,6 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::gazebo11 {
@@ -16,71 +17,36 @@ namespace {
 constexpr double kSlowest = 0.01;
 constexpr double kFastest = 1000.0;
 
-double number(const scenario::YamlNode& section, const char* key, double minimum, double maximum,
-              double by_default) {
-    double value = by_default;
-    if (const scenario::YamlNode* node = section.find(key)) {
-        value = read_number(*node, {key, {}, minimum, maximum, &value, {}, {}});
-    }
-    return value;
-}
-
-std::string text(const scenario::YamlNode& section, const char* key,
-                 const std::string& by_default = {}) {
-    const scenario::YamlNode* node = section.find(key);
-    return node != nullptr ? read_text(*node) : by_default;
-}
-
-/// One of two words; the first by default.
-template <class Choice>
-Choice choose(const scenario::YamlNode& section, const char* key,
-              const std::pair<const char*, Choice>& usual,
-              const std::pair<const char*, Choice>& other) {
-    const scenario::YamlNode* node = section.find(key);
+/// Where the key is given.
+/// @param media  that serve
+/// @param forms  of those, for people
+void read_address(const scenario::YamlNode& section, std::string_view key,
+                  wire::TransportAddress& address, std::initializer_list<wire::Medium> media,
+                  const char* forms) {
+    const scenario::YamlNode* const node = section.find(key);
     if (node == nullptr) {
-        return usual.second;
-    }
-    const std::string word = read_text(*node);
-    if (word != usual.first && word != other.first) {
-        fail(*node, fmt::format("\"{}\", allowed {} or {}", scenario::shown(word), usual.first,
-                                other.first));
-    }
-    return word == usual.first ? usual.second : other.second;
-}
-
-/// @param media  that serve, with their forms for people
-wire::TransportAddress address(const scenario::YamlNode& section, const char* key,
-                               const wire::TransportAddress& usual,
-                               std::initializer_list<wire::Medium> media, const char* forms) {
-    const scenario::YamlNode* node = section.find(key);
-    if (node == nullptr) {
-        return usual;
+        return;
     }
     const std::string given = read_text(*node);
     try {
-        const wire::TransportAddress found = wire::parse_address(given);
-        if (std::find(media.begin(), media.end(), found.medium) != media.end()) {
-            return found;
-        }
+        address = wire::parse_address(given);
     } catch (const InputError& error) {
         fail(*node, error.what());
     }
-    fail(*node, fmt::format("\"{}\", allowed {}", scenario::shown(given), forms));
+    if (std::find(media.begin(), media.end(), address.medium) == media.end()) {
+        fail(*node, fmt::format("\"{}\", allowed {}", scenario::shown(given), forms));
+    }
 }
 
 /// A board on a serial wire has its own clock, which is real time.
-double speed_of(const scenario::YamlNode& section, const VehicleOptions& options) {
-    const bool board = options.autopilot == VehicleOptions::Autopilot::px4 && options.px4.serial();
-    const double speed = number(section, "speed", 0.0, kFastest, board ? 1.0 : options.speed);
-    const scenario::YamlNode* node = section.find("speed");
-    if (node != nullptr && board && speed != 1.0) {
-        fail(*node, fmt::format("{}, allowed 1 with a px4 on a serial wire", speed));
+void check_speed(const scenario::YamlNode& node, double speed, bool board) {
+    if (board && speed != 1.0) {
+        fail(node, fmt::format("{}, allowed 1 with a px4 on a serial wire", speed));
     }
-    if (node != nullptr && speed > 0.0 && speed < kSlowest) {
-        fail(*node, fmt::format("{} is out of range, allowed 0 (as fast as it goes) or {}..{}",
-                                speed, kSlowest, kFastest));
+    if (speed > 0.0 && speed < kSlowest) {
+        fail(node, fmt::format("{} is out of range, allowed 0 (as fast as it goes) or {}..{}",
+                               speed, kSlowest, kFastest));
     }
-    return speed;
 }
 
 scenario::Scenario scenario_of(const scenario::YamlNode& section) {
@@ -89,43 +55,42 @@ scenario::Scenario scenario_of(const scenario::YamlNode& section) {
         fail(section, "scenario is missing: a name (limpet list scenarios) or a YAML file");
     }
     scenario::LoadOptions options;
-    if (const scenario::YamlNode* set = section.find("set")) {
-        for (const scenario::YamlNode& item : set->children) {
-            options.overrides.push_back(read_text(item));
-        }
-    }
-    if (const scenario::YamlNode* seed = section.find("seed")) {
-        options.seed = read_count(*seed);
-    }
+    read_if_given(section, "set", scenario::read_settings, options.overrides);
+    read_if_given(section, "seed", scenario::read_count, options.seed);
     return load_scenario(read_text(*wanted), options);
 }
 
 }  // namespace
 
+std::vector<std::string_view> vehicle_elements() {
+    return {"scenario", "set",       "seed",   "autopilot", "hil",  "offboard",
+            "wait_s",   "recording", "result", "when_over", "speed"};
+}
+
 VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
-                                    const std::vector<std::string_view>& others) {
-    std::vector<std::string_view> keys = {"scenario", "set",       "seed",   "autopilot",
-                                          "hil",      "offboard",  "wait_s", "recording",
-                                          "result",   "when_over", "speed"};
-    keys.insert(keys.end(), others.begin(), others.end());
-    check_keys(parameters, keys);
+                                    const std::vector<std::string_view>& allowed) {
     using Autopilot = VehicleOptions::Autopilot;
     using WhenOver = VehicleOptions::WhenOver;
+    check_keys(parameters, allowed);
     VehicleOptions options;
-    options.scenario = scenario_of(parameters);
-    options.autopilot = choose<Autopilot>(parameters, "autopilot", {"builtin", Autopilot::builtin},
-                                          {"px4", Autopilot::px4});
     px4::Px4Addresses& px4 = options.px4;
-    px4.hil = address(parameters, "hil", px4.hil, {wire::Medium::tcp, wire::Medium::serial},
-                      "tcp:HOST:PORT or serial:DEVICE:BAUD");
-    px4.offboard =
-        address(parameters, "offboard", px4.offboard, {wire::Medium::udp}, "udp:HOST:PORT");
-    px4.wait_s = number(parameters, "wait_s", 0.1, 86400.0, px4.wait_s);
-    options.recording = text(parameters, "recording");
-    options.result = text(parameters, "result");
-    options.when_over = choose<WhenOver>(parameters, "when_over", {"pause", WhenOver::pause},
-                                         {"quit", WhenOver::quit});
-    options.speed = speed_of(parameters, options);
+    options.scenario = scenario_of(parameters);
+    read_word_if_given(parameters, "autopilot", options.autopilot,
+                       {{"builtin", Autopilot::builtin}, {"px4", Autopilot::px4}});
+    read_address(parameters, "hil", px4.hil, {wire::Medium::tcp, wire::Medium::serial},
+                 "tcp:HOST:PORT or serial:DEVICE:BAUD");
+    read_address(parameters, "offboard", px4.offboard, {wire::Medium::udp}, "udp:HOST:PORT");
+    read_if_given(parameters, "recording", scenario::read_text, options.recording);
+    read_if_given(parameters, "result", scenario::read_text, options.result);
+    read_word_if_given(parameters, "when_over", options.when_over,
+                       {{"pause", WhenOver::pause}, {"quit", WhenOver::quit}});
+    const bool board = options.autopilot == Autopilot::px4 && px4.serial();
+    options.speed = board ? 1.0 : 0.0;
+    read_given(parameters, {{"wait_s", "s", 0.1, 86400.0, &px4.wait_s, {}, {}},
+                            {"speed", "-", 0.0, kFastest, &options.speed, {}, {}}});
+    if (const scenario::YamlNode* speed = parameters.find("speed")) {
+        check_speed(*speed, options.speed, board);
+    }
     if (options.autopilot == Autopilot::px4 && options.scenario.mount != vehicle::Mount::free) {
         fail(parameters, options.scenario.name + " hangs on a mount; a PX4 is for what flies");
     }

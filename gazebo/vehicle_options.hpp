@@ -2,7 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
+#include <vector>
 
 #include "limpet/px4/wires.hpp"
 #include "limpet/scenario/scenario.hpp"
@@ -29,10 +30,13 @@ struct VehicleOptions {
     WhenOver when_over = WhenOver::pause;
 };
 
+/// Names of what read_vehicle_options() reads.
+[[nodiscard]] std::vector<std::string_view> vehicle_elements();
+
 /// @param parameters  of the plugin, see sdf_tree()
-/// @param others      keys that are read elsewhere
+/// @param allowed     vehicle_elements(), and those that are read elsewhere
 /// @throws InputError in one line
 [[nodiscard]] VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
-                                                  const std::vector<std::string_view>& others);
+                                                  const std::vector<std::string_view>& allowed);
 
 }  // namespace limpet::gazebo11

@@ -10,7 +10,6 @@
 #include <gazebo/transport/transport.hh>
 #include <utility>
 
-#include "gazebo/ode_messages.hpp"
 #include "gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
@@ -64,30 +63,21 @@ void VehiclePlugin::end_flight() noexcept {
     }
 }
 
-void VehiclePlugin::prepare(gazebo::physics::ModelPtr /*model*/,
-                            const scenario::YamlNode& /*parameters*/, HostedFlight& /*flight*/) {}
-
 void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
-    load_or_end([&] {
-        const std::string name = sdf->Get<std::string>("filename");
-        std::vector<std::string> keys = {"scenario",  "set",      "seed",     "autopilot",
-                                         "hil",       "offboard", "wait_s",   "speed",
-                                         "recording", "result",   "when_over"};
-        for (const std::string_view key : more_elements()) {
-            keys.emplace_back(key);
-        }
-        configure(model, sdf_tree(sdf, {.place = "model " + model->GetName() + ": " + name,
-                                        .lists = {"set"},
-                                        .from_environment = keys}));
-    });
+    load_or_end([&] { configure(std::move(model), sdf); });
 }
 
-void VehiclePlugin::configure(gazebo::physics::ModelPtr model,
-                              const scenario::YamlNode& parameters) {
-    options_ = read_vehicle_options(parameters, more_elements());
+void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf) {
+    std::vector<std::string_view> elements = vehicle_elements();
+    const std::vector<std::string_view> more = more_elements();
+    elements.insert(elements.end(), more.begin(), more.end());
+    const scenario::YamlNode parameters = sdf_tree(
+        sdf, {.place = "model " + model->GetName() + ": " + sdf->Get<std::string>("filename"),
+              .lists = {"set"},
+              .from_environment = elements});
+    options_ = read_vehicle_options(parameters, elements);
     world_ = model->GetWorld();
     world_->Physics()->SetRealTimeUpdateRate(0.0);
-    count_solver_complaints();
     HostedFlight flight;
     flight.scenario = options_.scenario;
     flight.recording = options_.recording;
@@ -96,7 +86,7 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model,
         say("          " + (obstacle.empty() ? "armed" : obstacle));
     };
     flight.watch.on_event = [](const Event& event) { say(simulation::event_line(event)); };
-    prepare(model, parameters, flight);
+    prepare(parameters, flight);
     if (options_.autopilot == VehicleOptions::Autopilot::px4) {
         const px4::Px4WireWatch watch{
             .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },

@@ -50,14 +50,13 @@ protected:
     /// Before the flight is made.
     /// @param parameters  all elements
     /// @param flight      may be given stations from outside and a watch
-    virtual void prepare(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters,
-                         HostedFlight& flight);
+    virtual void prepare(const scenario::YamlNode& /*parameters*/, HostedFlight& /*flight*/) {}
     /// Ends a flight that is under way, its recording whole. Whoever gives stations in prepare()
     /// calls it in its destructor: the flight goes on to the end of its tick and asks them.
     void end_flight() noexcept;
 
 private:
-    void configure(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters);
+    void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);
     void update();
     void end();
 

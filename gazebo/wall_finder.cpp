@@ -28,6 +28,10 @@ constexpr double kRim = 0.9;
 constexpr int kOwnParts = 16;
 constexpr double kPast_m = 1e-6;
 
+Vector3d x_of(const Pose3d& frame) {
+    return frame.Rot().RotateVector(Vector3d::UnitX);
+}
+
 /// x into the wall, z as near as may be to the lip's.
 Pose3d wall_frame(const Vector3d& origin_m, const Vector3d& into, const Quaterniond& lip) {
     const Vector3d up = lip.RotateVector(Vector3d::UnitZ);
@@ -40,13 +44,13 @@ Pose3d wall_frame(const Vector3d& origin_m, const Vector3d& into, const Quaterni
 }  // namespace
 
 std::optional<Pose3d> WallSpot::pose(const gazebo::physics::World& world) const {
-    if (of_world) {
+    if (of_world()) {
         return X_LT;
     }
     // A joint keeps a link that was deleted, but its world no longer has it.
     const gazebo::physics::ModelPtr there = world.ModelByName(model);
     const gazebo::physics::LinkPtr here = link.lock();
-    if (!there || !here || there->GetLink(link_name) != here) {
+    if (!there || !here || there->GetLink(here->GetName()) != here) {
         return std::nullopt;
     }
     return here->WorldPose() * X_LT;
@@ -58,27 +62,16 @@ WallFinder::WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& 
       world_(own->GetWorld()),
       ray_(boost::dynamic_pointer_cast<gazebo::physics::RayShape>(
           world_->Physics()->CreateShape("ray", gazebo::physics::CollisionPtr()))),
-      targets_(settings.targets),
-      surface_(settings.surface),
-      radius_m_(settings.cup.lip.radius_m),
-      flatness_m_(settings.plugin.flatness_m) {
+      settings_(settings) {
     if (!ray_) {
         throw InputError(place + ": the world's physics engine has no rays, allowed ode");
     }
-    for (const CupTarget& target : targets_) {
-        if (target.plane) {
-            continue;
-        }
-        const gazebo::physics::ModelPtr model = world_->ModelByName(target.model);
-        if (!model) {
-            throw InputError(fmt::format("{}: target: model \"{}\" is not in the world", place,
-                                         scenario::shown(target.model)));
-        }
-        if (!model->IsStatic()) {
-            throw InputError(
-                fmt::format("{}: target: model \"{}\" is not static, allowed static "
-                            "models",
-                            place, scenario::shown(target.model)));
+    for (const CupTarget& target : settings_.targets) {
+        const auto model = target.plane ? nullptr : world_->ModelByName(target.model);
+        if (!target.plane && !(model && model->IsStatic())) {
+            throw InputError(fmt::format("{}: target: model \"{}\" is not {}", place,
+                                         scenario::shown(target.model),
+                                         model ? "static, allowed static models" : "in the world"));
         }
     }
 }
@@ -91,30 +84,25 @@ std::optional<WallFinder::Hit> WallFinder::cast(const Vector3d& from_W_m, const 
         double distance_m = 0.0;
         std::string name;
         ray_->GetIntersection(distance_m, name);
-        if (name.empty() || begin_m + distance_m > beyond_m) {
-            return std::nullopt;
-        }
-        const gazebo::physics::CollisionPtr collision = collision_of(name);
+        begin_m += distance_m;
+        const auto collision = name.empty() || begin_m > beyond_m ? nullptr : collision_of(name);
         if (!collision) {
             return std::nullopt;
         }
         if (collision->GetParentModel() != own_) {
-            return Hit{begin_m + distance_m, collision};
+            return Hit{begin_m, collision};
         }
-        begin_m += distance_m + kPast_m;
+        begin_m += kPast_m;
     }
     return std::nullopt;
 }
 
 gazebo::physics::CollisionPtr WallFinder::collision_of(const std::string& name) const {
     boost::weak_ptr<gazebo::physics::Collision>& known = known_[name];
-    gazebo::physics::CollisionPtr collision = known.lock();
-    if (!collision) {
-        collision =
-            boost::dynamic_pointer_cast<gazebo::physics::Collision>(world_->EntityByName(name));
-        known = collision;
+    if (known.expired()) {
+        known = boost::dynamic_pointer_cast<gazebo::physics::Collision>(world_->EntityByName(name));
     }
-    return collision;
+    return known.lock();
 }
 
 const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision& collision) const {
@@ -122,10 +110,10 @@ const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision&
     if (!model->IsStatic()) {
         return nullptr;
     }
-    if (targets_.empty()) {
-        return &surface_;
+    if (settings_.targets.empty()) {
+        return &settings_.surface;
     }
-    for (const CupTarget& target : targets_) {
+    for (const CupTarget& target : settings_.targets) {
         if (!target.plane && target.model == model->GetScopedName() &&
             (target.collision.empty() || target.collision == collision.GetName())) {
             return &target.surface;
@@ -135,7 +123,8 @@ const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision&
 }
 
 std::optional<WallSpot> WallFinder::on_model(const Pose3d& X_WC) const {
-    const Vector3d axis = X_WC.Rot().RotateVector(Vector3d::UnitX);
+    const double radius_m = settings_.cup.lip.radius_m;
+    const Vector3d axis = x_of(X_WC);
     const auto centre = cast(X_WC.Pos(), axis, kReach_m);
     if (!centre) {
         return std::nullopt;
@@ -149,9 +138,9 @@ std::optional<WallSpot> WallFinder::on_model(const Pose3d& X_WC) const {
         const double angle = 2.0 * kPi * static_cast<double>(i) / 3.0;
         const Vector3d at =
             X_WC.Pos() + X_WC.Rot().RotateVector(Vector3d(0.0, std::cos(angle), std::sin(angle)) *
-                                                 (kRim * radius_m_));
+                                                 (kRim * radius_m));
         // A lip may stand at up to 60 deg to a wall: its far rim is further from it.
-        const auto hit = cast(at, axis, kReach_m + 2.0 * radius_m_);
+        const auto hit = cast(at, axis, kReach_m + 2.0 * radius_m);
         if (!hit || hit->collision != centre->collision) {
             return std::nullopt;
         }
@@ -160,27 +149,25 @@ std::optional<WallSpot> WallFinder::on_model(const Pose3d& X_WC) const {
     Vector3d into = (rim[1] - rim[0]).Cross(rim[2] - rim[0]).Normalized();
     into = into.Dot(axis) < 0.0 ? -into : into;
     const Vector3d spot = X_WC.Pos() + axis * centre->distance_m;
-    if (std::abs(into.Dot(spot - rim[0])) > flatness_m_) {
+    if (std::abs(into.Dot(spot - rim[0])) > settings_.flatness_m) {
         return std::nullopt;
     }
     const gazebo::physics::LinkPtr link = centre->collision->GetLink();
     return WallSpot{.link = link,
-                    .of_world = false,
                     .model = centre->collision->GetModel()->GetScopedName(),
-                    .link_name = link->GetName(),
                     .collision = centre->collision->GetScopedName(),
                     .X_LT = link->WorldPose().Inverse() * wall_frame(spot, into, X_WC.Rot()),
                     .surface = *surface};
 }
 
 std::optional<WallSpot> WallFinder::on_plane(const Pose3d& X_WC, double nearer_than_m) const {
-    const Vector3d axis = X_WC.Rot().RotateVector(Vector3d::UnitX);
+    const Vector3d axis = x_of(X_WC);
     std::optional<WallSpot> nearest;
-    for (const CupTarget& target : targets_) {
+    for (const CupTarget& target : settings_.targets) {
         if (!target.plane) {
             continue;
         }
-        const Vector3d into = target.plane->Rot().RotateVector(Vector3d::UnitX);
+        const Vector3d into = x_of(*target.plane);
         const double faces = into.Dot(axis);
         const double distance_m =
             faces > 0.1 ? into.Dot(target.plane->Pos() - X_WC.Pos()) / faces : kReach_m;
@@ -188,12 +175,7 @@ std::optional<WallSpot> WallFinder::on_plane(const Pose3d& X_WC, double nearer_t
             continue;
         }
         nearer_than_m = distance_m;
-        nearest = WallSpot{.link = {},
-                           .of_world = true,
-                           .model = {},
-                           .link_name = {},
-                           .collision = {},
-                           .X_LT = wall_frame(X_WC.Pos() + axis * distance_m, into, X_WC.Rot()),
+        nearest = WallSpot{.X_LT = wall_frame(X_WC.Pos() + axis * distance_m, into, X_WC.Rot()),
                            .surface = target.surface};
     }
     return nearest;
@@ -201,19 +183,16 @@ std::optional<WallSpot> WallFinder::on_plane(const Pose3d& X_WC, double nearer_t
 
 std::optional<WallSpot> WallFinder::find(const Pose3d& X_WC) const {
     const auto spot = on_model(X_WC);
-    double distance_m = kReach_m;
-    if (spot) {
-        distance_m = (*spot->pose(*world_)).Pos().Distance(X_WC.Pos());
-    }
-    const auto plane = on_plane(X_WC, distance_m);
+    const auto plane =
+        on_plane(X_WC, spot ? spot->pose(*world_)->Pos().Distance(X_WC.Pos()) : kReach_m);
     return plane ? plane : spot;
 }
 
 bool WallFinder::is_over(const WallSpot& spot, const Pose3d& X_WC) const {
-    if (spot.of_world) {
+    if (spot.of_world()) {
         return true;
     }
-    const auto hit = cast(X_WC.Pos(), X_WC.Rot().RotateVector(Vector3d::UnitX), kReach_m);
+    const auto hit = cast(X_WC.Pos(), x_of(X_WC), kReach_m);
     return hit && hit->collision->GetScopedName() == spot.collision;
 }
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "gazebo/suction_cup_settings.hpp"
 
@@ -16,13 +15,13 @@ namespace limpet::gazebo11 {
 /// the frame of the link that it is on, so that a static model that is put elsewhere takes it
 /// along.
 struct WallSpot {
-    boost::weak_ptr<gazebo::physics::Link> link;
-    bool of_world = false;         ///< a plane of the world itself: no link
-    std::string model, link_name;  ///< as their world knows them
-    std::string collision;         ///< scoped name; empty: of the world
-    ignition::math::Pose3d X_LT;   ///< in the link, or in the world
+    boost::weak_ptr<gazebo::physics::Link> link = {};
+    std::string model = {};       ///< as its world knows it; empty: a plane of the world itself
+    std::string collision = {};   ///< scoped name
+    ignition::math::Pose3d X_LT;  ///< in the link, or in the world
     suction::Surface surface;
 
+    [[nodiscard]] bool of_world() const { return model.empty(); }
     /// @return in the world; nothing when its model is no longer there
     [[nodiscard]] std::optional<ignition::math::Pose3d> pose(
         const gazebo::physics::World& world) const;
@@ -32,9 +31,9 @@ struct WallSpot {
 /// which give the plane. Rays begin behind the lip and pass through the cup's own model.
 class WallFinder {
 public:
-    /// @param targets  none: every static model, with `surface`
-    /// @param own    a model with a link
-    /// @param place  in messages
+    /// @param own       a model with a link
+    /// @param settings  targets, surface, radius, flatness; they outlive it
+    /// @param place     in messages
     /// @throws InputError when a target is not in the world or not static
     WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& settings,
                const std::string& place);
@@ -64,10 +63,7 @@ private:
     gazebo::physics::ModelPtr own_;  ///< the outermost that the lip is of
     gazebo::physics::WorldPtr world_;
     gazebo::physics::RayShapePtr ray_;
-    std::vector<CupTarget> targets_;
-    suction::Surface surface_;
-    double radius_m_;
-    double flatness_m_;
+    const SuctionCupSettings& settings_;
     mutable std::map<std::string, boost::weak_ptr<gazebo::physics::Collision>> known_;
 };
 

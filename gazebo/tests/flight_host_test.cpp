@@ -1,38 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "gazebo/flight_host.hpp"
-
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
 
-#include "gazebo/ode_messages.hpp"
+#include "hosted.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/worlds.hpp"
-#include "server.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
 
-class FlightHostTest : public ::testing::Test {
+class FlightHostTest : public HostedTest {
 protected:
-    FlightHostTest() { count_solver_complaints(); }
-
     void open(const std::string& name, const std::vector<std::string>& overrides = {}) {
-        flight.scenario = scenario::load_scenario(name, {.overrides = overrides});
-        models::GazeboWorld text = scenario::world_of(flight.scenario, name, {});
-        text.vehicles.front().plugin.reset();
-        server.emplace(write_world(flight.scenario.airframe, text));
-        world = server->world();
-        vehicle = world->ModelByName(flight.scenario.airframe.name);
-    }
-    void host_it() {
-        host = std::make_unique<FlightHost>(vehicle, flight);
-        on_update = gazebo::event::Events::ConnectWorldUpdateBegin(
-            [this](const gazebo::common::UpdateInfo&) { host->update(); });
+        HostedTest::open(scenario::load_scenario(name, {.overrides = overrides}));
     }
     /// @return nullptr when it is not over in time
     const simulation::FlightResult* fly_to_the_end() {
@@ -41,13 +23,6 @@ protected:
         }
         return host->result();
     }
-
-    std::optional<GazeboServer> server;
-    HostedFlight flight;
-    gazebo::physics::WorldPtr world;
-    gazebo::physics::ModelPtr vehicle;
-    std::unique_ptr<FlightHost> host;
-    gazebo::event::ConnectionPtr on_update;
 };
 
 TEST_F(FlightHostTest, PerchesAndTakesOff) {

@@ -3,13 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 
-#include "gazebo/gazebo_plant.hpp"
+#include "hosted.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/worlds.hpp"
-#include "server.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
@@ -23,11 +20,7 @@ protected:
         : scenario(scenario::load_scenario("perch_concrete", {.overrides = std::move(overrides)})) {
     }
 
-    void open() {
-        models::GazeboWorld text = scenario::world_of(scenario, scenario.name, {});
-        text.vehicles.front().plugin.reset();
-        open(write_world(scenario.airframe, text));
-    }
+    void open() { open(bare_world(scenario)); }
     void open(const std::string& sdf) {
         server.emplace(sdf);
         world = server->world();
@@ -38,24 +31,27 @@ protected:
         plant = model->make();
     }
 
-    /// As the loop does in each step: the slider's stops, and what `push` adds.
+    /// As the loop does in each step: the slider's stops, and what `pushes` adds.
     template <class Push>
-    void run(double duration_s, Push push, double step_s = 1e-3) {
+    void run(double duration_s, Push pushes, double step_s = 1e-3) {
         const int steps = static_cast<int>(std::lround(duration_s / step_s));
         for (int k = 0; k < steps; ++k) {
             const plant::SliderMotion motion = plant->slider();
             plant->apply_slider(
                 slider_force(scenario.airframe.slider, motion.position_m, motion.velocity_m_s)
                     .stop_N);
-            push();
+            pushes();
             plant->step({.step_s = step_s, .contacts = true});
         }
     }
+    /// On the origin of a body.
+    void push(plant::Body body, const Vector3& force_W_N,
+              const Vector3& moment_W_N_m = Vector3::Zero()) {
+        plant->apply(body, {.force_N = force_W_N, .moment_N_m = moment_W_N_m},
+                     plant->kinematics(body).p_WF_m);
+    }
     void carry() {
-        plant->apply(plant::Body::base,
-                     {.force_N = Vector3(0.0, 0.0, -scenario.airframe.mass_kg * kGravity_m_s2),
-                      .moment_N_m = Vector3::Zero()},
-                     plant->kinematics(plant::Body::base).p_WF_m);
+        push(plant::Body::base, {0.0, 0.0, -scenario.airframe.mass_kg * kGravity_m_s2});
     }
 
     scenario::Scenario scenario;
@@ -91,11 +87,7 @@ TEST_F(GazeboPlantTest, AForceAcceleratesTheWholeMass) {
     open();
     run(0.2, [this] {
         carry();
-        const double newton_per_m_s2 = scenario.airframe.mass_kg;
-        plant->apply(
-            plant::Body::base,
-            {.force_N = newton_per_m_s2 * Vector3(1.0, 2.0, -0.5), .moment_N_m = Vector3::Zero()},
-            plant->kinematics(plant::Body::base).p_WF_m);
+        push(plant::Body::base, scenario.airframe.mass_kg * Vector3(1.0, 2.0, -0.5));
     });
     const Vector3 v_W_m_s = plant->kinematics(plant::Body::base).v_WF_W_m_s;
     EXPECT_NEAR(v_W_m_s.x(), 0.2, 0.004);
@@ -108,11 +100,8 @@ TEST_F(GazeboPlantTest, AMomentTurnsTheWholeInertia) {
     const Vector3 inertia = scenario.airframe.inertia_kg_m2;
     run(0.1, [&] {
         carry();
-        const Kinematics base = plant->kinematics(plant::Body::base);
-        plant->apply(
-            plant::Body::base,
-            {.force_N = Vector3::Zero(), .moment_N_m = base.q_WF * Vector3(0.0, 0.0, inertia.z())},
-            base.p_WF_m);
+        const Quaternion q_WB = plant->kinematics(plant::Body::base).q_WF;
+        push(plant::Body::base, Vector3::Zero(), q_WB * Vector3(0.0, 0.0, inertia.z()));
     });
     // the cup hangs in soft hinges and comes along a little later
     EXPECT_NEAR(plant->kinematics(plant::Body::base).w_WF_F_rad_s.z(), 0.1, 0.002);
@@ -124,11 +113,8 @@ TEST_F(GazeboPlantTest, APushOnTheLipCompressesTheSliderAsTheSpringSays) {
     const vehicle::Airframe& airframe = scenario.airframe;
     run(0.3, [&] {
         carry();
-        const Kinematics cup = plant->kinematics(plant::Body::cup);
-        plant->apply(
-            plant::Body::cup,
-            {.force_N = cup.q_WF * Vector3(-kPush_N, 0.0, 0.0), .moment_N_m = Vector3::Zero()},
-            cup.p_WF_m);
+        const Quaternion q_WC = plant->kinematics(plant::Body::cup).q_WF;
+        push(plant::Body::cup, q_WC * Vector3(-kPush_N, 0.0, 0.0));
     });
     const double moving_kg = airframe.slider.mass_kg + airframe.cup.mass_kg;
     const double through_spring_N = kPush_N * (1.0 - moving_kg / airframe.mass_kg);
@@ -160,12 +146,7 @@ TEST_F(GazeboPlantTest, ARestoredStateGoesOnAsTheFirstTime) {
     run(0.05, [this] { carry(); });
     const plant::PlantState saved = plant->save();
     const auto go_on = [this] {
-        run(0.05, [this] {
-            plant->apply(
-                plant::Body::base,
-                {.force_N = Vector3(1.0, 0.0, -30.0), .moment_N_m = Vector3(0.1, 0.1, 0.1)},
-                plant->kinematics(plant::Body::base).p_WF_m);
-        });
+        run(0.05, [this] { push(plant::Body::base, {1.0, 0.0, -30.0}, {0.1, 0.1, 0.1}); });
         return plant->kinematics(plant::Body::base);
     };
     const Kinematics first = go_on();
@@ -193,31 +174,29 @@ TEST_F(GazeboPlantTest, RaysFindTheWallBeyondTheVehicleItself) {
 
 TEST_F(GazeboPlantTest, TheWorldsClockFollowsChangingSteps) {
     open();
-    run(
-        0.1, [this] { carry(); }, 1e-3);
-    run(
-        0.05, [this] { carry(); }, 2.5e-4);
-    run(
-        0.05, [this] { carry(); }, 1e-3);
+    const auto carried = [this] { carry(); };
+    run(0.1, carried, 1e-3);
+    run(0.05, carried, 2.5e-4);
+    run(0.05, carried, 1e-3);
     EXPECT_NEAR(world->SimTime().Double(), 0.2, 1e-9);
 }
 
 /// What is refused, with a part of the line that says why.
 class WorldsThatDiffer : public GazeboPlantTest {
 protected:
-    void expect_refused(const std::string& from, const std::string& to, const std::string& why) {
-        models::GazeboWorld text = scenario::world_of(scenario, scenario.name, {});
-        text.vehicles.front().plugin.reset();
-        std::string sdf = write_world(scenario.airframe, text);
-        const std::size_t at = sdf.find(from);
-        ASSERT_NE(at, std::string::npos) << from;
-        sdf.replace(at, from.size(), to);
+    void expect_refused(const std::string& sdf, const std::string& why) {
         try {
             open(sdf);
             FAIL() << "not refused";
         } catch (const InputError& error) {
             EXPECT_THAT(error.what(), HasSubstr(why));
         }
+    }
+    void expect_refused(const std::string& from, const std::string& to, const std::string& why) {
+        std::string sdf = bare_world(scenario);
+        const std::size_t at = sdf.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        expect_refused(sdf.replace(at, from.size(), to), why);
     }
 };
 
@@ -234,17 +213,9 @@ TEST_F(WorldsThatDiffer, InTheEngineAreRefused) {
 }
 
 TEST_F(WorldsThatDiffer, InTheWallsPlaceAreRefused) {
+    const std::string sdf = bare_world(scenario);
     scenario.wall.geometry.p_WT_m.x() += 0.01;
-    models::GazeboWorld text =
-        scenario::world_of(scenario::load_scenario("perch_concrete"), scenario.name, {});
-    text.vehicles.front().plugin.reset();
-    try {
-        open(write_world(scenario.airframe, text));
-        FAIL() << "not refused";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(),
-                    HasSubstr("the wall of the world is not where the scenario's is"));
-    }
+    expect_refused(sdf, "the wall of the world is not where the scenario's is");
 }
 
 TEST_F(WorldsThatDiffer, InMassAreRefused) {

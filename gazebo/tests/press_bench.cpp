@@ -37,26 +37,21 @@ std::string bench_world(const std::string& gravity, const std::string& more,
            in_body + "</model>" + more + "</world></sdf>";
 }
 
-namespace {
-
-sdf::ElementPtr cup_element(const std::string& inside) {
+sdf::ElementPtr plugin_element(const std::string& inside) {
     sdf::SDFPtr text(new sdf::SDF());
     sdf::init(text);
     sdf::readString(
-        "<sdf version='1.6'><model name='m'><link name='l'/><plugin name='cup' "
-        "filename='libLimpetSuctionCupPlugin.so'><link>hull</link>"
-        "<lip_pose>0.06 0 0 0 0 0</lip_pose>" +
+        "<sdf version='1.6'><model name='m'><link name='l'/><plugin name='p' filename='f'>" +
             inside + "</plugin></model></sdf>",
         text);
+    // The copy outlives the document.
     return text->Root()->GetElement("model")->GetElement("plugin")->Clone();
 }
-
-}  // namespace
 
 PressBench::PressBench(const std::string& plugin, const std::string& gravity,
                        const std::string& more)
     : server(bench_world(gravity, more)), body(server.world()->ModelByName("body")) {
-    cup.Load(body, cup_element(plugin));
+    cup.Load(body, plugin_element("<link>hull</link><lip_pose>0.06 0 0 0 0 0</lip_pose>" + plugin));
     on_update =
         gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) {
             const double speed_m_s = body->WorldLinearVel().X();

@@ -21,6 +21,14 @@ struct PressBench {
     void run(unsigned int steps) { server.run(steps); }
     /// Steps until it is so. @return steps; -1: not within `limit`
     int run_until(const std::function<bool()>& is_so, int limit);
+    int run_until(CupPhase wanted, int limit = 3000) {
+        return run_until([&] { return phase() == wanted; }, limit);
+    }
+    /// Pushed with `hard_N` it comes to hold.
+    [[nodiscard]] bool attaches(double hard_N = 40.0) {
+        push_N.X(hard_N);
+        return run_until(CupPhase::attached) >= 0;
+    }
     [[nodiscard]] CupPhase phase() const { return cup.status().phase; }
     [[nodiscard]] double pressure_Pa() const { return cup.status().pressure_Pa; }
 
@@ -40,6 +48,9 @@ inline constexpr double kBehind_m = 0.02;
 inline constexpr double kInertia_kg_m2 = 0.004;
 /// The hand's damping along x: 40 N come with 0.2 m/s, and nothing bounces.
 inline constexpr double kHand_N_s_m = 200.0;
+
+/// The <plugin> element of a model, as gzserver hands it to a plugin.
+[[nodiscard]] sdf::ElementPtr plugin_element(const std::string& inside);
 
 /// Walls, bodies and settings as text.
 [[nodiscard]] std::string box_model(const std::string& name, const std::string& pose,

@@ -5,32 +5,19 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <sdf/sdf.hh>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "press_bench.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// The <plugin> element of a model, as gzserver hands it to a plugin.
-sdf::ElementPtr plugin(const std::string& inside) {
-    sdf::SDFPtr text(new sdf::SDF());
-    sdf::init(text);
-    EXPECT_TRUE(
-        sdf::readString("<sdf version='1.6'><model name='m'><link name='l'/><plugin name='p' "
-                        "filename='f'>" +
-                            inside + "</plugin></model></sdf>",
-                        text));
-    // The copy outlives the document.
-    return text->Root()->GetElement("model")->GetElement("plugin")->Clone();
-}
-
 std::string refusal_of(const std::string& inside, const SdfReading& reading) {
     try {
-        static_cast<void>(sdf_tree(plugin(inside), reading));
+        static_cast<void>(sdf_tree(plugin_element(inside), reading));
     } catch (const InputError& error) {
         return error.what();
     }
@@ -38,10 +25,10 @@ std::string refusal_of(const std::string& inside, const SdfReading& reading) {
 }
 
 TEST(SdfReader, TextSectionsAndAttributesBecomeOneTree) {
-    const scenario::YamlNode tree =
-        sdf_tree(plugin("<scenario> hover </scenario><suction><radius_m>0.03</radius_m></suction>"
-                        "<target model='wall' surface='metal'/><empty/>"),
-                 {.place = "m: P"});
+    const scenario::YamlNode tree = sdf_tree(
+        plugin_element("<scenario> hover </scenario><suction><radius_m>0.03</radius_m></suction>"
+                       "<target model='wall' surface='metal'/><empty/>"),
+        {.place = "m: P"});
     ASSERT_NE(tree.find("scenario"), nullptr);
     EXPECT_EQ(read_text(*tree.find("scenario")), "hover");
     ASSERT_NE(tree.find("suction"), nullptr);
@@ -55,9 +42,9 @@ TEST(SdfReader, TextSectionsAndAttributesBecomeOneTree) {
 
 TEST(SdfReader, ListsGatherWhatStandsMoreThanOnce) {
     const SdfReading reading{.place = "m: P", .lists = {"set"}};
-    EXPECT_EQ(sdf_tree(plugin("<set>a=1</set>"), reading).find("set")->children.size(), 1U);
+    EXPECT_EQ(sdf_tree(plugin_element("<set>a=1</set>"), reading).find("set")->children.size(), 1U);
     const scenario::YamlNode tree =
-        sdf_tree(plugin("<set>a=1</set><speed>1</speed><set>b=2</set>"), reading);
+        sdf_tree(plugin_element("<set>a=1</set><speed>1</speed><set>b=2</set>"), reading);
     ASSERT_EQ(tree.find("set")->children.size(), 2U);
     EXPECT_EQ(tree.find("set")->children[1].text, "b=2");
     EXPECT_EQ(tree.find("set")->children[1].path, "set[1]");
@@ -75,7 +62,7 @@ TEST(SdfReader, TheEnvironmentOverridesWhatIsNamed) {
     ::setenv("LIMPET_SET", "a=1; b=2;", 1);
     ::setenv("LIMPET_SEED", "", 1);
     const scenario::YamlNode tree =
-        sdf_tree(plugin("<speed>1</speed><set>c=3</set><seed>4</seed><other/>"),
+        sdf_tree(plugin_element("<speed>1</speed><set>c=3</set><seed>4</seed><other/>"),
                  {.place = "m: P", .lists = {"set"}, .from_environment = {"speed", "set", "seed"}});
     EXPECT_EQ(tree.find("speed")->text, "0.5");
     EXPECT_EQ(tree.find("speed")->place, "LIMPET_SPEED");

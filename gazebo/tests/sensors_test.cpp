@@ -6,16 +6,12 @@
 #include <cmath>
 #include <gazebo/sensors/sensors.hh>
 #include <limits>
-#include <optional>
 #include <vector>
 
-#include "gazebo/flight_host.hpp"
 #include "gazebo/frames.hpp"
-#include "gazebo/ode_messages.hpp"
+#include "hosted.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/worlds.hpp"
-#include "server.hpp"
 
 /// Gazebo's own sensors against the truth that ours read, in one flight at real time: hover,
 /// approach, impact, landing, the first seconds of rest.
@@ -40,24 +36,10 @@ struct Was {
     Truth truth;
 };
 
-/// Differences of a sensor.
-struct Off {
-    double rms = 0.0;
-    double largest = 0.0;
-    double rate_Hz = 0.0;
-    std::size_t count = 0;
-};
-
-class GazeboSensorsTest : public ::testing::Test {
+class GazeboSensorsTest : public HostedTest {
 protected:
     GazeboSensorsTest() {
-        flight.scenario = scenario::load_scenario("perch_concrete", {});
-        models::GazeboWorld text = scenario::world_of(flight.scenario, "perch_concrete", {});
-        text.vehicles.front().plugin.reset();
-        text.sensors = scenario::gazebo_sensors(flight.scenario.sensors);
-        server.emplace(write_world(flight.scenario.airframe, text));
-        world = server->world();
-        vehicle = world->ModelByName(flight.scenario.airframe.name);
+        open(scenario::load_scenario("perch_concrete"), true);
         gazebo::sensors::run_once(true);
         gazebo::sensors::run_threads();
         left = find<gazebo::sensors::RaySensor>("lidar_left");
@@ -74,12 +56,9 @@ protected:
 
     template <class Sensor>
     static std::shared_ptr<Sensor> find(const std::string& name) {
-        for (const auto& sensor : gazebo::sensors::SensorManager::Instance()->GetSensors()) {
-            if (sensor->Name() == name) {
-                return std::dynamic_pointer_cast<Sensor>(sensor);
-            }
-        }
-        throw InternalError("no sensor " + name);
+        const auto sensor = std::dynamic_pointer_cast<Sensor>(gazebo::sensors::get_sensor(name));
+        require(sensor != nullptr, "the vehicle has Gazebo's own sensors");
+        return sensor;
     }
 
     void fly() {
@@ -90,10 +69,7 @@ protected:
             was.push_back({now_s, flown.state().truth});
             listen();
         };
-        count_solver_complaints();
-        host = std::make_unique<FlightHost>(vehicle, flight);
-        on_update = gazebo::event::Events::ConnectWorldUpdateBegin(
-            [this](const gazebo::common::UpdateInfo&) { host->update(); });
+        host_it();
         while (now_s < kFlight_s) {
             gazebo::runWorld(world, 100);
         }
@@ -162,55 +138,42 @@ protected:
         return into_W.dot(wall.p_WT_m - origin_W_m) / into_W.dot(along_W);
     }
 
+    /// Sensors run in threads of their own, and machines may be busy: few readings are no fault of
+    /// theirs, too few are no comparison.
     /// @param difference  of a reading, given the one before, from the truth; NaN: not compared
+    /// @param rms,largest  what it must stay below
     template <class Difference>
-    static Off off(const std::vector<Said>& said, Difference difference) {
-        Off sum;
+    static void compare(const char* what, const char* unit, const std::vector<Said>& said,
+                        double rms, double largest, Difference difference) {
         double squares = 0.0;
+        double most = 0.0;
+        std::size_t count = 0;
         for (std::size_t i = 1; i < said.size(); ++i) {
             const double d = difference(said[i - 1], said[i]);
             if (!std::isnan(d)) {
                 squares += d * d;
-                sum.largest = std::max(sum.largest, std::abs(d));
-                ++sum.count;
+                most = std::max(most, std::abs(d));
+                ++count;
             }
         }
-        sum.rms = std::sqrt(squares / std::max<double>(1.0, static_cast<double>(sum.count)));
-        sum.rate_Hz = said.size() < 2 ? 0.0
-                                      : static_cast<double>(said.size() - 1) /
-                                            (said.back().time_s - said.front().time_s);
-        return sum;
-    }
-    /// Sensors run in threads of their own, and machines may be busy: few readings are no fault of
-    /// theirs, too few are no comparison.
-    static void expect_within(const Off& off, double rms, double largest) {
-        EXPECT_GT(off.count, 200u);
-        EXPECT_LT(off.rms, rms);
-        EXPECT_LT(off.largest, largest);
-    }
-    static void print(const char* what, const Off& off, const char* unit) {
+        ASSERT_GT(count, 200u) << what;
+        const double root = std::sqrt(squares / static_cast<double>(count));
+        const double rate_Hz =
+            static_cast<double>(said.size() - 1) / (said.back().time_s - said.front().time_s);
         fmt::print("{:<28} {:5.1f} Hz  {:5d} readings  RMS {:8.4f}  largest {:8.4f} {}\n", what,
-                   off.rate_Hz, off.count, off.rms, off.largest, unit);
+                   rate_Hz, count, root, most, unit);
+        EXPECT_LT(root, rms) << what;
+        EXPECT_LT(most, largest) << what;
     }
 
-    std::optional<GazeboServer> server;
-    HostedFlight flight;
-    gazebo::physics::WorldPtr world;
-    gazebo::physics::ModelPtr vehicle;
-    std::unique_ptr<FlightHost> host;
-    gazebo::event::ConnectionPtr on_update;
     double now_s = 0.0;
 
-    std::shared_ptr<gazebo::sensors::RaySensor> left;
-    std::shared_ptr<gazebo::sensors::RaySensor> right;
+    std::shared_ptr<gazebo::sensors::RaySensor> left, right;
     std::shared_ptr<gazebo::sensors::ImuSensor> imu;
     std::shared_ptr<gazebo::sensors::ForceTorqueSensor> force;
     std::vector<std::shared_ptr<gazebo::sensors::ContactSensor>> contacts;
     std::vector<Was> was;
-    std::vector<Said> said_left;
-    std::vector<Said> said_right;
-    std::vector<Said> said_imu;
-    std::vector<Said> said_force;
+    std::vector<Said> said_left, said_right, said_imu, said_force;
     std::vector<Vector3> legs_W_N;
 };
 
@@ -228,17 +191,12 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
             return level ? said.value.x() - range_m(*truth, side) : kNone;
         };
     };
-    const Off off_left = off(said_left, range_off(-1.0));
-    const Off off_right = off(said_right, range_off(1.0));
-    print("LiDAR left", off_left, "m");
-    print("LiDAR right", off_right, "m");
-
-    const auto gyro = [this](const Said&, const Said& said) {
+    compare("LiDAR left", "m", said_left, 0.005, 0.03, range_off(-1.0));
+    compare("LiDAR right", "m", said_right, 0.005, 0.03, range_off(1.0));
+    compare("IMU rates", "rad/s", said_imu, 0.01, 0.2, [this](const Said&, const Said& said) {
         const Truth* truth = truth_at(said.time_s);
         return truth != nullptr ? (said.second - truth->base.w_WF_F_rad_s).norm() : kNone;
-    };
-    const Off off_rate = off(said_imu, gyro);
-    print("IMU rates", off_rate, "rad/s");
+    });
 
     // The mean specific force between two readings, from the speeds; off the wall.
     const auto accelerometer = [this](const Said& before, const Said& said) {
@@ -252,8 +210,7 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
             (b->base.v_WF_W_m_s - a->base.v_WF_W_m_s) / (said.time_s - before.time_s) - gravity_W;
         return (said.value - b->base.q_WF.conjugate() * force_W).norm();
     };
-    const Off off_force = off(said_imu, accelerometer);
-    print("IMU specific force", off_force, "m/s^2");
+    compare("IMU specific force", "m/s^2", said_imu, 0.02, 0.2, accelerometer);
 
     // Gazebo's sensor tells what is put on the joint from outside, the stops here, and not the
     // joint's own spring and damper; ours tells their sum.
@@ -268,13 +225,8 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
                                 parameters.damping_N_s_m * truth->slider.velocity_m_s;
         return said.value.x() - spring_N - truth->slider.force_N;
     };
-    const Off off_slider = off(said_force, slider);
-    print("force through the slider", off_slider, "N");
-    expect_within(off_left, 0.005, 0.03);
-    expect_within(off_right, 0.005, 0.03);
-    expect_within(off_rate, 0.01, 0.2);
-    expect_within(off_force, 0.02, 0.2);
-    expect_within(off_slider, 0.5, 20.0);  // largest at the impact, whose edge is a step wide
+    // Largest at the impact, whose edge is a step wide.
+    compare("force through the slider", "N", said_force, 0.5, 20.0, slider);
 
     Vector3 heard_N = Vector3::Zero();
     for (const Vector3& legs_N : legs_W_N) {

@@ -11,15 +11,12 @@
 
 namespace limpet::gazebo11 {
 
-Ended serve(const std::string& library, const std::string& inside, const std::string& more_models,
-            const std::string& limit_s) {
+Ended serve(const std::string& library, const std::string& inside, const std::string& limit_s) {
     const TemporaryWorld world(
-        bench_world("0 0 0", more_models,
+        bench_world("0 0 0", box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false),
                     "<plugin name='it' filename='" + library + "'>" + inside + "</plugin>"));
-    ::setenv("GAZEBO_MASTER_URI", ("http://127.0.0.1:" + std::to_string(free_port())).c_str(), 1);
-    ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
+    set_environment();
     ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
-    ::setenv("ALSOFT_DRIVERS", "null", 1);
     const std::string command =
         "timeout -s KILL " + limit_s + " gzserver " + world.path() + " 2>&1";
     Ended ended;
@@ -35,6 +32,17 @@ Ended serve(const std::string& library, const std::string& inside, const std::st
 
 void PrintTo(const Refused& refused, std::ostream* out) {
     *out << refused.name;
+}
+
+Refused cup(const std::string& name, const std::string& inside, const std::string& line) {
+    return {name, kCup, "<link>hull</link>" + inside,
+            "model body: LimpetSuctionCupPlugin: " + line};
+}
+
+Refused vehicle(const std::string& name, const std::string& inside, const std::string& line,
+                const char* library) {
+    return {name, library, "<scenario>hover</scenario>" + inside,
+            std::string("model body: ") + library + ": " + line};
 }
 
 }  // namespace limpet::gazebo11

@@ -1,32 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server.hpp"
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
+#include <boost/asio/io_service.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 namespace limpet::gazebo11 {
 
+namespace {
+
+/// On which nobody of this machine listened a moment ago.
 int free_port() {
-    const int end = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    const bool bound =
-        ::bind(end, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-        ::getsockname(end, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-    ::close(end);
-    if (!bound) {
-        throw std::runtime_error("no free port");
-    }
-    return ntohs(address.sin_port);
+    namespace asio = boost::asio;
+    asio::io_service service;
+    const asio::ip::tcp::endpoint any(asio::ip::address_v4::loopback(), 0);
+    return asio::ip::tcp::acceptor(service, any).local_endpoint().port();
 }
+
+}  // namespace
 
 double resident_B() {
     std::ifstream file("/proc/self/statm");
@@ -36,26 +31,26 @@ double resident_B() {
     return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-TemporaryWorld::TemporaryWorld(const std::string& text) {
-    std::string folder = (std::filesystem::temp_directory_path() / "limpet_world_XXXXXX").string();
-    if (::mkdtemp(folder.data()) == nullptr) {
-        throw std::runtime_error("no temporary folder");
-    }
-    folder_ = folder;
-    path_ = folder_ + "/bench.world";
+TemporaryWorld::TemporaryWorld(const std::string& text)
+    : path_(std::filesystem::temp_directory_path() /
+            ("limpet_" + std::to_string(::getpid()) + ".world")) {
     std::ofstream(path_) << text;
 }
 
 TemporaryWorld::~TemporaryWorld() {
-    std::filesystem::remove_all(folder_);
+    std::filesystem::remove(path_);
 }
 
-GazeboServer::GazeboServer(const std::string& world_sdf) {
+void set_environment() {
     const std::string master = "http://127.0.0.1:" + std::to_string(free_port());
     ::setenv("GAZEBO_MASTER_URI", master.c_str(), 1);
     ::setenv("GAZEBO_IP", "127.0.0.1", 1);
     ::setenv("GAZEBO_MODEL_DATABASE_URI", "", 1);
     ::setenv("ALSOFT_DRIVERS", "null", 1);  // it has no sound, and need not say so
+}
+
+GazeboServer::GazeboServer(const std::string& world_sdf) {
+    set_environment();
     if (!gazebo::setupServer()) {
         throw std::runtime_error("gzserver does not start");
     }

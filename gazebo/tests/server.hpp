@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <gazebo/gazebo.hh>
 #include <gazebo/physics/physics.hh>
 #include <string>
@@ -11,7 +12,6 @@ namespace limpet::gazebo11 {
 /// process; CTest runs each test in a process of its own.
 class GazeboServer {
 public:
-    /// Takes a free port for its master.
     explicit GazeboServer(const std::string& world_sdf);
     ~GazeboServer();
     GazeboServer(const GazeboServer&) = delete;
@@ -24,21 +24,22 @@ private:
     gazebo::physics::WorldPtr world_;
 };
 
-/// A file in a folder of its own, gone with the object.
+/// A file of this process, gone with the object; one at a time.
 class TemporaryWorld {
 public:
     explicit TemporaryWorld(const std::string& text);
     ~TemporaryWorld();
     TemporaryWorld(const TemporaryWorld&) = delete;
     TemporaryWorld& operator=(const TemporaryWorld&) = delete;
-    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::string path() const { return path_.string(); }
 
 private:
-    std::string folder_, path_;
+    std::filesystem::path path_;
 };
 
-/// @return a TCP port of loopback on which nobody listened a moment ago
-[[nodiscard]] int free_port();
+/// A server that this process starts has a port of its own, asks for no models elsewhere, and is
+/// silent.
+void set_environment();
 
 /// Physical memory of this process [B].
 [[nodiscard]] double resident_B();

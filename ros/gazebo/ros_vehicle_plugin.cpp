@@ -7,8 +7,8 @@
 #include "gazebo/vehicle_plugin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
-#include "ros/src/node_parameters.hpp"
 #include "ros/src/ros_vehicle.hpp"
+#include "ros/src/setup.hpp"
 
 namespace limpet::ros {
 
@@ -34,57 +34,25 @@ protected:
                 "time_limit_s"};
     }
 
-    void prepare(gazebo::physics::ModelPtr model, const scenario::YamlNode& parameters,
-                 gazebo11::HostedFlight& flight) override {
-        (void)model;
-        ros::RosVehicleOptions options;
-        const auto flag = [&parameters](const char* key, bool& value) {
-            if (const scenario::YamlNode* node = parameters.find(key)) {
-                value = read_flag(*node);
-            }
-        };
-        flag("cup_by_node", options.cup_by_node);
-        flag("ends_with_mission", options.ends_with_mission);
-        for (const BoundParameter& row : bind(ros::offboard_manners_table(), options.manners)) {
-            if (const scenario::YamlNode* node = parameters.find(row.name)) {
-                row.value.set(read_number(*node, row));
-            }
-        }
+    void prepare(const scenario::YamlNode& parameters, gazebo11::HostedFlight& flight) override {
+        RosVehicleOptions options;
+        read_given(parameters, options.rows());
         auto limits = bind(scenario::simulation_table(), flight.scenario.simulation);
-        for (const BoundParameter& row : limits) {
-            const scenario::YamlNode* node =
-                row.name == "time_limit_s" ? parameters.find(row.name) : nullptr;
-            if (node != nullptr) {
-                row.value.set(read_number(*node, row));
-            }
-        }
+        std::erase_if(limits, [](const auto& row) { return row.name != "time_limit_s"; });
+        read_given(parameters, limits);
         if (const scenario::YamlNode* node = parameters.find("autopilot");
             node != nullptr && read_text(*node) != "builtin") {
             fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
         }
         join_ros();
-        ros::tell_flight(told(parameters));
-        vehicle_ = std::make_unique<ros::RosVehicle>(flight.scenario, options);
+        tell_flight(read_arguments(parameters));
+        vehicle_ = std::make_unique<RosVehicle>(flight.scenario, options);
         const simulation::Outside outside = vehicle_->outside();
         flight.conduct.outside.guidance = outside.guidance;
         flight.conduct.outside.cup = outside.cup;
     }
 
 private:
-    [[nodiscard]] static ros::SetupArguments told(const scenario::YamlNode& parameters) {
-        ros::SetupArguments flight;
-        flight.scenario = read_text(*parameters.find("scenario"));
-        if (const scenario::YamlNode* set = parameters.find("set")) {
-            for (const scenario::YamlNode& item : set->children) {
-                flight.set.push_back(read_text(item));
-            }
-        }
-        if (const scenario::YamlNode* seed = parameters.find("seed")) {
-            flight.seed = read_count(*seed);
-        }
-        return flight;
-    }
-
     static void join_ros() {
         if (!::ros::isInitialized()) {
             int argc = 0;
@@ -97,7 +65,7 @@ private:
         }
     }
 
-    std::unique_ptr<ros::RosVehicle> vehicle_;
+    std::unique_ptr<RosVehicle> vehicle_;
 };
 
 GZ_REGISTER_MODEL_PLUGIN(RosVehiclePlugin)

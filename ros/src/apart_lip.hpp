@@ -6,28 +6,9 @@
 
 #include "limpet/core/time.hpp"
 #include "limpet/suction/cup.hpp"
+#include "ros/src/convert.hpp"
 
 namespace limpet::ros {
-
-/// What the simulator tells of the lip, once a tick at most.
-struct LipReport {
-    std::uint32_t number = 0;
-    std::uint32_t touch = 0;
-    double time_s = 0.0;
-    double press_N = 0.0;  ///< the largest since the last report, of those while the lip lies still
-    suction::LipContact contact;  ///< of that instant
-};
-
-/// What it is told of seal and pressure.
-struct LipAnswer {
-    std::uint32_t contact = 0;  ///< number of the report that is answered
-    CupPhase phase = CupPhase::free;
-    double pressure_Pa = kAtmosphere_Pa;
-    double mean_pressure_Pa = kAtmosphere_Pa;
-    double seal_threshold_N = 0.0;
-    bool pump_running = false;
-    bool valve_open = false;
-};
 
 /// The half of the cup that is at the wall (SuctionCup is the other): forces at each step of
 /// physics with the pressure told last. A lip that cannot hold opens at once; from then on only
@@ -38,23 +19,27 @@ public:
     [[nodiscard]] suction::CupOutput step(const suction::CupModel& model, suction::CupState& state,
                                           const suction::Surface& surface, const Kinematics& cup,
                                           const suction::CupInput& input);
-    /// @return the report of the ticks that are over, when one is due
-    [[nodiscard]] std::optional<LipReport> take_report();
-    /// An answer to a report that was never made is none.
-    void hear(const LipAnswer& answer);
+    /// What the simulator tells of the lip, once a tick at most.
+    /// @return the report of the ticks that are over, when one is due; stamped in flight time. Its
+    ///         press force is the largest since the last one, of those while the lip lies still,
+    ///         the rest is of that instant
+    [[nodiscard]] std::optional<limpet_ros::CupContact> take_report();
+    /// What it is told of seal and pressure. An answer to a report that was never made is none.
+    /// @param answer  sound, see phase_from()
+    void hear(const limpet_ros::CupState& answer);
 
 private:
-    void collect(const suction::LipContact& contact, double press_N, CupPhase phase, double time_s);
+    void collect(const limpet_ros::CupContact& now, CupPhase phase, double time_s);
     [[nodiscard]] std::optional<Event> obey(suction::CupState& state, double time_s);
 
-    LipAnswer answer_;
+    limpet_ros::CupState answer_ = cup_message({});
     std::uint32_t next_ = 1;     ///< number of the next report
     std::uint32_t barrier_ = 0;  ///< answers to older reports do not know that the seal has opened
-    LipReport gathered_;
+    limpet_ros::CupContact gathered_;
     bool anything_ = false;  ///< is in gathered_
     Tick tick_ = -1;         ///< of which it is
     bool near_ = false;
-    std::optional<LipReport> due_;
+    std::optional<limpet_ros::CupContact> due_;
 };
 
 }  // namespace limpet::ros

@@ -15,16 +15,7 @@ AutopilotCalls::AutopilotCalls(double retry_s) : retry_s_(retry_s) {
     ::ros::NodeHandle node;
     mode_call_ = node.serviceClient<limpet_ros::SetMode>("mavros/set_mode");
     command_call_ = node.serviceClient<limpet_ros::CommandLong>("mavros/cmd/command");
-    thread_ = std::thread([this] { work(); });
-}
-
-AutopilotCalls::~AutopilotCalls() {
-    {
-        const std::lock_guard lock(mutex_);
-        over_ = true;
-    }
-    changed_.notify_all();
-    thread_.join();
+    thread_ = std::jthread([this](const std::stop_token& over) { work(over); });
 }
 
 void AutopilotCalls::want(std::string mode, std::optional<bool> armed) {
@@ -37,20 +28,20 @@ void AutopilotCalls::want(std::string mode, std::optional<bool> armed) {
     }
 }
 
-void AutopilotCalls::work() {
+void AutopilotCalls::work(const std::stop_token& over) {
     std::unique_lock lock(mutex_);
-    while (!over_) {
+    while (!over.stop_requested()) {
         const std::string mode = mode_;
         const std::optional<bool> armed = armed_;
-        const auto news = [&] { return over_ || mode != mode_ || armed != armed_; };
+        const auto news = [&] { return mode != mode_ || armed != armed_; };
         if (mode.empty() && !armed) {
-            changed_.wait(lock, news);
+            changed_.wait(lock, over, news);
             continue;
         }
         lock.unlock();
         call(mode, armed);
         lock.lock();
-        changed_.wait_for(lock, std::chrono::duration<double>(retry_s_), news);
+        changed_.wait_for(lock, over, std::chrono::duration<double>(retry_s_), news);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 
@@ -18,27 +19,23 @@ class AutopilotCalls {
 public:
     /// @param retry_s  of wall time, between two calls
     explicit AutopilotCalls(double retry_s);
-    ~AutopilotCalls();
-    AutopilotCalls(const AutopilotCalls&) = delete;
-    AutopilotCalls& operator=(const AutopilotCalls&) = delete;
 
     /// @param mode   "": none
     /// @param armed  nullopt: as it is
     void want(std::string mode, std::optional<bool> armed);
 
 private:
-    void work();
+    void work(const std::stop_token& over);
     void call(const std::string& mode, std::optional<bool> armed);
 
     double retry_s_;
     ::ros::ServiceClient mode_call_;
     ::ros::ServiceClient command_call_;
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable_any changed_;
     std::string mode_;
     std::optional<bool> armed_;
-    bool over_ = false;
-    std::thread thread_;  ///< last: starts when all the rest is there
+    std::jthread thread_;  ///< last: starts when all the rest is there, is over before it goes
 };
 
 }  // namespace limpet::ros

@@ -10,33 +10,41 @@
 namespace limpet::ros {
 namespace {
 
+using limpet_ros::AttitudeTarget;
+using limpet_ros::CupContact;
+using limpet_ros::PositionTarget;
+using record::ros::enu_flu_from_ned_frd;
+using record::ros::enu_from_ned;
+using record::ros::flu_from_frd;
+
 constexpr const char* kWorld = "map";
 constexpr const char* kBody = "base_link";
+constexpr const char* kCup = "cup";
 constexpr double kUnitTolerance = 1e-3;
 
-template <class Vector>
-Vector vector_message(const Vector3& v) {
-    Vector message;
+template <class Message>
+Message in_frame(const char* frame) {
+    Message message;
+    message.header.frame_id = frame;
+    return message;
+}
+
+/// A vector, along the axes of the message.
+template <class Message>
+void put(const Vector3& v, Message& message) {
     message.x = v.x();
     message.y = v.y();
     message.z = v.z();
-    return message;
 }
-
-/// @return the triple, along the axes that it came in
-template <class Vector>
-Vector3 triple(const Vector& message) {
+template <class Message>
+Vector3 triple(const Message& message) {
     return {message.x, message.y, message.z};
 }
 
-geometry_msgs::Quaternion attitude_message(const Quaternion& q_WB) {
-    const Quaternion q = record::ros::enu_flu_from_ned_frd(q_WB);
-    geometry_msgs::Quaternion message;
+void put(const Quaternion& q_WB, geometry_msgs::Quaternion& message) {
+    const Quaternion q = enu_flu_from_ned_frd(q_WB);
     message.w = q.w();
-    message.x = q.x();
-    message.y = q.y();
-    message.z = q.z();
-    return message;
+    put(Vector3(q.vec()), message);
 }
 
 std::optional<Quaternion> attitude(const geometry_msgs::Quaternion& message) {
@@ -44,7 +52,11 @@ std::optional<Quaternion> attitude(const geometry_msgs::Quaternion& message) {
     if (!(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
         return std::nullopt;
     }
-    return record::ros::enu_flu_from_ned_frd(q.normalized());
+    return enu_flu_from_ned_frd(q.normalized());
+}
+
+std::optional<Vector3> finite(const Vector3& v) {
+    return v.allFinite() ? std::optional(v) : std::nullopt;
 }
 
 /// Yaw from north, clockwise, and from east, counter-clockwise: its own inverse.
@@ -52,22 +64,36 @@ double turned_yaw_rad(double yaw_rad) {
     return wrap_pi(0.5 * kPi - yaw_rad);
 }
 
-using Target = limpet_ros::PositionTarget;
-constexpr int kNoPosition = Target::IGNORE_PX | Target::IGNORE_PY | Target::IGNORE_PZ;
-constexpr int kNoVelocity = Target::IGNORE_VX | Target::IGNORE_VY | Target::IGNORE_VZ;
-constexpr int kNoAcceleration = Target::IGNORE_AFX | Target::IGNORE_AFY | Target::IGNORE_AFZ;
-constexpr int kNoRates = limpet_ros::AttitudeTarget::IGNORE_ROLL_RATE |
-                         limpet_ros::AttitudeTarget::IGNORE_PITCH_RATE |
-                         limpet_ros::AttitudeTarget::IGNORE_YAW_RATE;
+constexpr int kNoPosition =
+    PositionTarget::IGNORE_PX | PositionTarget::IGNORE_PY | PositionTarget::IGNORE_PZ;
+constexpr int kNoVelocity =
+    PositionTarget::IGNORE_VX | PositionTarget::IGNORE_VY | PositionTarget::IGNORE_VZ;
+constexpr int kNoAcceleration =
+    PositionTarget::IGNORE_AFX | PositionTarget::IGNORE_AFY | PositionTarget::IGNORE_AFZ;
+constexpr int kNoRates = AttitudeTarget::IGNORE_ROLL_RATE | AttitudeTarget::IGNORE_PITCH_RATE |
+                         AttitudeTarget::IGNORE_YAW_RATE;
 
-Target target_of(int type_mask, double yaw_rad) {
-    Target message;
-    message.header.frame_id = kWorld;
-    message.coordinate_frame = Target::FRAME_LOCAL_NED;
-    message.type_mask = static_cast<std::uint16_t>(type_mask | Target::IGNORE_YAW_RATE);
+PositionTarget target_of(int type_mask, double yaw_rad) {
+    auto message = in_frame<PositionTarget>(kWorld);
+    message.coordinate_frame = PositionTarget::FRAME_LOCAL_NED;
+    message.type_mask = static_cast<std::uint16_t>(type_mask | PositionTarget::IGNORE_YAW_RATE);
     message.yaw = static_cast<float>(turned_yaw_rad(yaw_rad));
     return message;
 }
+
+/// The numbers of a contact, here and there.
+struct ContactNumber {
+    double suction::LipContact::*ours;
+    double CupContact::*theirs;
+};
+constexpr ContactNumber kContactNumbers[] = {
+    {&suction::LipContact::gap_m, &CupContact::gap_m},
+    {&suction::LipContact::tilt_rad, &CupContact::tilt_rad},
+    {&suction::LipContact::pull_N, &CupContact::pull_N},
+    {&suction::LipContact::pull_margin_N, &CupContact::pull_margin_N},
+    {&suction::LipContact::shear_margin_N, &CupContact::shear_margin_N},
+    {&suction::LipContact::peel_margin_N, &CupContact::peel_margin_N},
+};
 
 }  // namespace
 
@@ -76,52 +102,42 @@ Target target_of(int type_mask, double yaw_rad) {
 }
 
 geometry_msgs::PoseStamped pose_message(const Estimate& estimate) {
-    geometry_msgs::PoseStamped message;
-    message.header.frame_id = kWorld;
-    message.pose.position =
-        vector_message<geometry_msgs::Point>(record::ros::enu_from_ned(estimate.p_WB_m));
-    message.pose.orientation = attitude_message(estimate.q_WB);
+    auto message = in_frame<geometry_msgs::PoseStamped>(kWorld);
+    put(enu_from_ned(estimate.p_WB_m), message.pose.position);
+    put(estimate.q_WB, message.pose.orientation);
     return message;
 }
 
 std::optional<PoseReading> pose_reading(const geometry_msgs::PoseStamped& message) {
     const auto q_WB = attitude(message.pose.orientation);
-    const Vector3 p_WB_m = record::ros::enu_from_ned(triple(message.pose.position));
-    if (!q_WB || !p_WB_m.allFinite()) {
+    const auto p_WB_m = finite(enu_from_ned(triple(message.pose.position)));
+    if (!q_WB || !p_WB_m) {
         return std::nullopt;
     }
-    return PoseReading{.p_WB_m = p_WB_m, .q_WB = *q_WB};
+    return PoseReading{.p_WB_m = *p_WB_m, .q_WB = *q_WB};
 }
 
 geometry_msgs::TwistStamped velocity_message(const Estimate& estimate) {
-    geometry_msgs::TwistStamped message;
-    message.header.frame_id = kWorld;
-    message.twist.linear =
-        vector_message<geometry_msgs::Vector3>(record::ros::enu_from_ned(estimate.v_WB_m_s));
-    message.twist.angular = vector_message<geometry_msgs::Vector3>(
-        record::ros::enu_from_ned(estimate.q_WB * estimate.w_WB_B_rad_s));
+    auto message = in_frame<geometry_msgs::TwistStamped>(kWorld);
+    put(enu_from_ned(estimate.v_WB_m_s), message.twist.linear);
+    put(enu_from_ned(estimate.q_WB * estimate.w_WB_B_rad_s), message.twist.angular);
     return message;
 }
 
 std::optional<Vector3> velocity_W(const geometry_msgs::TwistStamped& message) {
-    const Vector3 v_WB_m_s = record::ros::enu_from_ned(triple(message.twist.linear));
-    return v_WB_m_s.allFinite() ? std::optional(v_WB_m_s) : std::nullopt;
+    return finite(enu_from_ned(triple(message.twist.linear)));
 }
 
 sensor_msgs::Imu imu_message(const Estimate& estimate) {
-    sensor_msgs::Imu message;
-    message.header.frame_id = kBody;
-    message.orientation = attitude_message(estimate.q_WB);
-    message.angular_velocity =
-        vector_message<geometry_msgs::Vector3>(record::ros::flu_from_frd(estimate.w_WB_B_rad_s));
-    message.linear_acceleration = vector_message<geometry_msgs::Vector3>(
-        record::ros::flu_from_frd(estimate.specific_force_B_m_s2));
+    auto message = in_frame<sensor_msgs::Imu>(kBody);
+    put(estimate.q_WB, message.orientation);
+    put(flu_from_frd(estimate.w_WB_B_rad_s), message.angular_velocity);
+    put(flu_from_frd(estimate.specific_force_B_m_s2), message.linear_acceleration);
     return message;
 }
 
 std::optional<Vector3> rate_B(const sensor_msgs::Imu& message) {
-    const Vector3 w_WB_B_rad_s = record::ros::flu_from_frd(triple(message.angular_velocity));
-    return w_WB_B_rad_s.allFinite() ? std::optional(w_WB_B_rad_s) : std::nullopt;
+    return finite(flu_from_frd(triple(message.angular_velocity)));
 }
 
 sensor_msgs::Range range_message(const RangeReading& reading, double minimum_m, double maximum_m) {
@@ -136,38 +152,32 @@ sensor_msgs::Range range_message(const RangeReading& reading, double minimum_m, 
     return message;
 }
 
-RangeReading range_reading(const sensor_msgs::Range& message) {
+std::optional<RangeReading> range_reading(const sensor_msgs::Range& message) {
     const bool valid = std::isfinite(message.range) && message.range >= message.min_range &&
                        message.range <= message.max_range;
-    return {.distance_m = valid ? double{message.range} : 0.0, .valid = valid};
+    return RangeReading{.distance_m = valid ? double{message.range} : 0.0, .valid = valid};
 }
 
 geometry_msgs::WrenchStamped force_message(const ForceReading& reading) {
-    geometry_msgs::WrenchStamped message;
-    message.header.frame_id = "cup";
+    auto message = in_frame<geometry_msgs::WrenchStamped>(kCup);
     message.wrench.force.x = reading.axial_N;
     return message;
 }
 
 std::optional<ForceReading> force_reading(const geometry_msgs::WrenchStamped& message) {
-    if (!std::isfinite(message.wrench.force.x)) {
-        return std::nullopt;
-    }
-    return ForceReading{.axial_N = message.wrench.force.x};
+    const ForceReading reading{.axial_N = message.wrench.force.x};
+    return std::isfinite(reading.axial_N) ? std::optional(reading) : std::nullopt;
 }
 
 sensor_msgs::FluidPressure pressure_message(const PressureReading& reading) {
-    sensor_msgs::FluidPressure message;
-    message.header.frame_id = "cup";
+    auto message = in_frame<sensor_msgs::FluidPressure>(kCup);
     message.fluid_pressure = reading.pressure_Pa;
     return message;
 }
 
 std::optional<PressureReading> pressure_reading(const sensor_msgs::FluidPressure& message) {
-    if (!std::isfinite(message.fluid_pressure)) {
-        return std::nullopt;
-    }
-    return PressureReading{.pressure_Pa = message.fluid_pressure};
+    const PressureReading reading{.pressure_Pa = message.fluid_pressure};
+    return std::isfinite(reading.pressure_Pa) ? std::optional(reading) : std::nullopt;
 }
 
 sensor_msgs::BatteryState battery_message(const BatteryReading& reading) {
@@ -193,67 +203,59 @@ std::optional<BatteryReading> battery_reading(const sensor_msgs::BatteryState& m
         .remaining = message.percentage};
 }
 
-limpet_ros::PositionTarget target_message(const PositionSetpoint& target) {
+PositionTarget target_message(const PositionSetpoint& target) {
     const bool with_velocity = !target.feedforward_v_W_m_s.isZero(0.0);
-    Target message = target_of(kNoAcceleration | (with_velocity ? 0 : kNoVelocity), target.yaw_rad);
-    message.position =
-        vector_message<geometry_msgs::Point>(record::ros::enu_from_ned(target.p_W_m));
-    message.velocity = vector_message<geometry_msgs::Vector3>(
-        record::ros::enu_from_ned(target.feedforward_v_W_m_s));
+    auto message = target_of(kNoAcceleration | (with_velocity ? 0 : kNoVelocity), target.yaw_rad);
+    put(enu_from_ned(target.p_W_m), message.position);
+    put(enu_from_ned(target.feedforward_v_W_m_s), message.velocity);
     return message;
 }
 
-limpet_ros::PositionTarget target_message(const VelocitySetpoint& target) {
+PositionTarget target_message(const VelocitySetpoint& target) {
     const bool with_acceleration = !target.feedforward_a_W_m_s2.isZero(0.0);
-    Target message =
+    auto message =
         target_of(kNoPosition | (with_acceleration ? 0 : kNoAcceleration), target.yaw_rad);
-    message.velocity =
-        vector_message<geometry_msgs::Vector3>(record::ros::enu_from_ned(target.v_W_m_s));
-    message.acceleration_or_force = vector_message<geometry_msgs::Vector3>(
-        record::ros::enu_from_ned(target.feedforward_a_W_m_s2));
+    put(enu_from_ned(target.v_W_m_s), message.velocity);
+    put(enu_from_ned(target.feedforward_a_W_m_s2), message.acceleration_or_force);
     return message;
 }
 
-limpet_ros::AttitudeTarget target_message(const AttitudeSetpoint& target) {
-    limpet_ros::AttitudeTarget message;
-    message.header.frame_id = kWorld;
+AttitudeTarget target_message(const AttitudeSetpoint& target) {
+    auto message = in_frame<AttitudeTarget>(kWorld);
     message.type_mask = kNoRates;
-    message.orientation = attitude_message(target.q_WB);
+    put(target.q_WB, message.orientation);
     message.thrust = static_cast<float>(target.thrust);
     return message;
 }
 
-std::optional<Motion> motion_from(const limpet_ros::PositionTarget& message) {
-    const int mask = message.type_mask & ~Target::IGNORE_YAW_RATE;
-    const Vector3 p_W_m = record::ros::enu_from_ned(triple(message.position));
-    const Vector3 v_W_m_s = record::ros::enu_from_ned(triple(message.velocity));
-    const Vector3 a_W_m_s2 = record::ros::enu_from_ned(triple(message.acceleration_or_force));
-    const double yaw_rad = turned_yaw_rad(message.yaw);
-    if (message.coordinate_frame != Target::FRAME_LOCAL_NED ||
-        (message.type_mask & Target::IGNORE_YAW_RATE) == 0 || !std::isfinite(message.yaw)) {
+std::optional<Motion> motion_from(const PositionTarget& message) {
+    const int mask = message.type_mask & ~PositionTarget::IGNORE_YAW_RATE;
+    if (message.coordinate_frame != PositionTarget::FRAME_LOCAL_NED ||
+        (message.type_mask & PositionTarget::IGNORE_YAW_RATE) == 0 || !std::isfinite(message.yaw)) {
         return std::nullopt;
     }
-    const Vector3 none = Vector3::Zero();
+    /// What the mask leaves out is zero, and may be anything.
+    const auto wanted = [mask](int none, const auto& sent) {
+        return (mask & none) != 0 ? Vector3(Vector3::Zero()) : enu_from_ned(triple(sent));
+    };
+    const Vector3 p_W_m = wanted(kNoPosition, message.position);
+    const Vector3 v_W_m_s = wanted(kNoVelocity, message.velocity);
+    const Vector3 a_W_m_s2 = wanted(kNoAcceleration, message.acceleration_or_force);
+    const double yaw_rad = turned_yaw_rad(message.yaw);
+    if (!p_W_m.allFinite() || !v_W_m_s.allFinite() || !a_W_m_s2.allFinite()) {
+        return std::nullopt;
+    }
     if (mask == kNoAcceleration || mask == (kNoAcceleration | kNoVelocity)) {
-        const PositionSetpoint target{
-            .p_W_m = p_W_m,
-            .yaw_rad = yaw_rad,
-            .feedforward_v_W_m_s = mask == kNoAcceleration ? v_W_m_s : none};
-        const bool sound = target.p_W_m.allFinite() && target.feedforward_v_W_m_s.allFinite();
-        return sound ? std::optional<Motion>(target) : std::nullopt;
+        return PositionSetpoint{.p_W_m = p_W_m, .yaw_rad = yaw_rad, .feedforward_v_W_m_s = v_W_m_s};
     }
     if (mask == kNoPosition || mask == (kNoPosition | kNoAcceleration)) {
-        const VelocitySetpoint target{
-            .v_W_m_s = v_W_m_s,
-            .yaw_rad = yaw_rad,
-            .feedforward_a_W_m_s2 = mask == kNoPosition ? a_W_m_s2 : none};
-        const bool sound = target.v_W_m_s.allFinite() && target.feedforward_a_W_m_s2.allFinite();
-        return sound ? std::optional<Motion>(target) : std::nullopt;
+        return VelocitySetpoint{
+            .v_W_m_s = v_W_m_s, .yaw_rad = yaw_rad, .feedforward_a_W_m_s2 = a_W_m_s2};
     }
     return std::nullopt;
 }
 
-std::optional<Motion> motion_from(const limpet_ros::AttitudeTarget& message) {
+std::optional<Motion> motion_from(const AttitudeTarget& message) {
     const auto q_WB = attitude(message.orientation);
     if (message.type_mask != kNoRates || !q_WB || !std::isfinite(message.thrust)) {
         return std::nullopt;
@@ -270,46 +272,31 @@ std::optional<Motion> motion_from(const geometry_msgs::PoseStamped& message) {
                             .yaw_rad = euler_from_quaternion(pose->q_WB).yaw_rad};
 }
 
-limpet_ros::CupContact contact_message(const suction::LipContact& contact) {
-    limpet_ros::CupContact message;
-    message.header.frame_id = "cup";
+CupContact contact_message(const suction::LipContact& contact) {
+    auto message = in_frame<CupContact>(kCup);
     message.touches = contact.touches ? 1 : 0;
-    message.gap_m = contact.gap_m;
-    message.tilt_rad = contact.tilt_rad;
-    message.pull_N = contact.pull_N;
     message.lies_still = contact.lies_still ? 1 : 0;
     message.let_go = static_cast<std::uint8_t>(contact.let_go);
-    message.pull_margin_N = contact.pull_margin_N;
-    message.shear_margin_N = contact.shear_margin_N;
-    message.peel_margin_N = contact.peel_margin_N;
+    for (const ContactNumber& number : kContactNumbers) {
+        message.*number.theirs = contact.*number.ours;
+    }
     return message;
 }
 
-std::optional<suction::LipContact> lip_contact(const limpet_ros::CupContact& message) {
-    for (const double number :
-         {message.gap_m, message.tilt_rad, message.press_N, message.pull_N, message.pull_margin_N,
-          message.shear_margin_N, message.peel_margin_N}) {
-        if (!std::isfinite(number)) {
-            return std::nullopt;
-        }
+std::optional<suction::LipContact> lip_contact(const CupContact& message) {
+    suction::LipContact contact{.touches = message.touches != 0,
+                                .lies_still = message.lies_still != 0,
+                                .let_go = static_cast<suction::LetGo>(message.let_go)};
+    bool sound = message.let_go <= CupContact::PEELED && std::isfinite(message.press_N);
+    for (const ContactNumber& number : kContactNumbers) {
+        contact.*number.ours = message.*number.theirs;
+        sound = sound && std::isfinite(contact.*number.ours);
     }
-    if (message.let_go > limpet_ros::CupContact::PEELED) {
-        return std::nullopt;
-    }
-    return suction::LipContact{.touches = message.touches != 0,
-                               .gap_m = message.gap_m,
-                               .tilt_rad = message.tilt_rad,
-                               .lies_still = message.lies_still != 0,
-                               .let_go = static_cast<suction::LetGo>(message.let_go),
-                               .pull_N = message.pull_N,
-                               .pull_margin_N = message.pull_margin_N,
-                               .shear_margin_N = message.shear_margin_N,
-                               .peel_margin_N = message.peel_margin_N};
+    return sound ? std::optional(contact) : std::nullopt;
 }
 
 limpet_ros::CupState cup_message(const suction::CupState& state) {
-    limpet_ros::CupState message;
-    message.header.frame_id = "cup";
+    auto message = in_frame<limpet_ros::CupState>(kCup);
     message.touches = static_cast<std::uint32_t>(state.touches);
     message.phase = static_cast<std::uint8_t>(state.status.phase);
     message.sealed = suction::is_sealed(state.status.phase) ? 1 : 0;

@@ -54,7 +54,7 @@ namespace limpet::ros {
 /// Out of range, or no echo: +infinity (REP 117).
 [[nodiscard]] sensor_msgs::Range range_message(const RangeReading& reading, double minimum_m,
                                                double maximum_m);
-[[nodiscard]] RangeReading range_reading(const sensor_msgs::Range& message);
+[[nodiscard]] std::optional<RangeReading> range_reading(const sensor_msgs::Range& message);
 /// x of the wrench is the force through the slider: positive in tension.
 [[nodiscard]] geometry_msgs::WrenchStamped force_message(const ForceReading& reading);
 [[nodiscard]] std::optional<ForceReading> force_reading(

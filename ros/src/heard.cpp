@@ -5,13 +5,11 @@
 #include <utility>
 
 #include "limpet/simulation/outside.hpp"
-#include "ros/src/convert.hpp"
 
 namespace limpet::ros {
 namespace {
 
 constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not fill the memory
-constexpr double kStampError_s = 1e-6;   ///< of a time as a message has it, in nanoseconds
 
 std::optional<EventName> event_name(const std::string& name) {
     for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
@@ -36,39 +34,11 @@ bool Heard::tick(double time_s) {
     return anew;
 }
 
-/// The nodes' time is /clock: none of this flight is ahead of it.
-bool Heard::of_this_flight(double stamp_s) const {
-    return stamp_s <= clock_s() + kStampError_s;
-}
-
-// --- what comes in ------------------------------------------------------------------------------
-
-void Heard::hear(const limpet_ros::MechanismCommand& message) {
-    if (of_this_flight(message.header.stamp.toSec())) {
-        pump_on_ = message.pump_on != 0;
-        valve_open_ = message.valve_open != 0;
-    }
-}
-
-void Heard::hear(const limpet_ros::PerchingStatus& message) {
-    if (of_this_flight(message.header.stamp.toSec())) {
-        status_ = message;
-    }
-}
-
 void Heard::hear(const limpet_ros::PerchingEvent& message) {
-    if (of_this_flight(message.header.stamp.toSec()) && events_.size() < kMostHeard) {
+    if (of_this_flight(message) && events_.size() < kMostHeard) {
         events_.push_back(message);
     }
 }
-
-void Heard::hear(const LipAnswer& answer, double stamp_s) {
-    if (of_this_flight(stamp_s)) {
-        answer_ = answer;
-    }
-}
-
-// --- what the simulation takes ------------------------------------------------------------------
 
 std::string_view Heard::keep(std::string_view text) {
     return texts_.emplace_back(text);
@@ -121,8 +91,8 @@ bool Heard::take(const Estimate& estimate, guidance::PerchingMemory& guidance,
         events.add(make_event(flight_s_, "autopilot", EventName::aborted,
                               "set-points have stopped: holds"));
     }
-    guidance.setpoint.pump_on = pump_on_;
-    guidance.setpoint.valve_open = valve_open_;
+    guidance.setpoint.pump_on = command_.pump_on != 0;
+    guidance.setpoint.valve_open = command_.valve_open != 0;
     take_status(guidance);
     take_events(events);
     return lost;

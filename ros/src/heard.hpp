@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limpet_ros/CupState.h>
 #include <limpet_ros/MechanismCommand.h>
 #include <limpet_ros/PerchingEvent.h>
 #include <limpet_ros/PerchingStatus.h>
@@ -15,7 +16,6 @@
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/guidance/perching.hpp"
-#include "ros/src/apart_lip.hpp"
 #include "ros/src/vehicle_mode.hpp"
 
 namespace limpet::ros {
@@ -38,11 +38,11 @@ public:
     [[nodiscard]] double clock_s() const { return kClockStart_s + seconds(clock_); }
 
     void hear(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
-    void hear(const limpet_ros::MechanismCommand& message);
-    void hear(const limpet_ros::PerchingStatus& message);
+    void hear(const limpet_ros::MechanismCommand& message) { store(message, command_); }
+    void hear(const limpet_ros::PerchingStatus& message) { store(message, status_); }
+    /// @param message  sound, see phase_from()
+    void hear(const limpet_ros::CupState& message) { store(message, answer_); }
     void hear(const limpet_ros::PerchingEvent& message);
-    /// @param stamp_s  of the message; 0: none
-    void hear(const LipAnswer& answer, double stamp_s);
     void arm(bool armed) { mode_.arm(armed); }
     [[nodiscard]] bool choose(std::string_view mode) { return mode_.choose(mode, clock_s()); }
 
@@ -50,17 +50,29 @@ public:
     /// @return whether the mode has just fallen back to holding
     bool take(const Estimate& estimate, guidance::PerchingMemory& guidance,
               guidance::EventList& events);
-    [[nodiscard]] const std::optional<LipAnswer>& answer() const { return answer_; }
+    [[nodiscard]] const std::optional<limpet_ros::CupState>& answer() const { return answer_; }
     [[nodiscard]] const VehicleMode& mode() const { return mode_; }
     [[nodiscard]] bool guidance_heard() const { return status_.has_value(); }
 
 private:
-    [[nodiscard]] bool of_this_flight(double stamp_s) const;
+    /// The nodes' time is /clock: none of this flight is ahead of it.
+    template <class Message>
+    [[nodiscard]] bool of_this_flight(const Message& message) const {
+        return message.header.stamp.toSec() <= clock_s() + kStampError_s;
+    }
+    template <class Message, class Kept>
+    void store(const Message& message, Kept& kept) {
+        if (of_this_flight(message)) {
+            kept = message;
+        }
+    }
     void take_status(guidance::PerchingMemory& guidance);
     void take_events(guidance::EventList& events);
     [[nodiscard]] std::string_view keep(std::string_view text);
 
-    static constexpr double kClockStart_s = 1.0;  // ROS takes a time of zero for none
+    static constexpr double kClockStart_s = 1.0;  ///< ROS takes a time of zero for none
+    static constexpr double kStampError_s =
+        1e-6;  ///< of a time as a message has it, in nanoseconds
 
     OffboardManners manners_;
     bool ends_with_mission_ = false;
@@ -69,11 +81,10 @@ private:
     Tick clock_ = -1;
 
     VehicleMode mode_;
-    bool pump_on_ = false;
-    bool valve_open_ = false;
+    limpet_ros::MechanismCommand command_;
     std::optional<limpet_ros::PerchingStatus> status_;
     std::vector<limpet_ros::PerchingEvent> events_;
-    std::optional<LipAnswer> answer_;
+    std::optional<limpet_ros::CupState> answer_;
     double state_since_s_ = 0.0;
     guidance::PerchingState shown_ = guidance::PerchingState::hovering;
 };

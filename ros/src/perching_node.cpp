@@ -14,15 +14,15 @@
 #include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 #include "ros/src/autopilot_calls.hpp"
 #include "ros/src/convert.hpp"
-#include "ros/src/node_parameters.hpp"
+#include "ros/src/setup.hpp"
+#include "ros/src/topics.hpp"
 #include "ros/src/vehicle_mode.hpp"
 
 namespace limpet::ros {
 namespace {
-
-constexpr std::uint32_t kQueue = 1000;
 
 /// When a message was measured: by its stamp, if it has one that has been.
 double time_of(const std_msgs::Header& header) {
@@ -31,16 +31,17 @@ double time_of(const std_msgs::Header& header) {
 }
 
 companion::SessionSetup read_setup() {
-    NodeParameters parameters;
-    const NodeSetup setup = load_setup(parameters.setup());
+    const scenario::YamlNode parameters = node_parameters({"asks_for_mode"});
+    bool asks_for_mode = false;
+    read_if_given(parameters, "asks_for_mode", scenario::read_flag, asks_for_mode);
+    const NodeSetup setup = load_setup(setup_of(parameters));
     const companion::SessionSetup session{
         .task = {.take_off = setup.scenario.mission == scenario::Mission::perch_and_take_off},
         .guidance = setup.scenario.guidance,
         .limits = setup.limits,
         .by_request = true,
-        .asks_for_mode = parameters.flag("asks_for_mode", false),
+        .asks_for_mode = asks_for_mode,
         .watches_motion_capture = false};
-    parameters.refuse_others();
     if (setup.scenario.mission == scenario::Mission::hover || !setup.scenario.airframe.has_cup) {
         throw InputError(
             "perching_node: needs a vehicle with a cup and mission perch or "
@@ -77,11 +78,8 @@ private:
     /// @param put  (message, its time)
     template <class Message, class Put>
     void hear(const std::string& topic, Put put) {
-        subscribers_.push_back(node_.subscribe<Message>(
-            topic, kQueue,
-            boost::function<void(const boost::shared_ptr<const Message>&)>(
-                [put](const boost::shared_ptr<const Message>& m) { put(*m, time_of(m->header)); }),
-            ::ros::VoidConstPtr(), ::ros::TransportHints().tcpNoDelay()));
+        subscribers_.push_back(
+            listen<Message>(node_, topic, [put](const Message& m) { put(m, time_of(m.header)); }));
     }
     /// Into a sample, where the message is sound.
     template <class Message, class T, class Read>
@@ -105,12 +103,11 @@ private:
         using geometry_msgs::TwistStamped;
         using geometry_msgs::WrenchStamped;
         using sensor_msgs::Range;
-        const auto range = [](const Range& m) { return std::optional(range_reading(m)); };
         read<PoseStamped>("mavros/local_position/pose", in.pose, pose_reading);
         read<TwistStamped>("mavros/local_position/velocity_local", in.velocity_W_m_s, velocity_W);
         read<sensor_msgs::Imu>("mavros/imu/data", in.rate_B_rad_s, rate_B);
-        read<Range>("lidar/left", readings.lidar_left, range);
-        read<Range>("lidar/right", readings.lidar_right, range);
+        read<Range>("lidar/left", readings.lidar_left, range_reading);
+        read<Range>("lidar/right", readings.lidar_right, range_reading);
         read<WrenchStamped>("cup/force", readings.force, force_reading);
         read<sensor_msgs::FluidPressure>("cup/pressure", readings.cup_pressure, pressure_reading);
         read<sensor_msgs::BatteryState>("mavros/battery", readings.battery, battery_reading);
@@ -118,47 +115,37 @@ private:
     /// @param service  (time) -> Answer
     template <class Service>
     void serve(const std::string& name, Service service) {
-        services_.push_back(
-            own_.advertiseService<std_srvs::TriggerRequest, std_srvs::TriggerResponse>(
-                name, boost::function<bool(std_srvs::TriggerRequest&, std_srvs::TriggerResponse&)>(
-                          [name, service](std_srvs::TriggerRequest&,
-                                          std_srvs::TriggerResponse& response) {
-                              const companion::Answer answer = service(::ros::Time::now().toSec());
-                              response.success = answer.done ? 1 : 0;
-                              response.message = answer.message;
-                              ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
-                              return true;
-                          })));
+        using Asked = std_srvs::TriggerRequest;
+        using Answered = std_srvs::TriggerResponse;
+        const boost::function<bool(Asked&, Answered&)> call = [=](Asked&, Answered& response) {
+            const companion::Answer answer = service(::ros::Time::now().toSec());
+            response.success = answer.done ? 1 : 0;
+            response.message = answer.message;
+            ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
+            return true;
+        };
+        services_.push_back(own_.advertiseService(name, call));
     }
 
     void tick() {
         const ::ros::Time now = ::ros::Time::now();
         session_.tick(now.toSec());
-        steer(now);
+        if (session_.streams()) {
+            std::visit([&](const auto& target) { steer(target, now); }, session_.setpoint().motion);
+        }
         actuate(now);
         calls_.want(std::string(session_.wanted_mode()), session_.wanted_armed());
         tell(now);
     }
 
-    void steer(const ::ros::Time& now) {
-        if (!session_.streams()) {
-            return;
-        }
-        std::visit([&](const auto& target) { send(target, now); }, session_.setpoint().motion);
-    }
     template <class Target>
-    void send(const Target& target, const ::ros::Time& now) {
-        auto message = target_message(target);
-        message.header.stamp = now;
-        if constexpr (std::is_same_v<Target, AttitudeSetpoint>) {
-            attitude_.publish(message);
-        } else {
-            position_.publish(message);
-        }
+    void steer(const Target& target, const ::ros::Time& now) {
+        constexpr bool kAttitude = std::is_same_v<Target, AttitudeSetpoint>;
+        send(kAttitude ? attitude_ : position_, target_message(target), now);
     }
     /// Motors idle: the attitude that it has, without thrust. Set-points go on.
-    void send(const IdleSetpoint&, const ::ros::Time& now) {
-        send(AttitudeSetpoint{.q_WB = session_.inputs().pose.value.q_WB, .thrust = 0.0}, now);
+    void steer(const IdleSetpoint&, const ::ros::Time& now) {
+        steer(AttitudeSetpoint{.q_WB = session_.inputs().pose.value.q_WB, .thrust = 0.0}, now);
     }
 
     void actuate(const ::ros::Time& now) {
@@ -169,23 +156,20 @@ private:
             return;
         }
         limpet_ros::MechanismCommand command;
-        command.header.stamp = now;
         command.pump_on = setpoint.pump_on ? 1 : 0;
         command.valve_open = setpoint.valve_open ? 1 : 0;
-        mechanism_.publish(command);
+        send(mechanism_, command, now);
     }
 
     void tell(const Event& event) {
-        limpet_ros::PerchingEvent message = event_message(event);
-        message.header.stamp = ::ros::Time::now();
+        const limpet_ros::PerchingEvent message = event_message(event);
         ROS_INFO("%s%s%s", message.name.c_str(), message.reason.empty() ? "" : ": ",
                  message.reason.c_str());
-        event_.publish(message);
+        send(event_, message, ::ros::Time::now());
     }
     void tell(const ::ros::Time& now) {
         const guidance::PerchingMemory& memory = session_.memory();
         limpet_ros::PerchingStatus status;
-        status.header.stamp = now;
         status.phase = std::string(to_string(session_.phase()));
         status.obstacle = session_.obstacle();
         const bool flies = session_.phase() == companion::SessionPhase::flying;
@@ -202,7 +186,7 @@ private:
         status.outcome =
             session_.outcome() ? std::string(limpet::to_string(*session_.outcome())) : "";
         status.reason = session_.reason();
-        status_.publish(status);
+        send(status_, status, now);
     }
 
     companion::PerchingSession session_;
@@ -217,8 +201,7 @@ private:
 };
 
 void perching_node() {
-    const companion::SessionSetup setup = read_setup();
-    PerchingNode node(setup);
+    PerchingNode node(read_setup());
     ::ros::spin();
 }
 

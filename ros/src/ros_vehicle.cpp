@@ -7,6 +7,7 @@
 
 #include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
+#include "ros/src/topics.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -15,9 +16,17 @@ namespace {
 constexpr int kClock_Hz = 250;
 constexpr int kEstimate_Hz = 100;
 constexpr int kState_Hz = 10;
-constexpr std::uint32_t kQueue = 1000;  ///< nothing is to be lost on one machine
 
 }  // namespace
+
+std::vector<BoundParameter> RosVehicleOptions::rows() {
+    std::vector<BoundParameter> rows = bind(offboard_manners_table(), manners);
+    rows.push_back({"cup_by_node", "-", 0.0, 1.0, &cup_by_node,
+                    "seal and pressure come from suction_cup_node", "the paper's Figs. 5 and 6"});
+    rows.push_back({"ends_with_mission", "-", 0.0, 1.0, &ends_with_mission,
+                    "the flight is over when perching_node's mission is", "assumed: it goes on"});
+    return rows;
+}
 
 RosVehicle::RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options)
     : options_(options),
@@ -57,65 +66,30 @@ void RosVehicle::advertise() {
 }
 
 void RosVehicle::subscribe() {
-    // Small messages, each of which counts at once: none may wait for the next.
-    const auto hints = ::ros::TransportHints().tcpNoDelay();
-    const auto hear = [&](auto message, const char* topic, auto&& call) {
-        using Message = decltype(message);
-        const boost::function<void(const Message&)> function = call;
-        subscribers_.push_back(node_.subscribe<Message>(
-            topic, kQueue,
-            boost::function<void(const boost::shared_ptr<const Message>&)>(
-                [function](const boost::shared_ptr<const Message>& m) { function(*m); }),
-            ::ros::VoidConstPtr(), hints));
-    };
-    const auto hear_target = [this](const auto& m) { hear_motion(motion_from(m)); };
-    hear(limpet_ros::PositionTarget(), "mavros/setpoint_raw/local", hear_target);
-    hear(limpet_ros::AttitudeTarget(), "mavros/setpoint_raw/attitude", hear_target);
-    hear(geometry_msgs::PoseStamped(), "mavros/setpoint_position/local", hear_target);
-    hear(limpet_ros::MechanismCommand(), "mechanism/command",
-         [this](const limpet_ros::MechanismCommand& m) {
-             const std::lock_guard lock(mutex_);
-             heard_.hear(m);
-         });
-    hear(limpet_ros::PerchingStatus(), "perching_node/status",
-         [this](const limpet_ros::PerchingStatus& m) {
-             const std::lock_guard lock(mutex_);
-             heard_.hear(m);
-         });
-    hear(limpet_ros::PerchingEvent(), "perching_node/event",
-         [this](const limpet_ros::PerchingEvent& m) {
-             const std::lock_guard lock(mutex_);
-             heard_.hear(m);
-         });
-    hear(limpet_ros::CupState(), "cup/state",
-         [this](const limpet_ros::CupState& m) { hear_cup(m); });
-    services_.push_back(node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this));
-    services_.push_back(node_.advertiseService("mavros/set_mode", &RosVehicle::set_mode, this));
-}
-
-// --- what comes in ------------------------------------------------------------------------------
-
-void RosVehicle::hear_motion(const std::optional<Motion>& motion) {
-    if (motion) {
+    const auto hear = [this](const auto& heard) {
         const std::lock_guard lock(mutex_);
-        heard_.hear(*motion);
-    }
-}
-
-void RosVehicle::hear_cup(const limpet_ros::CupState& message) {
-    const auto phase = phase_from(message);
-    if (!phase) {
-        return;
-    }
-    const std::lock_guard lock(mutex_);
-    heard_.hear(LipAnswer{.contact = message.contact,
-                          .phase = *phase,
-                          .pressure_Pa = message.pressure_Pa,
-                          .mean_pressure_Pa = message.mean_pressure_Pa,
-                          .seal_threshold_N = message.seal_threshold_N,
-                          .pump_running = message.pump_running != 0,
-                          .valve_open = message.valve_open != 0},
-                message.header.stamp.toSec());
+        heard_.hear(heard);
+    };
+    const auto target = [hear](const auto& message) {
+        if (const auto motion = motion_from(message)) {
+            hear(*motion);
+        }
+    };
+    const auto cup = [hear](const limpet_ros::CupState& message) {
+        if (phase_from(message)) {
+            hear(message);
+        }
+    };
+    subscribers_ = {
+        listen<limpet_ros::PositionTarget>(node_, "mavros/setpoint_raw/local", target),
+        listen<limpet_ros::AttitudeTarget>(node_, "mavros/setpoint_raw/attitude", target),
+        listen<geometry_msgs::PoseStamped>(node_, "mavros/setpoint_position/local", target),
+        listen<limpet_ros::MechanismCommand>(node_, "mechanism/command", hear),
+        listen<limpet_ros::PerchingStatus>(node_, "perching_node/status", hear),
+        listen<limpet_ros::PerchingEvent>(node_, "perching_node/event", hear),
+        listen<limpet_ros::CupState>(node_, "cup/state", cup)};
+    services_ = {node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this),
+                 node_.advertiseService("mavros/set_mode", &RosVehicle::set_mode, this)};
 }
 
 bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
@@ -141,17 +115,15 @@ bool RosVehicle::set_mode(limpet_ros::SetMode::Request& request,
 // --- what goes out ------------------------------------------------------------------------------
 
 /// @param time_s  of the flight
-template <class Message>
-void RosVehicle::send(::ros::Publisher& to, Message message, double time_s) {
-    message.header.stamp = ros_time(clock_s_ - (flight_s_ - time_s));
-    to.publish(message);
+::ros::Time RosVehicle::on_clock(double time_s) const {
+    return ros_time(clock_s_ - (flight_s_ - time_s));
 }
 
 template <class T, class Make>
-void RosVehicle::send_new(::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last,
-                          Make make) {
+void RosVehicle::send_new(const ::ros::Publisher& to, const Sample<T>& sample,
+                          const Sample<T>& last, Make make) const {
     if (sample.newer_than(last)) {
-        send(to, make(sample.value), sample.time_s);
+        send(to, make(sample.value), on_clock(sample.time_s));
     }
 }
 
@@ -167,14 +139,6 @@ void RosVehicle::send_readings(const Readings& readings) {
         send_new(pressure_, readings.cup_pressure, last_.cup_pressure, pressure_message);
     }
     last_ = readings;
-}
-
-void RosVehicle::send_estimate(const Estimate& estimate) {
-    if (due(clock_, kEstimate_Hz) && estimate.valid) {
-        send(pose_, pose_message(estimate), flight_s_);
-        send(velocity_, velocity_message(estimate), flight_s_);
-        send(imu_, imu_message(estimate), flight_s_);
-    }
 }
 
 // --- the simulation's calls ---------------------------------------------------------------------
@@ -208,12 +172,17 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
         clock_out_.publish(clock);
     }
     send_readings(readings);
-    send_estimate(estimate);
+    const ::ros::Time now = ros_time(clock_s_);
+    if (due(clock_, kEstimate_Hz) && estimate.valid) {
+        send(pose_, pose_message(estimate), now);
+        send(velocity_, velocity_message(estimate), now);
+        send(imu_, imu_message(estimate), now);
+    }
     if (shows_state) {
         constexpr std::uint8_t kActive = 4;  // MAV_STATE
         state.connected = state.guided = 1;
         state.system_status = kActive;
-        send(state_, state, time_s);
+        send(state_, state, now);
     }
 }
 
@@ -227,11 +196,7 @@ suction::CupOutput RosVehicle::step(const suction::CupModel& model, suction::Cup
                                     const suction::CupInput& input, double /*dt_s*/) {
     const suction::CupOutput output = lip_.step(model, state, surface, cup, input);
     if (const auto report = lip_.take_report()) {
-        limpet_ros::CupContact message = contact_message(report->contact);
-        message.number = report->number;
-        message.touch = report->touch;
-        message.press_N = report->press_N;
-        send(contact_, message, report->time_s);
+        send(contact_, *report, on_clock(report->header.stamp.toSec()));
     }
     return output;
 }

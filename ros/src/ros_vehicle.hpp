@@ -32,6 +32,9 @@ struct RosVehicleOptions {
     bool cup_by_node = true;
     /// The flight is over when perching_node's mission is; else when its time is.
     bool ends_with_mission = false;
+
+    /// As parameters of vehicle_node and of its plugin.
+    [[nodiscard]] std::vector<BoundParameter> rows();
 };
 
 /// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
@@ -57,14 +60,11 @@ public:
 private:
     void advertise();
     void subscribe();
-    template <class Message>
-    void send(::ros::Publisher& to, Message message, double time_s);
+    [[nodiscard]] ::ros::Time on_clock(double time_s) const;
     template <class T, class Make>
-    void send_new(::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last, Make make);
+    void send_new(const ::ros::Publisher& to, const Sample<T>& sample, const Sample<T>& last,
+                  Make make) const;
     void send_readings(const Readings& readings);
-    void send_estimate(const Estimate& estimate);
-    void hear_motion(const std::optional<Motion>& motion);
-    void hear_cup(const limpet_ros::CupState& message);
     bool command(limpet_ros::CommandLong::Request& request,
                  limpet_ros::CommandLong::Response& response);
     bool set_mode(limpet_ros::SetMode::Request& request, limpet_ros::SetMode::Response& response);

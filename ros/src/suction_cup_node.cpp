@@ -8,18 +8,15 @@
 
 #include "limpet/core/errors.hpp"
 #include "ros/src/convert.hpp"
-#include "ros/src/node_parameters.hpp"
+#include "ros/src/setup.hpp"
 #include "ros/src/suction_cup.hpp"
+#include "ros/src/topics.hpp"
 
 namespace limpet::ros {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
-
 scenario::Scenario read_scenario() {
-    NodeParameters parameters;
-    const NodeSetup setup = load_setup(parameters.setup());
-    parameters.refuse_others();
+    const NodeSetup setup = load_setup(setup_of(node_parameters({})));
     if (!setup.scenario.wall.present || !setup.scenario.airframe.has_cup) {
         throw InputError("suction_cup_node: needs a wall with a surface and a vehicle with a cup");
     }
@@ -32,11 +29,13 @@ public:
         state_ = node_.advertise<limpet_ros::CupState>("cup/state", kQueue);
         pressure_ = node_.advertise<sensor_msgs::FluidPressure>("cup/pressure", kQueue);
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
-        const auto hints = ::ros::TransportHints().tcpNoDelay();
-        contacts_ =
-            node_.subscribe("cup/contact", kQueue, &SuctionCupNode::hear_contact, this, hints);
-        commands_ = node_.subscribe("mechanism/command", kQueue, &SuctionCupNode::hear_command,
-                                    this, hints);
+        contacts_ = listen<limpet_ros::CupContact>(
+            node_, "cup/contact",
+            [this](const limpet_ros::CupContact& message) { hear_contact(message); });
+        commands_ = listen<limpet_ros::MechanismCommand>(
+            node_, "mechanism/command", [this](const limpet_ros::MechanismCommand& message) {
+                cup_.command(message.pump_on != 0, message.valve_open != 0);
+            });
         pump_ = own_.advertiseService("pump", &SuctionCupNode::switch_pump, this);
         valve_ = own_.advertiseService("valve", &SuctionCupNode::open_valve, this);
     }
@@ -50,24 +49,17 @@ private:
         }
         const auto event = cup_.feel(*contact, message.press_N, message.header.stamp.toSec());
         limpet_ros::CupState state = cup_message(cup_.state());
-        state.header.stamp = message.header.stamp;
         state.contact = message.number;
-        state_.publish(state);
+        send(state_, state, message.header.stamp);
         if (cup_.pressure().time_s != sensed_s_) {
             sensed_s_ = cup_.pressure().time_s;
-            sensor_msgs::FluidPressure pressure = pressure_message(cup_.pressure().value);
-            pressure.header.stamp = ros_time(sensed_s_);
-            pressure_.publish(pressure);
+            send(pressure_, pressure_message(cup_.pressure().value), ros_time(sensed_s_));
         }
         if (event) {
-            limpet_ros::PerchingEvent told = event_message(*event);
-            told.header.stamp = message.header.stamp;
-            event_.publish(told);
+            const limpet_ros::PerchingEvent told = event_message(*event);
+            send(event_, told, message.header.stamp);
             ROS_INFO("%s: %s", told.name.c_str(), told.reason.c_str());
         }
-    }
-    void hear_command(const limpet_ros::MechanismCommand& message) {
-        cup_.command(message.pump_on != 0, message.valve_open != 0);
     }
     // By hand; whoever commands the mechanism over its topic says otherwise within a moment.
     bool switch_pump(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {

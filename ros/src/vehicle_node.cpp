@@ -6,29 +6,30 @@
 #include <atomic>
 #include <memory>
 
-#include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
-#include "ros/src/node_parameters.hpp"
 #include "ros/src/ros_vehicle.hpp"
+#include "ros/src/setup.hpp"
 
 namespace limpet::ros {
 namespace {
 
 void vehicle_node() {
-    NodeParameters parameters;
-    const SetupArguments arguments = parameters.setup();
-    const NodeSetup setup = load_setup(arguments);
     RosVehicleOptions options;
-    for (const auto& row : offboard_manners_table()) {
-        const ParameterValue value = row.of(options.manners);
-        value.set(parameters.number(std::string(row.name), value.get(), row.minimum, row.maximum));
+    double speed = 1.0;
+    std::vector<BoundParameter> rows = options.rows();
+    rows.push_back({"speed", "-", 0.01, 100.0, &speed, "times real time", "assumed"});
+    std::vector<std::string_view> names = {"recording"};
+    for (const BoundParameter& row : rows) {
+        names.push_back(row.name);
     }
-    options.cup_by_node = parameters.flag("cup_by_node", options.cup_by_node);
-    options.ends_with_mission = parameters.flag("ends_with_mission", options.ends_with_mission);
-    const double speed = parameters.number("speed", 1.0, 0.01, 100.0);
-    const std::string recording = parameters.text("recording");
-    parameters.refuse_others();
+    const scenario::YamlNode parameters = node_parameters(names);
+    read_given(parameters, rows);
+    const scenario::YamlNode* const file = said(parameters, "recording");
+    const std::string recording = file != nullptr ? read_text(*file) : "";
+    const SetupArguments arguments = setup_of(parameters);
+    const NodeSetup setup = load_setup(arguments);
 
     const auto model = build_model(setup.scenario);
     tell_flight(arguments);

@@ -44,16 +44,34 @@ struct Happened {
     std::vector<double> pressure_Pa;  ///< every 10 ms
 };
 
-Kinematics cup_at(double t_s) {
+Kinematics cup_at(double depth_m) {
     Kinematics cup;
-    cup.p_WF_m.x() = script(t_s).depth_m;
+    cup.p_WF_m.x() = depth_m;
     return cup;
 }
 
 scenario::Scenario scenario() {
-    return load_setup(
-               {.scenario = "", .vehicle = "", .surface = "", .mission = "", .set = {}, .seed = 4})
-        .scenario;
+    return load_setup({.seed = 4}).scenario;
+}
+
+/// @param step  of a cup: (where it is, input) -> output; it changes `state`
+template <class Step>
+Happened play(const suction::CupState& state, Step step) {
+    Happened happened;
+    for (long k = 0; k < 24000; ++k) {
+        const double t_s = static_cast<double>(k) * kStep_s;
+        const Script now = script(t_s);
+        const suction::CupOutput output =
+            step(cup_at(now.depth_m),
+                 suction::CupInput{.time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on});
+        if (output.event) {
+            happened.events.push_back(*output.event);
+        }
+        if (k % 40 == 0) {
+            happened.pressure_Pa.push_back(state.mean_pressure_Pa);
+        }
+    }
+    return happened;
 }
 
 /// @param delay_s  from a report to its answer
@@ -62,62 +80,30 @@ Happened in_two_halves(const scenario::Scenario& scenario, double delay_s) {
     ApartLip lip;
     SuctionCup far(scenario);
     suction::CupState state;
-    Happened happened;
-    std::deque<std::pair<double, LipAnswer>> on_the_way;  // when each arrives
-    for (long k = 0; k < 24000; ++k) {
-        const double t_s = static_cast<double>(k) * kStep_s;
-        const Script now = script(t_s);
-        const suction::CupInput input{
-            .time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
-        const suction::CupOutput output =
-            lip.step(model, state, scenario.wall.surface, cup_at(t_s), input);
-        if (output.event) {
-            happened.events.push_back(*output.event);
-        }
-        if (const auto report = lip.take_report()) {
-            far.command(now.pump_on, false);
-            (void)far.feel(report->contact, report->press_N, report->time_s);
-            const suction::CupState& told = far.state();
-            const LipAnswer answer{.contact = report->number,
-                                   .phase = told.status.phase,
-                                   .pressure_Pa = told.status.pressure_Pa,
-                                   .mean_pressure_Pa = told.mean_pressure_Pa,
-                                   .seal_threshold_N = told.status.seal_threshold_N,
-                                   .pump_running = told.status.pump_running,
-                                   .valve_open = told.status.valve_open};
-            on_the_way.emplace_back(t_s + delay_s, answer);
-        }
-        while (!on_the_way.empty() && on_the_way.front().first <= t_s) {
+    std::deque<std::pair<double, limpet_ros::CupState>> on_the_way;  // when each arrives
+    return play(state, [&](const Kinematics& cup, const suction::CupInput& input) {
+        while (!on_the_way.empty() && on_the_way.front().first < input.time_s) {
             lip.hear(on_the_way.front().second);
             on_the_way.pop_front();
         }
-        if (k % 40 == 0) {
-            happened.pressure_Pa.push_back(state.mean_pressure_Pa);
+        const auto output = lip.step(model, state, scenario.wall.surface, cup, input);
+        if (const auto report = lip.take_report()) {
+            far.command(input.pump_on, false);
+            (void)far.feel(*lip_contact(*report), report->press_N, report->header.stamp.toSec());
+            on_the_way.emplace_back(input.time_s + delay_s, cup_message(far.state()));
+            on_the_way.back().second.contact = report->number;
         }
-    }
-    return happened;
+        return output;
+    });
 }
 
 Happened in_one_piece(const scenario::Scenario& scenario) {
     const suction::CupModel model{.parameters = scenario.cup, .wall = {}};
     suction::CupState state;
     state.random = RandomStream(scenario.seed, 0, Stream::seal);
-    Happened happened;
-    for (long k = 0; k < 24000; ++k) {
-        const double t_s = static_cast<double>(k) * kStep_s;
-        const Script now = script(t_s);
-        const suction::CupInput input{
-            .time_s = t_s, .press_N = now.press_N, .pump_on = now.pump_on};
-        const suction::CupOutput output =
-            suction::step(model, state, scenario.wall.surface, cup_at(t_s), input, kStep_s);
-        if (output.event) {
-            happened.events.push_back(*output.event);
-        }
-        if (k % 40 == 0) {
-            happened.pressure_Pa.push_back(state.mean_pressure_Pa);
-        }
-    }
-    return happened;
+    return play(state, [&](const Kinematics& cup, const suction::CupInput& input) {
+        return suction::step(model, state, scenario.wall.surface, cup, input, kStep_s);
+    });
 }
 
 void expect_alike(const Happened& one, const Happened& two, double late_s, double pressure_Pa) {
@@ -156,19 +142,17 @@ TEST(ApartCup, AnOldAnswerDoesNotSealALipThatHasLetGo) {
     std::uint32_t last = 0;
     const auto hold = [&](double depth_m, double duration_s) {
         for (const double end_s = t_s + duration_s; t_s < end_s; t_s += 1e-3) {
-            Kinematics cup;
-            cup.p_WF_m.x() = depth_m;
-            (void)lip.step(model, state, s.wall.surface, cup, {.time_s = t_s});
+            (void)lip.step(model, state, s.wall.surface, cup_at(depth_m), {.time_s = t_s});
             if (const auto report = lip.take_report()) {
                 last = report->number;
             }
         }
     };
     hold(0.001, 0.05);
-    const LipAnswer holds{.contact = last,
-                          .phase = CupPhase::attached,
-                          .pressure_Pa = 65000.0,
-                          .mean_pressure_Pa = 65000.0};
+    limpet_ros::CupState holds;
+    holds.contact = last;
+    holds.phase = limpet_ros::CupState::ATTACHED;
+    holds.pressure_Pa = holds.mean_pressure_Pa = 65000.0;
     lip.hear(holds);
     hold(0.001, 0.01);
     EXPECT_EQ(state.status.phase, CupPhase::attached);
@@ -178,7 +162,7 @@ TEST(ApartCup, AnOldAnswerDoesNotSealALipThatHasLetGo) {
     lip.hear(holds);
     hold(0.001, 0.002);
     EXPECT_EQ(state.status.phase, CupPhase::touching);
-    LipAnswer unheard = holds;
+    limpet_ros::CupState unheard = holds;
     unheard.contact = last + 1000;  // of no report of ours
     lip.hear(unheard);
     hold(0.001, 0.002);

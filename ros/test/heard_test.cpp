@@ -15,7 +15,7 @@ protected:
         fly_to(30.0);
         heard_.hear(status(heard_.clock_s()));
         heard_.hear(pump_on(heard_.clock_s()));
-        heard_.hear(LipAnswer{.contact = 7, .phase = CupPhase::attached}, heard_.clock_s());
+        heard_.hear(attached(heard_.clock_s()));
         heard_.arm(false);
         take();
     }
@@ -32,8 +32,7 @@ protected:
         (void)heard_.take({}, guidance_, events_);
     }
     static limpet_ros::PerchingStatus status(double clock_s) {
-        limpet_ros::PerchingStatus status;
-        status.header.stamp = ros_time(clock_s);
+        auto status = stamped<limpet_ros::PerchingStatus>(clock_s);
         status.state = static_cast<std::uint8_t>(guidance::PerchingState::resting);
         status.attempt = 2;
         status.outcome = "perched";
@@ -41,10 +40,21 @@ protected:
         return status;
     }
     static limpet_ros::MechanismCommand pump_on(double clock_s) {
-        limpet_ros::MechanismCommand command;
-        command.header.stamp = ros_time(clock_s);
+        auto command = stamped<limpet_ros::MechanismCommand>(clock_s);
         command.pump_on = 1;
         return command;
+    }
+    static limpet_ros::CupState attached(double clock_s) {
+        auto cup = stamped<limpet_ros::CupState>(clock_s);
+        cup.contact = 7;
+        cup.phase = limpet_ros::CupState::ATTACHED;
+        return cup;
+    }
+    template <class Message>
+    static Message stamped(double clock_s) {
+        Message message;
+        message.header.stamp = ros_time(clock_s);
+        return message;
     }
 
     Heard heard_{OffboardManners{}, true};
@@ -89,9 +99,8 @@ TEST_F(AWorldReset, DoesNotBelieveWhatWasOnItsWay) {
     heard_.tick(0.0);
     heard_.hear(status(before_s));
     heard_.hear(pump_on(before_s));
-    heard_.hear(LipAnswer{.contact = 8, .phase = CupPhase::attached}, before_s);
-    limpet_ros::PerchingEvent event;
-    event.header.stamp = ros_time(before_s);
+    heard_.hear(attached(before_s));
+    auto event = stamped<limpet_ros::PerchingEvent>(before_s);
     event.name = "perched";
     heard_.hear(event);
     take();
