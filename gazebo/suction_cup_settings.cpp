@@ -24,13 +24,13 @@ CupTarget target_of(const scenario::YamlNode& node, const suction::Surface& surf
     if (has_model == (node.find("plane") != nullptr)) {
         fail(node, "needs one of model=\"NAME\" and plane=\"x y z roll pitch yaw\"");
     }
-    read_if_given(node, "model", scenario::read_text, target.model);
-    read_if_given(node, "plane", read_pose, target.plane);
-    read_if_given(node, "collision", scenario::read_text, target.collision);
+    read_given(node, "model", target.model);
+    read_given(node, "plane", target.plane, read_pose);
+    read_given(node, "collision", target.collision);
     if (!has_model && !target.collision.empty()) {
         fail(*node.find("collision"), "stands beside plane, allowed beside model");
     }
-    read_if_given(node, "surface", read_surface, target.surface);
+    read_given(node, "surface", target.surface, read_surface);
     return target;
 }
 
@@ -62,10 +62,10 @@ SuctionCupSettings suction_cup_settings(const scenario::YamlNode& tree) {
     if (tree.find("link") == nullptr) {
         fail(tree, "link: is missing, needed: the link that carries the lip");
     }
-    read_if_given(tree, "link", scenario::read_text, settings.link);
-    read_if_given(tree, "lip_pose", read_pose, settings.X_LC);
+    read_given(tree, "link", settings.link);
+    read_given(tree, "lip_pose", settings.X_LC, read_pose);
     read_suction(tree.find("suction"), settings.cup);
-    read_if_given(tree, "surface", read_surface, settings.surface);
+    read_given(tree, "surface", settings.surface, read_surface);
     if (const scenario::YamlNode* targets = tree.find("target")) {
         for (const scenario::YamlNode& target : targets->children) {
             settings.targets.push_back(target_of(target, settings.surface));
@@ -79,7 +79,7 @@ SuctionCupSettings suction_cup_settings(const scenario::YamlNode& tree) {
         fail(*tree.find("valve"),
              "open, but no valve is fitted, allowed with suction.valve_fitted 1");
     }
-    read_if_given(tree, "seed", scenario::read_count, settings.seed);
+    read_given(tree, "seed", settings.seed, scenario::read_count);
     return settings;
 }
 

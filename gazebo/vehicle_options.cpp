@@ -55,8 +55,8 @@ scenario::Scenario scenario_of(const scenario::YamlNode& section) {
         fail(section, "scenario is missing: a name (limpet list scenarios) or a YAML file");
     }
     scenario::LoadOptions options;
-    read_if_given(section, "set", scenario::read_settings, options.overrides);
-    read_if_given(section, "seed", scenario::read_count, options.seed);
+    read_given(section, "set", options.overrides, scenario::read_settings);
+    read_given(section, "seed", options.seed, scenario::read_count);
     return load_scenario(read_text(*wanted), options);
 }
 
@@ -80,8 +80,8 @@ VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
     read_address(parameters, "hil", px4.hil, {wire::Medium::tcp, wire::Medium::serial},
                  "tcp:HOST:PORT or serial:DEVICE:BAUD");
     read_address(parameters, "offboard", px4.offboard, {wire::Medium::udp}, "udp:HOST:PORT");
-    read_if_given(parameters, "recording", scenario::read_text, options.recording);
-    read_if_given(parameters, "result", scenario::read_text, options.result);
+    read_given(parameters, "recording", options.recording);
+    read_given(parameters, "result", options.result);
     read_word_if_given(parameters, "when_over", options.when_over,
                        {{"pause", WhenOver::pause}, {"quit", WhenOver::quit}});
     const bool board = options.autopilot == Autopilot::px4 && px4.serial();

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 
 namespace limpet::compare {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// What happened in a recording, as if it were the reference.
 std::vector<EventPair> happenings(const record::Recording& recording) {

@@ -17,7 +17,6 @@
 namespace limpet::compare {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDeg = 180.0 / kPi;
 constexpr double kTurn_deg = 360.0;
 /// Samples further apart than so many usual steps have a gap between them. A reading that comes

@@ -10,11 +10,11 @@
 
 #include "limpet/compare/rest.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 
 namespace limpet::compare {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 FlightIdentity identity(const FlightTrace& flight) {
     const record::Window whole = whole_flight(*flight.recording);

@@ -173,7 +173,7 @@ std::string left_out_text(const FlightComparison& c) {
     return text.empty() ? text : "\n" + text;
 }
 
-std::string worst_contact(const FlightComparison& comparison) {
+std::string worst_contact_text(const FlightComparison& comparison) {
     double worst = comparison.contacts.empty() ? std::nan("") : 0.0;
     for (const ContactDifference& contact : comparison.contacts) {
         worst = std::max(worst, contact.largest_hPa);
@@ -246,7 +246,7 @@ std::string comparison_markdown(const std::vector<FlightComparison>& comparisons
                     });
         }
     }
-    add_row(table, "pressure on the same contact, largest [hPa]", "", comparisons, worst_contact);
+    add_row(table, "pressure on the same contact, largest [hPa]", "", comparisons, worst_contact_text);
     for (const std::string_view name : kShownChannels) {
         // Each stretch of the flight laid over its own.
         add_row(table, fmt::format("{}: largest, RMS", name), "", comparisons,

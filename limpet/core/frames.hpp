@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
 
 /// Vectors, rotations and the few frame conversions that every room shares.
 ///
@@ -18,6 +19,8 @@ using Matrix3 = Eigen::Matrix3d;
 using Quaternion = Eigen::Quaterniond;
 
 inline constexpr double kPi = 3.14159265358979323846;
+/// What was not measured, or did not happen.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Standard gravity [m/s^2]; +z of W points down.
 inline constexpr double kGravity_m_s2 = 9.80665;
 /// Pressure outside the cup [Pa]. Source: facts.md section 3.

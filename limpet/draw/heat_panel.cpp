@@ -14,7 +14,7 @@ constexpr double kBar_px = 20.0;
 constexpr std::size_t kPixels = 200;  ///< of the map along each axis; between them it is smooth
 
 // Blue and orange stay apart for all common kinds of colour blindness.
-constexpr const char* kPalette =
+constexpr const char* kGrowthPalette =
     "-2 '#0B3C5D', -1 '#6FA8D6', 0 '#FAFAFA', 1 '#F0A35E', 2 '#A34700'";
 
 void check(const HeatPanel& panel) {
@@ -80,7 +80,7 @@ public:
 private:
     [[nodiscard]] std::string image() {
         const double x1 = box_.right_px + kBarGap_px, wide = kBar_px / box_.width_px();
-        sketch_.add("set palette defined ({})\n", kPalette);
+        sketch_.add("set palette defined ({})\n", kGrowthPalette);
         sketch_.add("set colorbox user noborder origin {} size graph {:.5f}, graph 1\n",
                     sketch_.at(x1, box_.bottom_px), wide);
         sketch_.add("set cbrange [{:.10g}:{:.10g}]\nset cbtics {:.10g}\nset format cb '%h'\n",

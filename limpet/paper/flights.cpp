@@ -13,7 +13,6 @@
 namespace limpet::paper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSpikeWindow_s = 0.5;
 constexpr double kSteady_s = 3.0;  ///< at the end of the rest
 constexpr const char* kTruth = "/truth/vehicle";
@@ -22,13 +21,13 @@ constexpr const char* kTruth = "/truth/vehicle";
 struct Samples {
     std::vector<double> values = {};
 
-    [[nodiscard]] double first() const { return values.empty() ? kNone : values.front(); }
-    [[nodiscard]] double last() const { return values.empty() ? kNone : values.back(); }
+    [[nodiscard]] double first() const { return values.empty() ? kNaN : values.front(); }
+    [[nodiscard]] double last() const { return values.empty() ? kNaN : values.back(); }
     [[nodiscard]] double least() const {
-        return values.empty() ? kNone : *std::min_element(values.begin(), values.end());
+        return values.empty() ? kNaN : *std::min_element(values.begin(), values.end());
     }
     [[nodiscard]] double most() const {
-        return values.empty() ? kNone : *std::max_element(values.begin(), values.end());
+        return values.empty() ? kNaN : *std::max_element(values.begin(), values.end());
     }
     [[nodiscard]] double mean() const {
         return std::accumulate(values.begin(), values.end(), 0.0) /
@@ -42,7 +41,7 @@ struct Samples {
             lowest = std::min(lowest, value);
             worst = std::max(worst, value - lowest);
         }
-        return values.size() < 2 ? kNone : worst / std::max(1e-9, first() - least());
+        return values.size() < 2 ? kNaN : worst / std::max(1e-9, first() - least());
     }
 };
 
@@ -52,7 +51,7 @@ public:
     explicit Instant(const record::RecordedEvent* event) : event_(event) {}
 
     [[nodiscard]] bool came() const { return event_ != nullptr; }
-    [[nodiscard]] double time_s() const { return came() ? event_->time_s : kNone; }
+    [[nodiscard]] double time_s() const { return came() ? event_->time_s : kNaN; }
     [[nodiscard]] double operator[](const char* name) const {
         if (came()) {
             for (const auto& [key, value] : event_->values) {
@@ -61,7 +60,7 @@ public:
                 }
             }
         }
-        return kNone;
+        return kNaN;
     }
 
 private:
@@ -92,7 +91,7 @@ public:
     [[nodiscard]] double first_contact_s() const {
         const record::Table* table = find_table(recording_, "/cup");
         const record::Column* phase = table == nullptr ? nullptr : table->find("phase");
-        double from_s = kNone;
+        double from_s = kNaN;
         for (std::size_t i = 0; phase != nullptr && i < phase->values.size(); ++i) {
             const bool touches = phase->values[i] > 0.0;
             if (touches && std::isnan(from_s)) {
@@ -101,7 +100,7 @@ public:
                 return table->time_s[i] - from_s;
             }
         }
-        return kNone;
+        return kNaN;
     }
 
     void touch(const std::string& prefix, const Instant& impact) {

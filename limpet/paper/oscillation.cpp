@@ -9,6 +9,7 @@
 
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/plant/mujoco_plant.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -18,7 +19,6 @@
 namespace limpet::paper {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWatch_s = 20.0;
 constexpr double kSample_s = 0.01;
 constexpr double kTooFar_deg = 15.0;  ///< beyond, nothing is linear any more
@@ -104,8 +104,8 @@ Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
 KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
                           double floor_deg) {
     constexpr std::size_t kFewest = 4;
-    KickedSwing swing{.growth_1_s = kNone,
-                      .frequency_Hz = kNone,
+    KickedSwing swing{.growth_1_s = kNaN,
+                      .frequency_Hz = kNaN,
                       .time_s = std::move(time_s),
                       .pitch_deg = std::move(pitch_deg)};
     std::vector<Extreme> turns = extremes(swing.time_s, swing.pitch_deg, floor_deg);
@@ -191,11 +191,11 @@ void fill(StabilityMap& map, int jobs) {
 }
 
 double SwingMissions::quantile(double share) const {
-    return pitch_deg.empty() ? kNone : campaign::quantile(pitch_deg, share);
+    return pitch_deg.empty() ? kNaN : campaign::quantile(pitch_deg, share);
 }
 
 double SwingMissions::median_swing_deg() const {
-    return swing_deg.empty() ? kNone : campaign::quantile(swing_deg, 0.5);
+    return swing_deg.empty() ? kNaN : campaign::quantile(swing_deg, 0.5);
 }
 
 SwingMissions swing_missions(const std::string& scenario, const Overrides& overrides,

@@ -47,7 +47,7 @@ constexpr std::array<PaperFigure, 7> kFigures = {{
     {"fig15", "failed_perch", "failed_attempt"},
 }};
 
-const PaperFlight& find(const std::vector<PaperFlight>& flights, const std::string& name) {
+const PaperFlight& flight_of(const std::vector<PaperFlight>& flights, const std::string& name) {
     for (const PaperFlight& flight : flights) {
         if (flight.name == name) {
             return flight;
@@ -63,7 +63,7 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                           evidence.get("vehicle.pitch_on_legs_deg")));
     evidence.set("slider.contact_ratio", evidence.get("failed_perch.contact_s") /
                                              evidence.get("failed_perch_stiff_slider.contact_s"));
-    const record::Recording& concrete = find(flights, "perch_concrete").recording;
+    const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
     const record::RecordedEvent* approach = first_event(concrete, "approach_started");
     const auto chapter = perching(concrete);
     evidence.set("fig11.approach_at_s", approach != nullptr && chapter
@@ -99,11 +99,11 @@ void study_flights(Study& study) {
     study.say("figures of the flights");
     const std::vector<std::string> drawn = {"perch_concrete", "perch_metal", "failed_perch"};
     for_each_index(drawn.size(), study.jobs, [&](std::size_t i) {
-        const PaperFlight& flight = find(flights, drawn[i]);
+        const PaperFlight& flight = flight_of(flights, drawn[i]);
         (void)report::plot(flight.recording, study.folder / "flights" / flight.name);
     });
     study.say("filmstrips");
-    (void)report::film(find(flights, "perch_concrete").recording,
+    (void)report::film(flight_of(flights, "perch_concrete").recording,
                        study.folder / "flights" / "perch_concrete");
 
     study.table("flights-table", flight_rows(flights));

@@ -88,7 +88,7 @@ double tau_1_s(const Press& press) {
     return value_or_nan(press.fit.sealing_time_s);
 }
 
-void collect(const std::vector<Press>& presses, Evidence& evidence) {
+void measure_suction(const std::vector<Press>& presses, Evidence& evidence) {
     double worst_Pa = 0.0;
     for (const Press& press : presses) {
         evidence.set(press.flight + ".vacuum_hPa", vacuum_hPa(press));
@@ -208,7 +208,7 @@ void study_suction(Study& study) {
     std::vector<Press> presses(kColumns.size());
     for_each_index(presses.size(), study.jobs,
                    [&](std::size_t i) { presses[i] = fly_press(kColumns[i], study); });
-    collect(presses, study.evidence);
+    measure_suction(presses, study.evidence);
 
     draw::Chart chart{.subtitle = "sensor on the simulated press rig, and the fit of eq. (5)",
                       .columns = 2};

@@ -80,7 +80,7 @@ int mixed(const std::vector<campaign::Group>& groups) {
         }));
 }
 
-void collect(const campaign::CampaignSummary& trials, const campaign::CampaignSummary& alike,
+void measure_trials(const campaign::CampaignSummary& trials, const campaign::CampaignSummary& alike,
              Evidence& evidence) {
     const std::vector<campaign::Group>& groups = by_speed(trials).groups;
     evidence.set("fig3.runs", trials.finished);
@@ -121,7 +121,7 @@ void study_trials(Study& study) {
     study.say("pendulum trials");
     const campaign::CampaignSummary trials = fly_trials("fig3", study);
     const campaign::CampaignSummary alike = fly_trials("fig3_without_spread", study);
-    collect(trials, alike, study.evidence);
+    measure_trials(trials, alike, study.evidence);
     study.draw("fig3",
                {.subtitle = fmt::format("{} trials of a vehicle on a 5 m pendulum, porous concrete",
                                         trials.finished),

@@ -19,7 +19,7 @@
 namespace limpet::paper {
 namespace {
 
-std::vector<StudyPart> wanted(const std::string& only) {
+std::vector<StudyPart> parts_of(const std::string& only) {
     std::vector<StudyPart> chosen;
     std::string names;
     for (const StudyPart& part : parts()) {
@@ -118,7 +118,7 @@ std::vector<std::string> measured_names() {
 }
 
 Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& watch) {
-    const std::vector<StudyPart> chosen = wanted(options.only);
+    const std::vector<StudyPart> chosen = parts_of(options.only);
     const auto statements = load_statements(statements_file(), measured_names());
     PageText text = load_page_text(page_text_file(), parts());
     require_ours(options.folder);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/interrupted.hpp"
 #include "limpet/paper/reproduce.hpp"
 
 namespace limpet::paper {

@@ -20,7 +20,7 @@ std::string plain(const std::string& name) {
 }
 
 /// Shortest text that gives PX4's number back: its floats have 32 bits.
-std::string number(const Px4Setting& setting) {
+std::string number_text(const Px4Setting& setting) {
     if (setting.type == Px4Type::int32) {
         return fmt::format("{}", std::lround(setting.value));
     }
@@ -67,7 +67,7 @@ std::string px4_params_text(const Px4Airframe& airframe, const std::vector<Px4Se
         airframe.name, where(airframe.target), source(airframe.pose));
     for (const Px4Setting& setting : settings) {
         text += fmt::format("# {}\n1\t1\t{}\t{}\t{}\n", setting.reason, setting.name,
-                            number(setting), static_cast<int>(setting.type));
+                            number_text(setting), static_cast<int>(setting.type));
     }
     return text;
 }
@@ -90,7 +90,7 @@ std::string px4_airframe_script(const Px4Airframe& airframe,
         where(airframe.target), source(airframe.pose), px4_airframe_folder(airframe.target));
     for (const Px4Setting& setting : settings) {
         text += fmt::format("\n# {}\nparam {} {} {}\n", setting.reason,
-                            setting.fixed ? "set" : "set-default", setting.name, number(setting));
+                            setting.fixed ? "set" : "set-default", setting.name, number_text(setting));
     }
     return text;
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::px4 {
 namespace {
@@ -37,20 +38,9 @@ std::optional<Line> split(const std::string& text) {
     return line;
 }
 
-/// std::from_chars for doubles came with GCC 11; a stream of the classic locale reads the same.
-std::optional<double> number(const std::string& text) {
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    double value = 0.0;
-    if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) {
-        return std::nullopt;
-    }
-    return value;
-}
-
 void set(const Parameter<autopilot::AutopilotParameters>& row, const Line& line,
          const std::string& where, autopilot::AutopilotParameters& parameters) {
-    const std::optional<double> value = number(line.value);
+    const std::optional<double> value = decimal(line.value);
     if (!value) {
         throw InputError(
             fmt::format("{}: {} = '{}' is not a number", where, line.name, line.value));

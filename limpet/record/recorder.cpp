@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/record/message_definitions.hpp"
 #include "limpet/record/ros_frames.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using ros::flu_from_frd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// @throws InternalError for a time before 0: a sample that never came is not recorded
 std::int64_t nanoseconds(double time_s) {

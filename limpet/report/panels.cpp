@@ -17,7 +17,6 @@
 namespace limpet::report {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPanel_px = 165.0;
 
 enum PanelIndex : std::size_t {

@@ -75,33 +75,25 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
 void read_given(const YamlNode& map, const std::vector<BoundParameter>& rows);
 
 /// Sets a value where its key is given.
-/// @param read  read_text, or what else takes a node
-template <class Read, class Value>
-void read_if_given(const YamlNode& map, std::string_view key, Read read, Value& value) {
+/// @param read  what takes the node
+template <class Value, class Read>
+void read_given(const YamlNode& map, std::string_view key, Value& value, Read read) {
     if (const YamlNode* node = map.find(key)) {
         value = read(*node);
     }
 }
-
 /// The same of one of some words, each with what it stands for.
 template <class Choice>
 void read_word_if_given(
     const YamlNode& map, std::string_view key, Choice& choice,
     std::initializer_list<std::pair<std::string_view, std::type_identity_t<Choice>>> words) {
-    const YamlNode* const node = map.find(key);
-    if (node == nullptr) {
-        return;
-    }
-    const std::string given = read_text(*node);
-    std::string all;
-    for (const auto& [word, meaning] : words) {
-        if (word == given) {
-            choice = meaning;
-            return;
+    if (const YamlNode* node = map.find(key)) {
+        std::vector<std::string_view> known;
+        for (const auto& each : words) {
+            known.push_back(each.first);
         }
-        all.append(all.empty() ? "" : ", ").append(word);
+        choice = (words.begin() + read_one_of(*node, known))->second;
     }
-    fail(*node, "\"" + shown(given) + "\" is none of " + all);
 }
 
 /// @return the same digits for the same bits, as few as tell it from its neighbours

@@ -38,10 +38,6 @@ std::optional<LoadPhase> load_phase(guidance::PerchingState state) {
     throw InternalError("perching state out of range");
 }
 
-double pitch_deg(const Truth& truth) {
-    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
-}
-
 /// max and min that take a first value over "none"
 void raise(double& value, double candidate) {
     value = std::fmax(value, candidate);
@@ -149,6 +145,10 @@ void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
 }
 
 }  // namespace
+
+double pitch_deg(const Truth& truth) {
+    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
+}
 
 void observe(Observations& seen, const FlightModel& model, const FlightState& state,
              const TickReport& report) {

@@ -16,6 +16,9 @@ struct Observations {
     std::uint64_t hash = 0;  ///< digest of the trajectory
 };
 
+/// Of the vehicle's nose, up positive.
+[[nodiscard]] double pitch_deg(const Truth& truth);
+
 /// After a tick: what it has led to and what happened in it.
 void observe(Observations& seen, const FlightModel& model, const FlightState& state,
              const TickReport& report);

@@ -4,13 +4,10 @@
 #include <algorithm>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/simulation/observe.hpp"
 
 namespace limpet::simulation {
 namespace {
-
-double pitch_deg(const Truth& truth) {
-    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
-}
 
 void enter(FlightState& state, guidance::PerchingState next, double time_s) {
     state.guidance.state = next;

@@ -33,7 +33,7 @@ double time_of(const std_msgs::Header& header) {
 companion::SessionSetup read_setup() {
     const scenario::YamlNode parameters = node_parameters({"asks_for_mode"});
     bool asks_for_mode = false;
-    read_if_given(parameters, "asks_for_mode", scenario::read_flag, asks_for_mode);
+    read_given(parameters, "asks_for_mode", asks_for_mode);
     const NodeSetup setup = load_setup(setup_of(parameters));
     const companion::SessionSetup session{
         .task = {.take_off = setup.scenario.mission == scenario::Mission::perch_and_take_off},

@@ -173,7 +173,7 @@ YamlNode node_parameters(std::vector<std::string_view> more) {
 SetupArguments setup_of(const YamlNode& parameters) {
     SetupArguments own = read_arguments(parameters);
     bool as_vehicle = false;
-    read_if_given(parameters, "as_vehicle", scenario::read_flag, as_vehicle);
+    read_given(parameters, "as_vehicle", as_vehicle);
     if (!as_vehicle) {
         return own;
     }
