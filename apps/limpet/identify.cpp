@@ -46,11 +46,11 @@ struct Row {
 
 /// The surface of Table II whose numbers are nearest, each as a ratio; none where one is off by
 /// more than half.
-std::optional<suction::Surface> nearest_surface(const identification::PressureFit& fit) {
-    std::optional<suction::Surface> nearest;
+std::optional<scenario::Surface> nearest_surface(const identification::PressureFit& fit) {
+    std::optional<scenario::Surface> nearest;
     double least = 0.0;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const suction::Surface surface = scenario::load_surface(name, scenario::data_root());
+        const scenario::Surface surface = scenario::load_surface(name, scenario::data_root());
         double distance = 0.0;
         bool near = true;
         for (const auto& [fitted, value] :
@@ -99,7 +99,7 @@ int decimals(double half_width) {
 }
 
 std::string text_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
-                    const std::optional<suction::Surface>& surface) {
+                    const std::optional<scenario::Surface>& surface) {
     std::string text = fmt::format("{:<16}{:>12}    {:<15}{}\n", "", "value", "95 % interval",
                                    surface ? "Table II: " + surface->name : "");
     for (const Row& row : rows) {
@@ -128,7 +128,7 @@ std::string text_of(const identification::PressureFit& fit, const std::vector<Ro
 }
 
 ordered_json json_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
-                     const std::optional<suction::Surface>& surface) {
+                     const std::optional<scenario::Surface>& surface) {
     ordered_json json;
     for (const Row& row : rows) {
         json[row.key] = nullptr;
@@ -220,7 +220,7 @@ void identify(IdentifyOptions options) {
     } catch (const InputError& error) {
         throw InputError(options.log + ": " + error.what());
     }
-    const std::optional<suction::Surface> surface = nearest_surface(fit);
+    const std::optional<scenario::Surface> surface = nearest_surface(fit);
     const std::vector<Row> rows = rows_of(fit);
     const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
     const fs::path folder = options.out.empty() ? "out/identify" : options.out;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -90,10 +91,10 @@ struct BoundParameter {
     return first;
 }
 
-/// @param values  must outlive what is returned
-template <class Struct>
+/// @param values  the table's struct, or one that is made of it; must outlive what is returned
+template <class Struct, class Values>
 [[nodiscard]] std::vector<BoundParameter> bind(const ParameterTable<Struct>& table,
-                                               Struct& values) {
+                                               Values& values) {
     std::vector<BoundParameter> rows;
     rows.reserve(table.size());
     for (const Parameter<Struct>& row : table) {

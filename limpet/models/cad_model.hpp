@@ -33,6 +33,11 @@ struct CadModel : vehicle::CadBodies {
     std::vector<Part> parts;                  ///< LINK_visual, LINK_visual_2, ...
 };
 
+/// @return null for a vehicle that is made of numbers
+[[nodiscard]] inline const CadModel* cad_of(const vehicle::Airframe& airframe) {
+    return dynamic_cast<const CadModel*>(airframe.cad.get());
+}
+
 /// @param has_cup  else the base is all there is
 /// @throws InputError "file:line: what": a joint of the wrong kind, axis or order, a link that does
 ///         not move with its joint, hinges that do not cross, a body without mass

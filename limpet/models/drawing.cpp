@@ -158,8 +158,8 @@ const std::array<double, 4>& colour(const Part& part) {
 }
 
 std::vector<Part> draw(const vehicle::Airframe& airframe) {
-    if (airframe.cad) {
-        return airframe.cad->parts;
+    if (const CadModel* cad = cad_of(airframe)) {
+        return cad->parts;
     }
     std::vector<Part> parts;
     draw_body(parts);

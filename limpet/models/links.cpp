@@ -74,7 +74,8 @@ std::vector<Link> make_links(const vehicle::Airframe& airframe) {
 }
 
 std::string called(const vehicle::Airframe& airframe, std::string_view part) {
-    return called(airframe.cad ? airframe.cad->names : CadNames{}, part);
+    const CadModel* cad = cad_of(airframe);
+    return called(cad != nullptr ? cad->names : CadNames{}, part);
 }
 
 }  // namespace limpet::models

@@ -62,7 +62,7 @@ void LevelOnCup::put_on_wall() {
 
 /// As the loop does it: control, rotors, bodies and cup.
 void LevelOnCup::period() {
-    const vehicle::Airframe& airframe = model_->airframe;
+    const vehicle::AirframeNumbers& airframe = model_->airframe;
     const Quaternion before = state_.truth.base.q_WF;
     state_.autopilot.estimate.q_WB = before;
     state_.command = control(model_->autopilot, state_.autopilot, state_.guidance.setpoint,

@@ -135,25 +135,25 @@ const YamlNode* written(const YamlNode& vehicle, const Following& one) {
 void read_model(const YamlNode& vehicle, const fs::path& folder, vehicle::Airframe& airframe) {
     if (const YamlNode* model = vehicle.find("model")) {
         airframe.cad = load_model(*model, folder, airframe.has_cup);
-        airframe.cad_bodies = airframe.cad;
     }
-    if (!airframe.cad) {
+    const models::CadModel* const cad = models::cad_of(airframe);
+    if (cad == nullptr) {
         return;
     }
-    for (const Following& one : following(*airframe.cad, airframe)) {
+    for (const Following& one : following(*cad, airframe)) {
         const YamlNode* node = written(vehicle, one);
         if (node != nullptr && !(std::abs(*one.into - one.value) <= one.tolerance)) {
             fail(*node,
                  fmt::format("{} differs from {:.6g} of {}, leave it out", number_text(*one.into),
-                             one.value, shown_path(airframe.cad->file)));
+                             one.value, shown_path(cad->file)));
         }
         *one.into = one.value;
     }
-    if (airframe.has_cup && !(std::abs(airframe.cad->joint_B_m.y()) <= kSameLength_m)) {
+    if (airframe.has_cup && !(std::abs(cad->joint_B_m.y()) <= kSameLength_m)) {
         throw InputError(fmt::format(
             "{}: the cup's joint is {:.4g} m to the right of the centre "
             "of mass, must be ahead of it within {} m",
-            shown_path(airframe.cad->file), airframe.cad->joint_B_m.y(), kSameLength_m));
+            shown_path(cad->file), cad->joint_B_m.y(), kSameLength_m));
     }
 }
 

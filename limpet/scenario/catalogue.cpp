@@ -32,7 +32,7 @@ std::vector<CatalogueEntry> list_files(const fs::path& folder) {
 
 std::vector<CatalogueEntry> list_surfaces(const fs::path& root) {
     std::vector<CatalogueEntry> entries;
-    for (const suction::Surface& surface : load_surfaces(root)) {
+    for (const Surface& surface : load_surfaces(root)) {
         entries.push_back({surface.name, surface.description});
     }
     return entries;

@@ -109,7 +109,7 @@ vehicle::Airframe load_vehicle_file(const fs::path& file) {
 }
 
 void read_surface(const YamlNode& map, const std::vector<std::string_view>& others,
-                  suction::Surface& surface) {
+                  Surface& surface) {
     std::vector<std::string_view> texts = {"description", "source"};
     texts.insert(texts.end(), others.begin(), others.end());
     read_rows(&map, bind(suction::surface_table(), surface), texts);
@@ -118,8 +118,8 @@ void read_surface(const YamlNode& map, const std::vector<std::string_view>& othe
 }
 
 /// @param row  an entry of surfaces.yaml
-suction::Surface surface_of(const YamlNode& row) {
-    suction::Surface surface;
+Surface surface_of(const YamlNode& row) {
+    Surface surface;
     surface.name = row.key;
     read_surface(row, {}, surface);
     return surface;
@@ -140,19 +140,19 @@ vehicle::Airframe load_vehicle(const std::string& wanted, const fs::path& root) 
     return load_vehicle_file(find_file(wanted, "vehicle", root / "vehicles"));
 }
 
-std::vector<suction::Surface> load_surfaces(const fs::path& root) {
+std::vector<Surface> load_surfaces(const fs::path& root) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
     if (!is_section(&all)) {
         fail(all, "is empty");
     }
-    std::vector<suction::Surface> surfaces;
+    std::vector<Surface> surfaces;
     for (const YamlNode& row : all.children) {
         surfaces.push_back(surface_of(row));
     }
     return surfaces;
 }
 
-suction::Surface load_surface(const std::string& name, const fs::path& root, const YamlNode* at) {
+Surface load_surface(const std::string& name, const fs::path& root, const YamlNode* at) {
     const YamlNode all = parse_yaml_file(root / "surfaces.yaml");
     if (const YamlNode* row = all.find(name)) {
         return surface_of(*row);
@@ -186,8 +186,8 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
     return airframe;
 }
 
-suction::Surface surface_from(const YamlNode& node, const fs::path& root) {
-    suction::Surface surface;
+Surface surface_from(const YamlNode& node, const fs::path& root) {
+    Surface surface;
     if (const std::string base = base_of(node); !base.empty()) {
         surface = load_surface(base, root, &node);
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "limpet/scenario/surface.hpp"
 #include "limpet/scenario/yaml_tree.hpp"
-#include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet::scenario {
@@ -26,11 +26,11 @@ namespace limpet::scenario {
                                              const std::filesystem::path& root);
 /// @param name  key of root/surfaces.yaml
 /// @param at    where it is asked for, to be named when there is none
-[[nodiscard]] suction::Surface load_surface(const std::string& name,
+[[nodiscard]] Surface load_surface(const std::string& name,
                                             const std::filesystem::path& root,
                                             const YamlNode* at = nullptr);
 /// @return all of them, in the file's order
-[[nodiscard]] std::vector<suction::Surface> load_surfaces(const std::filesystem::path& root);
+[[nodiscard]] std::vector<Surface> load_surfaces(const std::filesystem::path& root);
 
 /// Reads a vehicle's `model`, bodies and looks from a URDF instead of made ones:
 ///
@@ -52,7 +52,7 @@ void read_model(const YamlNode& vehicle, const std::filesystem::path& folder,
 [[nodiscard]] vehicle::Airframe vehicle_from(const YamlNode& node,
                                              const std::filesystem::path& root,
                                              const std::filesystem::path& folder);
-[[nodiscard]] suction::Surface surface_from(const YamlNode& node,
+[[nodiscard]] Surface surface_from(const YamlNode& node,
                                             const std::filesystem::path& root);
 
 }  // namespace limpet::scenario

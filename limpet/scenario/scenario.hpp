@@ -15,9 +15,9 @@
 #include "limpet/guidance/parameters.hpp"
 #include "limpet/models/model_writer.hpp"
 #include "limpet/plant/engines.hpp"
+#include "limpet/scenario/surface.hpp"
 #include "limpet/sensors/registry.hpp"
 #include "limpet/suction/cup.hpp"
-#include "limpet/suction/surface.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/mount.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
@@ -61,9 +61,9 @@ struct WallSetup {
     double height_m = 4.0;
     double radius_m = 5.0;  ///< of a shape that bends
     WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
-    suction::Surface surface;
+    Surface surface;
     /// Surface met by the first, second, ... touch; `surface` after those.
-    std::vector<suction::Surface> first_touches;
+    std::vector<Surface> first_touches;
 };
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();

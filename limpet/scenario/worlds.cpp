@@ -31,7 +31,7 @@ models::GazeboSensors gazebo_sensors(const sensors::SensorParameters& sensors) {
 }
 
 models::GazeboWorld showroom(const vehicle::Airframe& airframe,
-                             const std::vector<suction::Surface>& surfaces) {
+                             const std::vector<Surface>& surfaces) {
     constexpr double kPitch_m = 1.3;  // from wall to wall
     constexpr double kWidth_m = 1.2;
     constexpr double kHeight_m = 1.6;

@@ -22,6 +22,6 @@ namespace limpet::scenario {
 /// A wall of each surface in a row, named wall_SURFACE, and before each a vehicle that stands still
 /// in the air, its lip at the wall.
 [[nodiscard]] models::GazeboWorld showroom(const vehicle::Airframe& airframe,
-                                           const std::vector<suction::Surface>& surfaces);
+                                           const std::vector<Surface>& surfaces);
 
 }  // namespace limpet::scenario

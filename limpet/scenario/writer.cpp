@@ -69,8 +69,8 @@ void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
     writer.value(1, "name", in_quotes(airframe.name));
     writer.value(1, "description", in_quotes(airframe.description));
     writer.value(1, "has_cup", airframe.has_cup ? "true" : "false");
-    if (airframe.cad) {
-        write_model(writer, *airframe.cad, airframe.has_cup);
+    if (const models::CadModel* cad = models::cad_of(airframe)) {
+        write_model(writer, *cad, airframe.has_cup);
     }
     for (const Section& section : vehicle_sections(airframe)) {
         if (section.name.empty()) {
@@ -90,7 +90,7 @@ void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
 }
 
 /// @param first  of the lines: "surface:" or the dash of a list's item
-void write_surface(Writer& writer, int indent, std::string_view first, suction::Surface surface) {
+void write_surface(Writer& writer, int indent, std::string_view first, Surface surface) {
     writer.line(indent, first);
     writer.value(indent + 1, "name", in_quotes(surface.name));
     writer.value(indent + 1, "description", in_quotes(surface.description));
@@ -109,7 +109,7 @@ void write_wall(Writer& writer, const Section& section, const WallSetup& wall) {
     write_surface(writer, 1, "surface:", wall.surface);
     if (!wall.first_touches.empty()) {
         writer.line(1, "first_touches:");
-        for (const suction::Surface& surface : wall.first_touches) {
+        for (const Surface& surface : wall.first_touches) {
             write_surface(writer, 2, "-", surface);
         }
     }

@@ -91,7 +91,7 @@ struct AirLoad {
 };
 
 AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
-    const vehicle::Airframe& airframe = model.airframe;
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const Wrench rotors_B =

@@ -8,7 +8,7 @@
 namespace limpet::simulation {
 
 bool legs_near_wall(const FlightModel& model, const Kinematics& base) {
-    const vehicle::Airframe& airframe = model.airframe;
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     if (!airframe.has_cup || !model.has_wall) {
         return false;
     }
@@ -29,7 +29,7 @@ double closest_hub_m(const FlightModel& model, const Kinematics& base) {
 }
 
 std::optional<guidance::Ending> collision(const FlightModel& model, const Truth& truth) {
-    const vehicle::Airframe& airframe = model.airframe;
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     const Vector3& p_WB_m = truth.base.p_WF_m;
     if (p_WB_m.z() > model.simulation.start_height_m) {
         return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};

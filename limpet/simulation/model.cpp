@@ -58,7 +58,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->guidance = scenario.guidance;
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
     model->has_wall = scenario.wall.present;
-    model->surfaces = scenario.wall.first_touches;
+    model->surfaces.assign(scenario.wall.first_touches.begin(), scenario.wall.first_touches.end());
     model->surfaces.push_back(scenario.wall.surface);
     model->ahead_W = heading_W(scenario.wall);
     model->start = scenario.start;
@@ -89,7 +89,7 @@ FlightState start(const FlightModel& model, plant::Plant& plant, std::uint32_t r
 
 FlightState start(const FlightModel& model, const Kinematics& base, const Kinematics& cup,
                   std::uint32_t run) {
-    const vehicle::Airframe& airframe = model.airframe;
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     FlightState state;
     state.truth.base = base;
     state.truth.cup = cup;

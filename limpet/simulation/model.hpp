@@ -14,7 +14,7 @@ namespace limpet::simulation {
 /// What a flight is made of. Immutable once built: many runs in many threads share one.
 struct FlightModel {
     std::shared_ptr<const plant::PlantModel> plant;
-    vehicle::Airframe airframe;
+    vehicle::AirframeNumbers airframe;
     sensors::SensorsModel sensors;
     autopilot::AutopilotModel autopilot;
     guidance::PerchingTask task;

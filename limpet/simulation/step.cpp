@@ -45,7 +45,7 @@ RotorCommand control(const FlightModel& model, FlightState& state,
 
 void step(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
           const Outside& outside) {
-    const vehicle::Airframe& airframe = model.airframe;
+    const vehicle::AirframeNumbers& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);
     report.restart();

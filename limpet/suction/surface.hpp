@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "limpet/core/parameters.hpp"
 
 namespace limpet::suction {
 
-/// What a cup meets: one row of surfaces.yaml. Defaults: porous concrete.
+/// What a cup meets, in numbers: a row of surfaces.yaml without its texts. Defaults: porous concrete.
 /// Pressures and time constants are Table II of the paper; the rest is assumed, see surfaces.yaml.
 struct Surface {
-    std::string name = "porous_concrete";
-    std::string description;
-    std::string source;
     double vacuum_pressure_Pa = 65000.0;    ///< P_vac of eqs. (5), (6), absolute
     double sealing_time_constant_s = 0.33;  ///< tau_1
     double sealing_time_tolerance_s = 0.03;

@@ -64,8 +64,8 @@ void validate(const Airframe& airframe) {
 }
 
 BodyInertia carriage_inertia(const Airframe& airframe) {
-    if (airframe.cad_bodies) {
-        return airframe.cad_bodies->carriage;
+    if (airframe.cad) {
+        return airframe.cad->carriage;
     }
     const double mass_kg = airframe.slider.mass_kg;
     const double length_m = 2.0 * airframe.slider.travel_m;
@@ -78,8 +78,8 @@ BodyInertia carriage_inertia(const Airframe& airframe) {
 }
 
 BodyInertia cup_inertia(const Airframe& airframe) {
-    if (airframe.cad_bodies) {
-        return cup_with_yoke(*airframe.cad_bodies);
+    if (airframe.cad) {
+        return cup_with_yoke(*airframe.cad);
     }
     const CupMountParameters& cup = airframe.cup;
     const double along = 0.5 * cup.mass_kg * cup.radius_m * cup.radius_m;
@@ -90,8 +90,8 @@ BodyInertia cup_inertia(const Airframe& airframe) {
 }
 
 BodyInertia base_inertia(const Airframe& airframe) {
-    if (airframe.cad_bodies) {
-        return airframe.cad_bodies->base;
+    if (airframe.cad) {
+        return airframe.cad->base;
     }
     BodyInertia base{.mass_kg = airframe.mass_kg,
                      .centre_B_m = Vector3::Zero(),

@@ -10,10 +10,6 @@
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
 
-namespace limpet::models {
-struct CadModel;
-}
-
 namespace limpet::vehicle {
 
 /// Propeller and motor, the Gazebo motor model's parameters. Source: facts.md section 1, Table I.
@@ -93,8 +89,10 @@ struct BodyInertia {
     Matrix3 inertia_kg_m2 = Matrix3::Zero();  ///< about the body's own centre, axes of B
 };
 
-/// The bodies of a vehicle as a CAD program gives them (limpet/models/cad_model.hpp).
+/// The bodies of a vehicle as a CAD program gives them; names and looks come with
+/// limpet/models/cad_model.hpp.
 struct CadBodies {
+    virtual ~CadBodies() = default;
     BodyInertia base;
     BodyInertia carriage;
     BodyInertia cup_yoke;
@@ -103,12 +101,9 @@ struct CadBodies {
 /// Yoke and cup as one body.
 [[nodiscard]] BodyInertia cup_with_yoke(const CadBodies& bodies);
 
-/// ONE description of a vehicle, from which MJCF, SDF and URDF are made. Positions are in B: origin
-/// at the centre of mass of the whole vehicle with the slider at its outer stop,
-/// forward-right-down.
-struct Airframe {
-    std::string name = "perching_uav";
-    std::string description;
+/// The numbers of a vehicle. Positions are in B: origin at the centre of mass of the whole vehicle
+/// with the slider at its outer stop, forward-right-down.
+struct AirframeNumbers {
     bool has_cup = true;   ///< slider, joint, cup, legs and pump; a plain multirotor has none
     double mass_kg = 3.2;  ///< of the whole vehicle
     Vector3 inertia_kg_m2 = {0.05, 0.10, 0.14};  ///< of the whole vehicle about B, diagonal
@@ -127,10 +122,17 @@ struct Airframe {
     double lidar_x_m = 0.205;          ///< both LiDARs on the front arms
     double lidar_separation_m = 0.41;  ///< l of eq. (7)
     double lidar_z_m = 0.0;
-    /// Bodies and looks as a CAD program gives them, else null: then they are made of the above.
-    /// Masses, inertias and the cup's joint above are the same as its.
-    std::shared_ptr<const models::CadModel> cad{};
-    std::shared_ptr<const CadBodies> cad_bodies{};  ///< those of `cad`
+
+    friend bool operator==(const AirframeNumbers&, const AirframeNumbers&) = default;
+};
+
+/// ONE description of a vehicle, from which MJCF, SDF and URDF are made.
+struct Airframe : AirframeNumbers {
+    std::string name = "perching_uav";
+    std::string description;
+    /// Bodies as a CAD program gives them, else null: then they are made of the numbers. Masses,
+    /// inertias and the cup's joint of the numbers are the same as its.
+    std::shared_ptr<const CadBodies> cad{};
 
     friend bool operator==(const Airframe&, const Airframe&) = default;
 };

@@ -54,7 +54,7 @@ const ParameterTable<PressRigParameters>& press_rig_table() {
     return table;
 }
 
-Vector3 lip_p_B_m(const Airframe& airframe) {
+Vector3 lip_p_B_m(const AirframeNumbers& airframe) {
     return {airframe.cup.joint_x_m + airframe.cup.lip_offset_m, 0.0, airframe.cup.joint_z_m};
 }
 

@@ -53,7 +53,7 @@ struct PressRigParameters {
 [[nodiscard]] const ParameterTable<PressRigParameters>& press_rig_table();
 
 /// Centre of the lip in B with the slider out and the joint centred.
-[[nodiscard]] Vector3 lip_p_B_m(const Airframe& airframe);
+[[nodiscard]] Vector3 lip_p_B_m(const AirframeNumbers& airframe);
 
 /// How far the ropes are pulled back from the lowest point.
 /// @param speed_m_s  at the lowest point

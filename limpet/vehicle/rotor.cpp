@@ -33,7 +33,7 @@ RotorsState spinning(const RotorParameters& rotor, double command) {
     return state;
 }
 
-double hover_command(const Airframe& airframe) {
+double hover_command(const AirframeNumbers& airframe) {
     const double thrust_N = airframe.mass_kg * kGravity_m_s2 / kRotors;
     const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.motor_constant_kg_m);
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
@@ -62,7 +62,7 @@ void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& 
     }
 }
 
-Wrench rotor_wrench_B(const Airframe& airframe, const RotorsState& state, const Kinematics& base,
+Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state, const Kinematics& base,
                       const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);

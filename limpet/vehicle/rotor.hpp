@@ -63,7 +63,7 @@ struct RotorsState {
 [[nodiscard]] RotorsState spinning(const RotorParameters& rotor, double command);
 
 /// @return the command, alike on all rotors, whose thrust equals the weight in still air
-[[nodiscard]] double hover_command(const Airframe& airframe);
+[[nodiscard]] double hover_command(const AirframeNumbers& airframe);
 
 /// Turns commands into speeds, one step of the lag by its exact solution.
 /// @param command        beyond 0..1 it is cut; disarmed rotors run down
@@ -77,7 +77,7 @@ void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& 
 /// @param base         frame B
 /// @param wind_W_m_s   velocity of the air
 /// @return force and moment about B's origin, in B; -force.z is the total thrust, as drag has no z
-[[nodiscard]] Wrench rotor_wrench_B(const Airframe& airframe, const RotorsState& state,
+[[nodiscard]] Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
                                     const Kinematics& base, const Vector3& wind_W_m_s);
 
 /// @return power of the four shafts, torque times speed [W]

@@ -71,7 +71,7 @@ void step(const WallAirModel& model, WallAirState& state);
 /// @param thrust_N    sum of the rotors
 /// @return on the vehicle about its centre of mass, in W
 [[nodiscard]] Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
-                                       const Airframe& airframe, const RotorsState& rotors,
+                                       const AirframeNumbers& airframe, const RotorsState& rotors,
                                        double thrust_N, const Quaternion& q_WB, double distance_m,
                                        const Vector3& x_T_W);
 

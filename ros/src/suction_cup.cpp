@@ -37,7 +37,7 @@ void SuctionCup::command(bool pump_on, bool valve_open) {
 
 /// Of the spot that is under the cup; a touch that has not come yet meets the next one.
 const suction::Surface& SuctionCup::surface() const {
-    const std::vector<suction::Surface>& first = scenario_.wall.first_touches;
+    const std::vector<scenario::Surface>& first = scenario_.wall.first_touches;
     const bool between = state_.status.phase == CupPhase::free;
     const auto spot = static_cast<std::size_t>(std::max(state_.touches - (between ? 0 : 1), 0));
     return spot < first.size() ? first[spot] : scenario_.wall.surface;

@@ -8,7 +8,7 @@ namespace limpet::scenario {
 namespace {
 
 /// Bit by bit: 0.1 and its neighbour are not the same.
-void expect_same_surface(suction::Surface a, suction::Surface b) {
+void expect_same_surface(Surface a, Surface b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.description, b.description);
     EXPECT_EQ(a.source, b.source);

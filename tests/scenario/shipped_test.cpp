@@ -30,7 +30,7 @@ TEST(Surfaces, AreThoseOfTableII) {
                            Row{"turbine_blade", 265, 0.25, 8.0, 0.03, 0.5},
                            Row{"metal", 275, 0.25, 16.0, 0.03, 1.0}}) {
         SCOPED_TRACE(row.name);
-        const suction::Surface surface = load_surface(row.name, kRoot);
+        const Surface surface = load_surface(row.name, kRoot);
         EXPECT_EQ(surface.name, row.name);
         EXPECT_EQ(surface.vacuum_pressure_Pa, row.vacuum_hPa * 100.0);
         EXPECT_EQ(surface.sealing_time_constant_s, row.tau_1_s);
@@ -57,7 +57,7 @@ TEST(Surfaces, PassTheGateInTheTimesThatFollow) {
 TEST(Surfaces, SmootherOnesSealEasierAndOnlyMetalLetsThePumpRest) {
     double threshold_N = 1e9;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const suction::Surface surface = load_surface(name, kRoot);
+        const Surface surface = load_surface(name, kRoot);
         EXPECT_LT(surface.seal_threshold_median_N, threshold_N) << name;
         EXPECT_EQ(surface.pump_cycles, std::string(name) == "metal") << name;
         threshold_N = surface.seal_threshold_median_N;
@@ -70,7 +70,7 @@ TEST(Surfaces, NothingSealsOnTheSpalledSpot) {
 }
 
 TEST(Surfaces, SayWhatTheyAreAndWhereFrom) {
-    for (const suction::Surface& surface : load_surfaces(kRoot)) {
+    for (const Surface& surface : load_surfaces(kRoot)) {
         EXPECT_NE(surface.description, "") << surface.name;
         EXPECT_NE(surface.source, "") << surface.name;
     }

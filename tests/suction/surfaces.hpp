@@ -27,7 +27,6 @@ inline void PrintTo(const TableTwo& row, std::ostream* out) {
 
 inline Surface surface_of(const TableTwo& row) {
     Surface surface;
-    surface.name = row.name;
     surface.vacuum_pressure_Pa = row.vacuum_Pa;
     surface.sealing_time_constant_s = row.tau_1_s;
     surface.unsealing_time_constant_s = row.tau_2_s;
