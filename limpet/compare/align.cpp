@@ -16,7 +16,6 @@
 namespace limpet::compare {
 namespace {
 
-
 /// What happened in a recording, as if it were the reference.
 std::vector<EventPair> happenings(const record::Recording& recording) {
     std::vector<EventPair> found;

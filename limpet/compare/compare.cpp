@@ -15,7 +15,6 @@
 namespace limpet::compare {
 namespace {
 
-
 FlightIdentity identity(const FlightTrace& flight) {
     const record::Window whole = whole_flight(*flight.recording);
     return {flight.label, flight.recording->path.string(), summary(*flight.recording), whole.from_s,

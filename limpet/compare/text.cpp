@@ -246,7 +246,8 @@ std::string comparison_markdown(const std::vector<FlightComparison>& comparisons
                     });
         }
     }
-    add_row(table, "pressure on the same contact, largest [hPa]", "", comparisons, worst_contact_text);
+    add_row(table, "pressure on the same contact, largest [hPa]", "", comparisons,
+            worst_contact_text);
     for (const std::string_view name : kShownChannels) {
         // Each stretch of the flight laid over its own.
         add_row(table, fmt::format("{}: largest, RMS", name), "", comparisons,

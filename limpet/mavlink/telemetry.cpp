@@ -13,7 +13,7 @@
 namespace limpet::mavlink {
 namespace {
 
-constexpr int kFramesAnUpdate = 100;            // a peer that floods must not stop the flight
+constexpr int kFramesAnUpdate = 100;  // a peer that floods must not stop the flight
 
 // MAV_CMD
 constexpr std::uint16_t kRequestMessage = 512;

@@ -210,7 +210,7 @@ bool is_stl(const std::filesystem::path& file) {
 }
 
 void draw_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
-               const Vector3& centre_m) {
+                const Vector3& centre_m) {
     for (const UrdfLink& link : robot.links) {
         const PlacedLink& at = placed.at(link.name);
         int number = 0;

@@ -81,7 +81,7 @@ int mixed(const std::vector<campaign::Group>& groups) {
 }
 
 void measure_trials(const campaign::CampaignSummary& trials, const campaign::CampaignSummary& alike,
-             Evidence& evidence) {
+                    Evidence& evidence) {
     const std::vector<campaign::Group>& groups = by_speed(trials).groups;
     evidence.set("fig3.runs", trials.finished);
     // Groups ascend with the speed.

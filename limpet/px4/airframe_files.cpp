@@ -89,8 +89,9 @@ std::string px4_airframe_script(const Px4Airframe& airframe,
         airframe.name, airframe.target == Px4Target::flight ? "Quadrotor x" : "Simulation",
         where(airframe.target), source(airframe.pose), px4_airframe_folder(airframe.target));
     for (const Px4Setting& setting : settings) {
-        text += fmt::format("\n# {}\nparam {} {} {}\n", setting.reason,
-                            setting.fixed ? "set" : "set-default", setting.name, number_text(setting));
+        text +=
+            fmt::format("\n# {}\nparam {} {} {}\n", setting.reason,
+                        setting.fixed ? "set" : "set-default", setting.name, number_text(setting));
     }
     return text;
 }

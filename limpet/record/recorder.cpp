@@ -20,7 +20,6 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using ros::flu_from_frd;
 
-
 /// @throws InternalError for a time before 0: a sample that never came is not recorded
 std::int64_t nanoseconds(double time_s) {
     require(time_s >= 0.0 && time_s < 1e9, "recorded times are 0 or later, and finite");

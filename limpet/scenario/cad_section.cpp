@@ -143,17 +143,16 @@ void read_model(const YamlNode& vehicle, const fs::path& folder, vehicle::Airfra
     for (const Following& one : following(*cad, airframe)) {
         const YamlNode* node = written(vehicle, one);
         if (node != nullptr && !(std::abs(*one.into - one.value) <= one.tolerance)) {
-            fail(*node,
-                 fmt::format("{} differs from {:.6g} of {}, leave it out", number_text(*one.into),
-                             one.value, shown_path(cad->file)));
+            fail(*node, fmt::format("{} differs from {:.6g} of {}, leave it out",
+                                    number_text(*one.into), one.value, shown_path(cad->file)));
         }
         *one.into = one.value;
     }
     if (airframe.has_cup && !(std::abs(cad->joint_B_m.y()) <= kSameLength_m)) {
-        throw InputError(fmt::format(
-            "{}: the cup's joint is {:.4g} m to the right of the centre "
-            "of mass, must be ahead of it within {} m",
-            shown_path(cad->file), cad->joint_B_m.y(), kSameLength_m));
+        throw InputError(
+            fmt::format("{}: the cup's joint is {:.4g} m to the right of the centre "
+                        "of mass, must be ahead of it within {} m",
+                        shown_path(cad->file), cad->joint_B_m.y(), kSameLength_m));
     }
 }
 

@@ -26,9 +26,8 @@ namespace limpet::scenario {
                                              const std::filesystem::path& root);
 /// @param name  key of root/surfaces.yaml
 /// @param at    where it is asked for, to be named when there is none
-[[nodiscard]] Surface load_surface(const std::string& name,
-                                            const std::filesystem::path& root,
-                                            const YamlNode* at = nullptr);
+[[nodiscard]] Surface load_surface(const std::string& name, const std::filesystem::path& root,
+                                   const YamlNode* at = nullptr);
 /// @return all of them, in the file's order
 [[nodiscard]] std::vector<Surface> load_surfaces(const std::filesystem::path& root);
 
@@ -52,7 +51,6 @@ void read_model(const YamlNode& vehicle, const std::filesystem::path& folder,
 [[nodiscard]] vehicle::Airframe vehicle_from(const YamlNode& node,
                                              const std::filesystem::path& root,
                                              const std::filesystem::path& folder);
-[[nodiscard]] Surface surface_from(const YamlNode& node,
-                                            const std::filesystem::path& root);
+[[nodiscard]] Surface surface_from(const YamlNode& node, const std::filesystem::path& root);
 
 }  // namespace limpet::scenario

@@ -94,8 +94,8 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
-    const Wrench rotors_B =
-        vehicle::rotor_wrench_B(airframe, state.rotors, base, vehicle::wind_W_m_s(model.wind, state.wind));
+    const Wrench rotors_B = vehicle::rotor_wrench_B(airframe, state.rotors, base,
+                                                    vehicle::wind_W_m_s(model.wind, state.wind));
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};

@@ -114,7 +114,8 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     }
     state.sensors = sensors::start(model.sensors, state.truth, model.seed, run);
     state.wind = vehicle::start(model.wind, RandomStream(model.seed, run, Stream::wind));
-    state.wall_air = vehicle::start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
+    state.wall_air =
+        vehicle::start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
     state.cup.random = RandomStream(model.seed, run, Stream::seal);
     return state;
 }

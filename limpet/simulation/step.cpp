@@ -38,7 +38,8 @@ RotorCommand control(const FlightModel& model, FlightState& state,
     const double time_s = seconds(state.tick);
     return external != nullptr
                ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
-               : autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint, time_s);
+               : autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint,
+                                    time_s);
 }
 
 }  // namespace
@@ -65,16 +66,17 @@ void step(const FlightModel& model, FlightState& state, plant::Plant& plant, Tic
             state.guidance.setpoint.armed = state.command.armed;
         }
     } else if (due(state.tick, model.guidance_rate_Hz)) {
-        guidance::update(model.guidance, model.task, state.guidance, readings, state.autopilot.estimate,
-               time_s, events);
+        guidance::update(model.guidance, model.task, state.guidance, readings,
+                         state.autopilot.estimate, time_s, events);
     }
     if (controls) {
         state.command = control(model, state, outside.autopilot);
     }
     vehicle::step(airframe.rotor, state.rotors, state.command, kTick_s,
-         vehicle::voltage_share(airframe.battery, state.battery.voltage_V));
-    vehicle::step(airframe.battery, state.battery, vehicle::mechanical_power_W(airframe.rotor, state.rotors),
-         state.cup.status.pump_running, state.command.armed, kTick_s);
+                  vehicle::voltage_share(airframe.battery, state.battery.voltage_V));
+    vehicle::step(airframe.battery, state.battery,
+                  vehicle::mechanical_power_W(airframe.rotor, state.rotors),
+                  state.cup.status.pump_running, state.command.armed, kTick_s);
     vehicle::step(model.wind, state.wind);
     vehicle::step(model.wall_air, state.wall_air);
     advance(model, state, plant, report, outside.cup);

@@ -5,8 +5,9 @@
 
 namespace limpet::suction {
 
-/// What a cup meets, in numbers: a row of surfaces.yaml without its texts. Defaults: porous concrete.
-/// Pressures and time constants are Table II of the paper; the rest is assumed, see surfaces.yaml.
+/// What a cup meets, in numbers: a row of surfaces.yaml without its texts. Defaults: porous
+/// concrete. Pressures and time constants are Table II of the paper; the rest is assumed, see
+/// surfaces.yaml.
 struct Surface {
     double vacuum_pressure_Pa = 65000.0;    ///< P_vac of eqs. (5), (6), absolute
     double sealing_time_constant_s = 0.33;  ///< tau_1

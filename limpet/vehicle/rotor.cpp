@@ -62,8 +62,8 @@ void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& 
     }
 }
 
-Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state, const Kinematics& base,
-                      const Vector3& wind_W_m_s) {
+Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
+                      const Kinematics& base, const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
     Wrench sum;

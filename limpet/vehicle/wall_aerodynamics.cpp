@@ -112,8 +112,9 @@ bool acts(const WallAirModel& model) {
 }
 
 Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
-                         const AirframeNumbers& airframe, const RotorsState& rotors, double thrust_N,
-                         const Quaternion& q_WB, double distance_m, const Vector3& x_T_W) {
+                         const AirframeNumbers& airframe, const RotorsState& rotors,
+                         double thrust_N, const Quaternion& q_WB, double distance_m,
+                         const Vector3& x_T_W) {
     const WallAirParameters& parameters = model.parameters;
     const double radii = std::max(0.0, distance_m) / airframe.rotor.radius_m;
     const Vector3 axis_W = q_WB * Vector3::UnitZ();

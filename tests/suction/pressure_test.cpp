@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "limpet/core/frames.hpp"
 #include "../support/suction.hpp"
+#include "limpet/core/frames.hpp"
 #include "surfaces.hpp"
 
 namespace limpet::suction {
