@@ -154,8 +154,7 @@ void check_axes(const UrdfRobot& robot, const CadNames& names, const Placed& pla
 
 /// @return where the hinges cross, in the base link's frame
 Vector3 crossing(const UrdfRobot& robot, const CadNames& names, const Placed& placed) {
-    const Vector3 pitch =
-        placed.at(robot.joint(called(names, "cup_pitch"))->child).pose.translation();
+    Vector3 pitch = placed.at(robot.joint(called(names, "cup_pitch"))->child).pose.translation();
     const UrdfJoint& yaw_joint = *robot.joint(called(names, "cup_yaw"));
     const Vector3 yaw = placed.at(yaw_joint.child).pose.translation();
     if (!((yaw - pitch).norm() <= kSamePlace_m)) {

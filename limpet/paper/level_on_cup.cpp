@@ -32,7 +32,7 @@ LevelOnCup::LevelOnCup(std::shared_ptr<const simulation::FlightModel> model)
       state_(start(*model_, plant_)),
       ticks_(kTicksPerSecond / model_->control_rate_Hz) {
     require(model_->airframe.has_cup && model_->has_wall, "a cup and a wall to be level on");
-    require(ticks_ * model_->control_rate_Hz == kTicksPerSecond,
+    require(kTicksPerSecond % model_->control_rate_Hz == 0,
             "a control rate that divides the tick's");
     put_on_wall();
 }
