@@ -60,7 +60,7 @@ std::string bar_text(const campaign::Progress& progress) {
     return fmt::format("[{}{}] ", std::string(full, '#'), std::string(kBar - full, '.'));
 }
 
-campaign::CampaignWatch watch(Terminal& terminal) {
+campaign::CampaignWatch campaign_watch(Terminal& terminal) {
     return {.on_progress =
                 [&terminal,
                  next = Clock::now() + kLineEvery](const campaign::Progress& progress) mutable {
@@ -113,7 +113,8 @@ ExitCode fly_campaign(const CampaignOptions& options) {
                               campaign.scenario_name, campaign.seed, options.jobs,
                               options.jobs == 1 ? "" : "s",
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
-    const campaign::Progress progress = run_campaign(results, options.jobs, watch(terminal));
+    const campaign::Progress progress =
+        run_campaign(results, options.jobs, campaign_watch(terminal));
     return conclude(progress, results, options, folder, terminal);
 }
 

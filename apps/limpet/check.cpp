@@ -48,7 +48,7 @@ void check_file(const std::string& file) {
     }
 }
 
-OptionList options_of(std::string& file) {
+OptionList file_option(std::string& file) {
     return {{"file FILE", &file,
              "scenario (name or file), vehicles/*.yaml, campaigns/*.yaml,\n"
              "surfaces.yaml, *.mcap"}};
@@ -58,7 +58,7 @@ OptionList options_of(std::string& file) {
 
 Verb check_verb() {
     return verb<std::string>(
-        "check", "Check a scenario, vehicle, campaign, surfaces.yaml or recording", options_of,
+        "check", "Check a scenario, vehicle, campaign, surfaces.yaml or recording", file_option,
         check_file, "Exits with 0 when all is good, 2 when not.\n");
 }
 

@@ -11,7 +11,7 @@
 namespace limpet::app {
 namespace {
 
-void print(const std::string& kind) {
+void print_list(const std::string& kind) {
     const auto root = scenario::data_root();
     const auto rows =
         kind == "surfaces" ? scenario::list_surfaces(root) : scenario::list_files(root / kind);
@@ -24,7 +24,7 @@ void print(const std::string& kind) {
     }
 }
 
-OptionList options_of(std::string& kind) {
+OptionList kind_option(std::string& kind) {
     return {{"kind KIND", &kind, "scenarios, campaigns, surfaces or vehicles",
              one_of({"scenarios", "campaigns", "surfaces", "vehicles"})}};
 }
@@ -32,8 +32,8 @@ OptionList options_of(std::string& kind) {
 }  // namespace
 
 Verb list_verb() {
-    return verb<std::string>("list", "List scenarios, campaigns, surfaces or vehicles", options_of,
-                             print);
+    return verb<std::string>("list", "List scenarios, campaigns, surfaces or vehicles", kind_option,
+                             print_list);
 }
 
 }  // namespace limpet::app

@@ -98,7 +98,7 @@ OptionList options_of(ParamsOptions& options) {
             {"--format FORMAT", &options.format, "text or markdown", one_of({"text", "markdown"})}};
 }
 
-void print(const ParamsOptions& options) {
+void print_params(const ParamsOptions& options) {
     Defaults defaults;
     const auto sections = sections_in(options.room, defaults);
     const bool markdown = options.format == "markdown";
@@ -112,8 +112,8 @@ void print(const ParamsOptions& options) {
 
 Verb params_verb() {
     return verb<ParamsOptions>(
-        "params", "Print every number that can be set: default, range, source", options_of, print,
-        "Columns: name, default, unit, allowed range, what it does, [source].\n");
+        "params", "Print every number that can be set: default, range, source", options_of,
+        print_params, "Columns: name, default, unit, allowed range, what it does, [source].\n");
 }
 
 }  // namespace limpet::app

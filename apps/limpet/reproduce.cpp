@@ -15,20 +15,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Options {
+struct ReproduceOptions {
     std::string out = "out/reproduce";
     std::string only;
     bool quick = false;
     int jobs = default_jobs();
 };
 
-std::string command_of(const Options& options) {
+std::string command_of(const ReproduceOptions& options) {
     return fmt::format("limpet reproduce --out {} --jobs {}{}{}", options.out, options.jobs,
                        options.quick ? " --quick" : "",
                        options.only.empty() ? "" : " --only " + options.only);
 }
 
-void fly_parts(const Options& options) {
+void fly_parts(const ReproduceOptions& options) {
     const Clock::time_point begin = Clock::now();
     Terminal terminal(Terminal::Voice::normal);
     std::string part;
@@ -68,7 +68,7 @@ void fly_parts(const Options& options) {
     terminal.written(result.files);
 }
 
-ExitCode reproduce_paper(const Options& options) {
+ExitCode reproduce_paper(const ReproduceOptions& options) {
     try {
         fly_parts(options);
     } catch (const Interrupted&) {
@@ -78,7 +78,7 @@ ExitCode reproduce_paper(const Options& options) {
     return ExitCode::ok;
 }
 
-OptionList options_of(Options& options) {
+OptionList options_of(ReproduceOptions& options) {
     std::vector<std::string> names;
     for (const auto& [name, title] : paper::part_titles()) {
         names.push_back(name);
@@ -96,7 +96,7 @@ Verb reproduce_verb() {
     for (const auto& [name, title] : paper::part_titles()) {
         footer += fmt::format("  {:<12} {}\n", name, title);
     }
-    return verb<Options>(
+    return verb<ReproduceOptions>(
         "reproduce", "Fly the paper's experiments; its tables, figures, claims on one page",
         options_of, reproduce_paper,
         footer +

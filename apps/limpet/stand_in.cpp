@@ -18,7 +18,7 @@
 namespace limpet::app {
 namespace {
 
-struct Options {
+struct StandInOptions {
     std::string what;
     std::string hil = "tcp:127.0.0.1:4560";
     std::string onboard = "udp:127.0.0.1:14580";
@@ -53,7 +53,7 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
     row->value.set(*number);
 }
 
-void serve(const Options& options) {
+void serve(const StandInOptions& options) {
     autopilot::AutopilotModel model = simulation::autopilot_model(scenario_of(options.what));
     px4::StandInOptions stand_in;
     stand_in.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial});
@@ -83,7 +83,7 @@ void serve(const Options& options) {
                               autopilot.count().answers));
 }
 
-OptionList options_of(Options& options) {
+OptionList options_of(StandInOptions& options) {
     return {{"what SCENARIO", &options.what, "scenario (name or file) or vehicle (name) to fly"},
             {"--hil ADDRESS", &options.hil,
              "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
@@ -99,10 +99,11 @@ OptionList options_of(Options& options) {
 }  // namespace
 
 Verb stand_in_verb() {
-    return verb<Options>("stand-in", "The built-in autopilot behind PX4's wire, in place of a PX4",
-                         options_of, serve,
-                         "In another terminal: limpet fly SCENARIO --autopilot px4\n"
-                         "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n");
+    return verb<StandInOptions>(
+        "stand-in", "The built-in autopilot behind PX4's wire, in place of a PX4", options_of,
+        serve,
+        "In another terminal: limpet fly SCENARIO --autopilot px4\n"
+        "It arms, refuses, lands and loses offboard control as PX4 v1.15 does.\n");
 }
 
 }  // namespace limpet::app
