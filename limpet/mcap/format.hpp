@@ -206,7 +206,7 @@ public:
         if constexpr (std::unsigned_integral<Value>) {
             const ByteView raw = take(sizeof value);
             for (std::size_t i = 0; i < sizeof value; ++i) {
-                value = static_cast<Value>(value | std::uint64_t{raw[i]} << (8 * i));
+                value = static_cast<Value>(value | static_cast<std::uint64_t>(raw[i]) << (8 * i));
             }
         } else if constexpr (std::is_same_v<Value, ByteView>) {
             value = take(left());
