@@ -38,12 +38,14 @@ function(limpet_precompile target)
   target_precompile_headers(${target} REUSE_FROM ${holder})
 endfunction()
 
-# A few files of a room are compiled as one: their headers are read and their templates made once, and a
-# build from nothing takes much less. Names within a room's unnamed namespaces are therefore its own
-# once. Off (preset dev, clang): each file by itself, quickest for work on a single one.
-option(LIMPET_UNITY "compile a few files of a room as one" ON)
+# A few files are compiled as one: their headers are read and their templates made once, and a build from
+# nothing takes much less. Names within the unnamed namespaces of a room, or of a test program, are
+# therefore its own once. One by one (preset dev) is quickest for work on a single file.
+set(LIMPET_UNITY 5 CACHE STRING "how many files are compiled as one; 1: each by itself")
 function(limpet_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${LIMPET_UNITY} UNITY_BUILD_BATCH_SIZE 5)
+  if(LIMPET_UNITY GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${LIMPET_UNITY})
+  endif()
 endfunction()
 
 # limpet_room(NAME SOURCES files... LINKS targets...)
@@ -59,6 +61,14 @@ function(limpet_room name)
   limpet_unity(limpet_${name})
 endfunction()
 
+# limpet_text(VARIABLE FILE): what the file holds, for configure_file() to put into a source; changed, it
+# configures anew.
+function(limpet_text variable file)
+  file(READ ${file} text)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 # limpet_test(ROOM SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a room.
 # ALONE: nothing else runs beside it, for it lives in real time.
 # The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
@@ -72,6 +82,7 @@ function(limpet_test room)
   target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${LIMPET_ROOT}")
   limpet_compile_options(${room}_test tests)
   limpet_precompile(${room}_test tests)
+  limpet_unity(${room}_test)
   gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
 endfunction()

@@ -9,6 +9,7 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -40,9 +41,8 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
     const std::size_t at = text.find('=');
     const std::string name = text.substr(0, at);
     const std::string value = at == std::string::npos ? "" : text.substr(at + 1);
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const BoundParameter& known) { return known.name == name; });
-    if (row == rows.end()) {
+    const BoundParameter* row = find_named(rows, name);
+    if (row == nullptr) {
         throw InputError("--param " + text + ": no parameter of the stand-in is called '" + name +
                          "'");
     }

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <system_error>
 #include <type_traits>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/core/version.hpp"
 
 namespace limpet::campaign {
@@ -83,7 +83,7 @@ void read(const SQLite::Column& column, Value& value) {
     } else if constexpr (std::is_integral_v<Value>) {
         value = static_cast<Value>(column.getInt64());
     } else if constexpr (std::is_same_v<Value, double>) {
-        value = column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
+        value = column.isNull() ? kNaN : column.getDouble();
     } else {
         value = column.getString();
     }
@@ -271,12 +271,12 @@ void Results::add(const std::vector<RunRow>& rows) {
         }
         SQLite::Transaction transaction(database_);
         for (const RunRow& row : rows) {
+            (void)insert_->tryReset();  // also after one that failed, which was told
             int at = 1;
             for_each_column(campaign_, row, [&](const auto&, const char*, const auto& value) {
                 bind(*insert_, at++, value);
             });
             insert_->exec();
-            insert_->reset();
         }
         transaction.commit();
     });

@@ -4,10 +4,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -77,8 +77,7 @@ bool can_be_fitted(const std::vector<Trials>& trials) {
 }  // namespace
 
 double Proportion::probability() const {
-    return runs == 0 ? std::numeric_limits<double>::quiet_NaN()
-                     : static_cast<double>(successes) / static_cast<double>(runs);
+    return runs == 0 ? kNaN : static_cast<double>(successes) / static_cast<double>(runs);
 }
 
 Interval Proportion::interval() const {

@@ -18,7 +18,7 @@ constexpr std::size_t kMostValues = 30;  ///< of a grid; more are put into bins
 constexpr std::size_t kMostBins = 10;
 constexpr std::size_t kRunsABin = 8;  ///< of what is drawn, on average and at least
 
-std::vector<std::string> names_of(const std::vector<Outcome>& outcomes) {
+std::vector<std::string> words(const std::vector<Outcome>& outcomes) {
     std::vector<std::string> names;
     for (const Outcome outcome : outcomes) {
         names.emplace_back(to_string(outcome));
@@ -120,7 +120,7 @@ CampaignSummary summarise(Results& results) {
     return asking(results.database(), [&results] {
         const Campaign& campaign = results.campaign();
         SQLite::Database& database = results.database();
-        const std::vector<std::string> success_means = names_of(campaign.success);
+        const std::vector<std::string> success_means = words(campaign.success);
         const std::string success =
             fmt::format("(outcome IN ('{}'))", fmt::join(success_means, "', '"));
         const std::uint32_t finished = results.finished();

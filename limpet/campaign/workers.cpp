@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
+#include <exception>
 #include <mutex>
 #include <optional>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
@@ -27,14 +29,21 @@ public:
           progress_(progress),
           finished_(results.finished_runs()) {}
 
-    void fly_on() {
+    void fly_on() noexcept {
         try {
             while (const auto run = next()) {
-                land(fly_run(results_.campaign(), *run, plants_));
+                land(fly_run(results_.campaign(), *run));
             }
         } catch (...) {
-            halt_ = true;
-            throw;
+            const std::lock_guard lock(mutex_);
+            failed_ = failed_ ? failed_ : std::current_exception();
+        }
+    }
+
+    /// Once nobody flies any more.
+    void rethrow() const {
+        if (failed_) {
+            std::rethrow_exception(failed_);
         }
     }
 
@@ -45,7 +54,7 @@ private:
         while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
             ++next_;
         }
-        const bool stop = halt_ || (watch_.stop != nullptr && *watch_.stop);
+        const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
         return stop || next_ >= progress_.runs ? std::nullopt : std::optional(next_++);
     }
 
@@ -67,18 +76,16 @@ private:
     Progress& progress_;
     const std::vector<std::uint32_t> finished_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    PlantCache plants_;
     std::mutex mutex_;
     std::uint32_t next_ = 0;
-    std::atomic<bool> halt_ = false;
+    std::exception_ptr failed_ = nullptr;  ///< the first: it stops the others
 };
 
 /// @throws InputError naming the run
-std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
-                                                        PlantCache& plants) {
+std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign,
+                                                        const RunRow& row) {
     try {
-        const scenario::Scenario scenario = scenario_of(campaign, row.sample);
-        return simulation::build_model(scenario, plants.get(scenario));
+        return simulation::build_model(scenario_of(campaign, row.sample));
     } catch (const InputError& error) {
         throw InputError(fmt::format("run {}: {}", row.run, error.what()));
     }
@@ -86,30 +93,12 @@ std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign
 
 }  // namespace
 
-std::shared_ptr<const plant::PlantModel> PlantCache::get(const scenario::Scenario& scenario) {
-    const models::Scene scene = scene_of(scenario);
-    const std::lock_guard lock(mutex_);
-    const auto found = std::find_if(plants_.begin(), plants_.end(), [&](const Entry& entry) {
-        return entry.engine == scenario.engine && entry.scene == scene &&
-               entry.airframe == scenario.airframe;
-    });
-    if (found != plants_.end()) {
-        return found->plant;
-    }
-    if (plants_.size() >= kMost) {
-        plants_.clear();
-    }
-    plants_.push_back({scenario.engine, scenario.airframe, scene,
-                       scenario.engine->make(scenario.airframe, scene)});
-    return plants_.back().plant;
-}
-
-RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants) {
+RunRow fly_run(const Campaign& campaign, std::uint32_t run) {
     RunRow row;
     row.run = run;
     row.seed = campaign.seed;
     row.sample = draw(campaign.keys, campaign.seed, run);
-    const auto model = model_of(campaign, row, plants);
+    const auto model = model_of(campaign, row);
     try {
         const simulation::FlightResult result = fly(model, {}, {}, run);
         row.outcome = to_string(result.outcome);
@@ -133,13 +122,17 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
                       .elapsed_s = 0.0,
                       .outcomes = results.outcomes()};
     Work work(results, watch, progress);
-    std::vector<std::future<void>> workers;
-    for (int i = 0; i < jobs; ++i) {
-        workers.push_back(std::async(std::launch::async, [&work] { work.fly_on(); }));
+    {
+        std::vector<std::jthread> workers;
+        try {
+            while (workers.size() + 1 < static_cast<std::size_t>(jobs)) {
+                workers.emplace_back([&work] { work.fly_on(); });
+            }
+        } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        }
+        work.fly_on();
     }
-    for (std::future<void>& worker : workers) {
-        worker.get();
-    }
+    work.rethrow();
     results.finish();
     return progress;
 }
@@ -148,8 +141,7 @@ simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,
                                     const simulation::FlightWatch& watch) {
     const RunRow row = results.row(run);
-    PlantCache plants;
-    const auto model = model_of(results.campaign(), row, plants);
+    const auto model = model_of(results.campaign(), row);
     const simulation::FlightResult result = fly(model, recording, watch, run);
     if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {
         throw InternalError(fmt::format(

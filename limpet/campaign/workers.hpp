@@ -6,10 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <memory>
-#include <mutex>
 #include <string>
-#include <vector>
 
 #include "limpet/campaign/results.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -37,31 +34,12 @@ struct CampaignWatch {
 
 /// Flies the runs that are missing from the results, on `jobs` threads, until all are there or the
 /// watch stops it. Who has landed writes, one at a time.
-/// @throws InputError when a run's values do not fit each other or the disk is full; what has
-///         landed until then is kept
+/// @throws InputError when a run's values do not fit each other or the disk is full, the first that
+///         happened; what has landed until then is kept
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {});
 
-/// Plants by what they are made of, shared by all workers: a campaign that varies neither vehicle
-/// nor wall compiles once. Few are kept, so that one that varies a mass does not keep a plant a
-/// run.
-class PlantCache {
-public:
-    [[nodiscard]] std::shared_ptr<const plant::PlantModel> get(const scenario::Scenario& scenario);
-
-private:
-    struct Entry {
-        const plant::Engine* engine;
-        vehicle::Airframe airframe;
-        models::Scene scene;
-        std::shared_ptr<const plant::PlantModel> plant;
-    };
-    static constexpr std::size_t kMost = 32;
-    std::mutex mutex_;  ///< also over MuJoCo's compiler, which keeps globals
-    std::vector<Entry> plants_;
-};
-
 /// Flies one run. A fault of ours during the flight becomes a row with the outcome `fault`.
-[[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run, PlantCache& plants);
+[[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run);
 
 /// Flies a row again, recorded.
 /// @param recording  file to write

@@ -85,11 +85,16 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
     poll(time_s);
     feed(time_s);
     const bool was_leaving = phase() == SessionPhase::handed_back;
+    const bool was_flying = phase() == SessionPhase::flying;
     session_.tick(time_s);
     if (phase() == SessionPhase::handed_back) {
         conclude(was_leaving, time_s);
     }
-    steer(time_s);
+    if (!dry_run_) {
+        steer(time_s);
+    } else if (was_flying || phase() == SessionPhase::flying) {
+        dry_.tell(time_s, memory());
+    }
     actuate(time_s);
     tell(time_s);
     record(time_s);
@@ -169,11 +174,7 @@ void Companion::conclude(bool was_leaving, double time_s) {
 // --- to the wires -----------------------------------------------------------------------------
 
 void Companion::steer(double time_s) {
-    if (dry_run_) {
-        if (phase() == SessionPhase::flying) {
-            dry_.tell(time_s, memory());
-        }
-    } else if (session_.streams()) {
+    if (session_.streams()) {
         offboard_.update(*wires_.autopilot, session_.setpoint(), time_s);
     } else if (!over_) {
         if (phase() == SessionPhase::handed_back && session_.left_by() == Action::hold) {

@@ -81,7 +81,7 @@ struct CompanionConfig {
 /// Reads and checks one companion. Keys: companions/*.yaml, which name them all.
 /// @param wanted     path of a file, or a name in companions/ of the data
 /// @param overrides  "limits.wait_limit_s=5", in order, before anything is checked
-/// @param data_root  empty: limpet::data_root()
+/// @param data_root  empty: scenario::data_root()
 /// @throws InputError one line: file:line, key, value, what is allowed; or all keys that are
 /// missing
 [[nodiscard]] CompanionConfig load_companion(const std::string& wanted,

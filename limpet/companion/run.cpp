@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/devices/tfmini.hpp"
@@ -17,16 +18,6 @@ namespace limpet::companion {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view word(CompanionEnd end) {
-    switch (end) {
-        case CompanionEnd::mission_over: return "mission_over";
-        case CompanionEnd::handed_back: return "handed_back";
-        case CompanionEnd::interrupted: return "interrupted";
-        case CompanionEnd::absent: return "absent";
-    }
-    throw InternalError("end of a companion out of range");
-}
 
 void loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
           const std::atomic<bool>* stop) {
@@ -104,8 +95,8 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
     }
     const Json json = {
         {"companion", config.name},
-        {"end", word(result.end)},
-        {"outcome", std::string(result.outcome ? to_string(*result.outcome) : word(result.end))},
+        {"end", name_of(result.end)},
+        {"outcome", std::string(result.outcome ? to_string(*result.outcome) : name_of(result.end))},
         {"reason", result.reason},
         {"attempts", result.attempts},
         {"events", events},

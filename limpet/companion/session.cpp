@@ -212,10 +212,8 @@ void PerchingSession::hand_back(Action action, CompanionEnd end, std::string rea
     left_by_ = action;
     reason_ = std::move(reason);
     obstacle_ = "control was handed back: ask for perch again";
-    if (flew_ || action == Action::hold) {
-        watch_.line(time_s, fmt::format("{}{}", to_string(action),
-                                        setpoint_.pump_on ? "; the pump stays on" : ""));
-    }
+    watch_.line(time_s, fmt::format("{}{}", to_string(action),
+                                    setpoint_.pump_on ? "; the pump stays on" : ""));
 }
 
 std::string_view PerchingSession::wanted_mode() const {

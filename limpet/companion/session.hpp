@@ -118,7 +118,8 @@ public:
     [[nodiscard]] Answer perch(double time_s);
     [[nodiscard]] Answer take_off(double time_s);
     [[nodiscard]] Answer abort();
-    /// The process is to end: also at rest on the wall.
+    /// The process is to end, also at rest on the wall; a session by request stays there, as
+    /// abort() leaves it.
     void interrupt() { interrupted_ = true; }
 
     /// One tick of guidance, guidance_rate_Hz times a second; time that runs back starts it anew.

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/story.hpp"

@@ -42,14 +42,6 @@ using StateNumbers = std::map<std::string, double, std::less<>>;
 [[nodiscard]] std::vector<FlightChannel> flight_channels(const record::Recording& recording,
                                                          StateNumbers& numbers);
 
-/// The channel, figure, difference of that name; nullptr if there is none.
-template <class Named>
-[[nodiscard]] auto* find_named(Named& all, std::string_view name) {
-    const auto found = std::find_if(std::begin(all), std::end(all),
-                                    [name](const auto& one) { return one.name == name; });
-    return found == std::end(all) ? nullptr : &*found;
-}
-
 /// Columns of a table by name; all null when one is missing, or the table.
 template <std::size_t N>
 [[nodiscard]] std::array<const record::Column*, N> columns_of(

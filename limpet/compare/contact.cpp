@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/cup_status.hpp"
 

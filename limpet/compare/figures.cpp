@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
 

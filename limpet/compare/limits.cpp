@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
 
 namespace limpet::compare {

@@ -2,7 +2,6 @@
 #include "limpet/compare/rest.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "limpet/compare/channels.hpp"
 #include "limpet/core/frames.hpp"
@@ -20,12 +19,11 @@ constexpr double kMillimetres = 1e3;
 double weight_N(const record::Recording& recording) {
     const mcap::Attachment* attached = recording.attachment("model.xml");
     if (attached == nullptr) {
-        return std::numeric_limits<double>::quiet_NaN();
+        return kNaN;
     }
     const draw::MujocoModel model = draw::compile_mjcf(attached->text);
     const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
-    return base < 0 ? std::numeric_limits<double>::quiet_NaN()
-                    : model->body_subtreemass[base] * kGravity_m_s2;
+    return base < 0 ? kNaN : model->body_subtreemass[base] * kGravity_m_s2;
 }
 
 /// The last rest but its first half.

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "limpet/core/find_by.hpp"
+
 namespace limpet::compare {
 namespace {
 

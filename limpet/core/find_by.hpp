@@ -2,19 +2,46 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace limpet {
 
-/// @param name  the member that is compared
+/// @param member  what is compared
+/// @return the first whose member is `wanted`, nullptr if there is none
+template <class All, class Member, class Wanted>
+[[nodiscard]] auto* find_by(All& all, Member member, const Wanted& wanted) {
+    const auto found = std::ranges::find(all, wanted, member);
+    return found == std::end(all) ? nullptr : &*found;
+}
+
 /// @return the first that is called so, nullptr if there is none
-template <class T>
-[[nodiscard]] const T* find_by(const std::vector<T>& all, std::string T::*name,
-                               std::string_view wanted) {
-    const auto found = std::ranges::find(all, wanted, name);
-    return found == all.end() ? nullptr : &*found;
+template <class All>
+[[nodiscard]] auto* find_named(All& all, std::string_view wanted) {
+    const auto found =
+        std::ranges::find_if(all, [=](const auto& one) { return one.name == wanted; });
+    return found == std::end(all) ? nullptr : &*found;
+}
+
+/// What all that have a name are called, in their order.
+template <class All>
+[[nodiscard]] std::vector<std::string> names_of(const All& all) {
+    std::vector<std::string> names;
+    for (const auto& one : all) {
+        names.emplace_back(one.name);
+    }
+    return names;
+}
+
+/// @return "one, two", or "none"
+[[nodiscard]] inline std::string listed(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) {
+        list += (list.empty() ? "" : ", ") + name;
+    }
+    return names.empty() ? "none" : list;
 }
 
 }  // namespace limpet

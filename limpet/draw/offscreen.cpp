@@ -46,13 +46,13 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
     if (context_ == EGL_NO_CONTEXT) {
         give_up("no OpenGL context");
     }
-    use();
-}
-
-void OffscreenContext::use() {
-    if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+    if (!use()) {
         give_up("no OpenGL context without a surface");
     }
+}
+
+bool OffscreenContext::use() noexcept {
+    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
 }
 
 OffscreenContext::~OffscreenContext() {

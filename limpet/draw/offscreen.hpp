@@ -14,7 +14,8 @@ public:
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
     /// Makes it the one that the calling thread draws with.
-    void use();
+    /// @return whether it is the one that is drawn into now
+    bool use() noexcept;
 
 private:
     void* display_ = nullptr;  // EGLDisplay and EGLContext, without their header

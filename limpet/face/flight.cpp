@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/face/inside.hpp"
 #include "limpet/face/stations.hpp"
 #include "limpet/scenario/data_folder.hpp"
@@ -38,11 +39,9 @@ std::shared_ptr<const simulation::FlightModel> model_of(const HouseScenario& sce
 }  // namespace
 
 double Result::metric(std::string_view name) const {
-    const auto found = std::find_if(metrics.begin(), metrics.end(),
-                                    [&](const Metric& metric) { return metric.name == name; });
-    if (found == metrics.end()) {
-        throw InputError(
-            scenario::unknown_name(std::string(name), "metric", scenario::names_of(metrics)));
+    const Metric* found = find_named(metrics, name);
+    if (found == nullptr) {
+        throw InputError(scenario::unknown_name(std::string(name), "metric", names_of(metrics)));
     }
     return found->value;
 }

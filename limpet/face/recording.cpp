@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/recording.hpp"
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/face/inside.hpp"
 #include "limpet/scenario/data_folder.hpp"
 
@@ -29,7 +30,7 @@ std::vector<std::string> Recording::topics() const {
 }
 
 std::vector<std::string> Recording::columns(std::string_view topic) const {
-    return scenario::names_of(inside_->recording.table(topic).columns);
+    return names_of(inside_->recording.table(topic).columns);
 }
 
 Series Recording::series(std::string_view topic, std::string_view column) const {

@@ -22,7 +22,7 @@ std::uint8_t type_of(const ServedParameter& parameter) {
 }
 
 /// An integer's bytes stand in the float, as PX4 has it.
-float on_wire(const ServedParameter& parameter) {
+float value_on_wire(const ServedParameter& parameter) {
     auto value = static_cast<float>(parameter.value);
     if (parameter.int32) {
         const auto whole = static_cast<std::int32_t>(parameter.value);
@@ -61,7 +61,7 @@ void ParameterServer::answer(std::size_t index, Link& link) const {
     if (index >= parameters_.size()) {
         return;  // the protocol has no answer for what is not there
     }
-    ParamValue message{.param_value = on_wire(parameters_[index]),
+    ParamValue message{.param_value = value_on_wire(parameters_[index]),
                        .param_type = type_of(parameters_[index]),
                        .param_count = static_cast<std::uint16_t>(parameters_.size()),
                        .param_index = static_cast<std::uint16_t>(index)};

@@ -63,7 +63,8 @@ Writer::~Writer() {
     if (file_) {
         try {
             close_chunk();
-        } catch (const InputError&) {  // the disk is full: what is in the file stays readable
+        } catch (...) {  // the disk or the memory is full: what is in the file stays readable
+            return;
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
 /// What the three model writers share: the turn to forward-left-up, and numbers as text.
@@ -54,6 +55,7 @@ template <class... Numbers>
 /// Appends attributes, or sets those that are there.
 template <class Value, class... Rest>
 void set(pugi::xml_node node, const char* key, const Value& value, const Rest&... rest) {
+    require(node, "an element has its attributes");
     auto attribute = node.attribute(key);
     (attribute ? attribute : node.append_attribute(key)) = text(value).c_str();
     if constexpr (sizeof...(rest) > 0) {
@@ -80,7 +82,9 @@ void add_text(pugi::xml_node parent, const char* name, const Value& value, const
 /// Writes into the elements that are there, by their paths: "link/pose".
 template <class Value, class... Rest>
 void fill(pugi::xml_node parent, const char* path, const Value& value, const Rest&... rest) {
-    parent.first_element_by_path(path).text().set(text(value).c_str());
+    const pugi::xml_node node = parent.first_element_by_path(path);
+    require(node, "the parts have what is filled in");
+    node.text().set(text(value).c_str());
     if constexpr (sizeof...(rest) > 0) {
         fill(parent, rest...);
     }

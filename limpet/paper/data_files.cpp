@@ -94,7 +94,7 @@ void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_
                              : draw::Range{number(*least), std::numeric_limits<double>::infinity()};
 }
 
-/// A paragraph whose numbers will be there.
+/// A text whose numbers will be there.
 std::string paragraph(const scenario::YamlNode& node, const std::vector<std::string>& measured) {
     const std::string text = read_text(node);
     try {
@@ -125,18 +125,18 @@ report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& pa
     }
     check_name(node, node.key, part.shows, "is shown by no part");
     const std::string title = read_text(wanted(node, "title"));
+    const scenario::YamlNode* under = node.find("caption");
+    const std::string caption = under == nullptr ? "" : paragraph(*under, part.measures);
     if (const scenario::YamlNode* columns = node.find("columns")) {
         check_keys(node, {"title", "columns", "caption"});
-        return report::PageTable{.id = node.key,
-                                 .title = title,
-                                 .columns = texts(*columns),
-                                 .caption = text_or_nothing(node, "caption")};
+        return report::PageTable{
+            .id = node.key, .title = title, .columns = texts(*columns), .caption = caption};
     }
     check_keys(node, {"title", "caption", "alt", "wide"});
     const scenario::YamlNode* wide = node.find("wide");
     return report::PageFigure{.id = node.key,
                               .title = title,
-                              .caption = text_or_nothing(node, "caption"),
+                              .caption = caption,
                               .alt = read_text(wanted(node, "alt")),
                               .png = "figures/" + node.key + ".png",
                               .svg = "figures/" + node.key + ".svg",
@@ -207,8 +207,11 @@ std::string filled(std::string_view text,
     std::string out;
     while (true) {
         const std::size_t open = text.find('{'), close = text.find('}', open);
-        if (close == text.npos) {
+        if (open == text.npos) {
             return out += text;
+        }
+        if (close == text.npos) {
+            throw fmt::format_error("a { without its }");
         }
         const std::string_view place = text.substr(open + 1, close - open - 1);
         const std::size_t colon = std::min(place.find(':'), place.size());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
 #include <map>
 #include <string>
+
+#include "limpet/core/frames.hpp"
 
 namespace limpet::paper {
 
@@ -15,7 +16,7 @@ public:
     /// @return NaN where nothing was measured under this name
     [[nodiscard]] double get(const std::string& name) const {
         const auto found = values_.find(name);
-        return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+        return found == values_.end() ? kNaN : found->second;
     }
     [[nodiscard]] bool has(const std::string& name) const { return values_.count(name) > 0; }
     [[nodiscard]] const std::map<std::string, double>& all() const { return values_; }

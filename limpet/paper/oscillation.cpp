@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
@@ -179,13 +178,12 @@ Overrides motors_and_pivot(double lag_s, double pivot_m) {
 
 void fill(StabilityMap& map, int jobs) {
     map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
-    campaign::PlantCache plants;
     for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
         const Overrides point =
             motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
         const scenario::Scenario scenario =
             scenario::load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
-        LevelOnCup loop(simulation::build_model(scenario, plants.get(scenario)));
+        LevelOnCup loop(simulation::build_model(scenario));
         map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
     });
 }

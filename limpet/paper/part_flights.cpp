@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/parallel.hpp"
 #include "limpet/paper/rigs.hpp"
@@ -66,9 +66,8 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
     const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
     const record::RecordedEvent* approach = first_event(concrete, "approach_started");
     const auto chapter = perching(concrete);
-    evidence.set("fig11.approach_at_s", approach != nullptr && chapter
-                                            ? approach->time_s - chapter->window.from_s
-                                            : std::numeric_limits<double>::quiet_NaN());
+    evidence.set("fig11.approach_at_s",
+                 approach != nullptr && chapter ? approach->time_s - chapter->window.from_s : kNaN);
 }
 
 TableRows flight_rows(const std::vector<PaperFlight>& flights) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/paper/parallel.hpp"
@@ -224,9 +225,8 @@ std::vector<MissionCase> fly_missions(const Study& study) {
 }
 
 const SwingMissions& of(const std::vector<MissionCase>& cases, std::string_view key) {
-    const auto found = std::find_if(cases.begin(), cases.end(),
-                                    [&](const MissionCase& one) { return one.key == key; });
-    require(found != cases.end(), "missions of that name");
+    const MissionCase* found = find_by(cases, &MissionCase::key, key);
+    require(found != nullptr, "missions of that name");
     return found->missions;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/identification/identification.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/parallel.hpp"
@@ -76,7 +77,7 @@ std::optional<identification::Fitted> true_vacuum_Pa(const identification::Press
 }
 
 double value_or_nan(const std::optional<identification::Fitted>& fitted) {
-    return fitted ? fitted->value : std::numeric_limits<double>::quiet_NaN();
+    return fitted ? fitted->value : kNaN;
 }
 
 /// Of a surface, in the units of Table II; NaN where the log does not tell.

@@ -78,12 +78,12 @@ CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, cons
                    .q_WF = Quaternion(model.wall.R_WT),
                    .v_WF_W_m_s = model.wall.R_WT * v_T_m_s,
                    .w_WF_F_rad_s = w_C_rad_s};
-    for (double time_s = 0.0; time_s < kLongest_s; time_s += kStep_s) {
+    for (int k = 0; k < static_cast<int>(kLongest_s / kStep_s); ++k) {
         state.mean_pressure_Pa = pressure_Pa;
         const CupStatus before = state.status;
         const suction::CupOutput output =
             step(model, state, scenario.wall.surface, cup,
-                 {.time_s = time_s, .press_N = 0.0, .pump_on = true}, kStep_s);
+                 {.time_s = k * kStep_s, .press_N = 0.0, .pump_on = true}, kStep_s);
         if (output.event && output.event->name == EventName::contact_lost) {
             return before;
         }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/paper/reproduce.hpp"
 
 namespace limpet::paper {
@@ -27,10 +28,8 @@ Block& find(std::vector<report::PageBlock>& blocks, const std::string& id) {
 }  // namespace
 
 std::pair<double, double> Study::said(const std::string& name) const {
-    const auto found = std::find_if(statements.begin(), statements.end(),
-                                    [&](const PaperStatement& s) { return s.evidence == name; });
-    const double* number =
-        found == statements.end() ? nullptr : std::get_if<double>(&found->claim.paper);
+    const PaperStatement* found = find_by(statements, &PaperStatement::evidence, name);
+    const double* number = found == nullptr ? nullptr : std::get_if<double>(&found->claim.paper);
     if (number == nullptr) {
         throw InputError(statements_file().string() + ": no statement gives a number for " + name);
     }
@@ -73,10 +72,18 @@ report::PageSection Study::section(const StudyPart& part) {
     for (const std::string& name : part.measures) {
         require(evidence.has(name), "a part measures what it says");
     }
+    const auto fill = [this](std::string& text) {
+        text = filled(text, [this](const std::string& name) { return evidence.get(name); });
+    };
     for (report::PageBlock& block : blocks) {
         if (auto* paragraph = std::get_if<std::string>(&block)) {
-            *paragraph =
-                filled(*paragraph, [this](const std::string& name) { return evidence.get(name); });
+            fill(*paragraph);
+        } else if (auto* table = std::get_if<report::PageTable>(&block)) {
+            require(!table->rows.empty(), "a part brings the rows of its tables");
+            fill(table->caption);
+        } else if (auto* figure = std::get_if<report::PageFigure>(&block)) {
+            require(fs::exists(folder / figure->png), "a part draws its figures");
+            fill(figure->caption);
         }
     }
     return {.id = "part-" + part.name, .title = part.title, .blocks = std::exchange(blocks, {})};

@@ -43,7 +43,7 @@ struct Study {
     /// Tells what comes next; before that it stops where it was asked to.
     /// @throws Interrupted
     void say(const std::string& what) const;
-    /// What has come of the part that ran last, its paragraphs filled in.
+    /// What has come of the part that ran last, its texts filled in.
     [[nodiscard]] report::PageSection section(const StudyPart& part);
 };
 
@@ -76,7 +76,7 @@ struct PageText {
     std::string title = {};
     std::string subtitle = {};
     std::vector<std::string> summary = {};
-    /// By part: paragraphs not filled in, tables without rows, figures that are not drawn.
+    /// By part: texts not filled in, tables without rows, figures that are not drawn.
     std::map<std::string, std::vector<report::PageBlock>> blocks = {};
 };
 
@@ -94,6 +94,7 @@ inline const std::vector<std::string> kSummaryCounts = {
                                       const std::vector<StudyPart>& parts);
 
 /// A text with its numbers in place of {NAME:FORMAT}.
+/// @throws fmt::format_error for a format that is none, a { without its }
 [[nodiscard]] std::string filled(std::string_view text,
                                  const std::function<double(const std::string& name)>& number);
 

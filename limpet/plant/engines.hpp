@@ -15,7 +15,8 @@ namespace limpet::plant {
 struct Engine {
     std::string_view name;  ///< `simulation.engine`
     std::string_view description;
-    /// Looks are left out, whatever scene.visuals says.
+    /// From any thread. Looks are left out, whatever scene.visuals says; the same bodies may come
+    /// as the same model.
     /// @throws InputError when the engine cannot take the vehicle
     std::shared_ptr<const PlantModel> (*make)(const vehicle::Airframe& airframe,
                                               const models::Scene& scene);

@@ -5,6 +5,9 @@
 #include <mujoco/mujoco.h>
 
 #include <cstring>
+#include <deque>
+#include <mutex>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/engines.hpp"
@@ -65,6 +68,27 @@ int find_joint(const mjModel& model, int body, mjtJoint type, const char* what) 
     return joint;
 }
 
+/// The model of a text, made once for all who ask for it: a campaign that varies neither vehicle
+/// nor wall compiles once. Few are kept, so that one that varies a mass does not keep a model a
+/// run.
+std::shared_ptr<const MujocoModel> compiled(std::string mjcf) {
+    constexpr std::size_t kMost = 32;
+    static std::mutex mutex;  // also over MuJoCo's compiler, which keeps globals
+    static std::deque<std::pair<std::string, std::shared_ptr<const MujocoModel>>> kept;
+    const std::lock_guard lock(mutex);
+    for (const auto& [text, model] : kept) {
+        if (text == mjcf) {
+            return model;
+        }
+    }
+    auto model = std::make_shared<const MujocoModel>(mjcf);
+    if (kept.size() == kMost) {
+        kept.pop_front();
+    }
+    kept.emplace_back(std::move(mjcf), model);
+    return model;
+}
+
 }  // namespace
 
 MujocoModel::MujocoModel(const std::string& mjcf) : model_(compile(mjcf), mj_deleteModel) {
@@ -88,13 +112,12 @@ MujocoModel::MujocoModel(const std::string& mjcf) : model_(compile(mjcf), mj_del
         mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_CLAMPCTRL;
 }
 
-const Engine kMujocoEngine = {
-    "mujoco", "general rigid bodies, joints and contacts, by MuJoCo 2.2",
-    [](const vehicle::Airframe& airframe,
-       const models::Scene& scene) -> std::shared_ptr<const PlantModel> {
-        models::Scene bare = scene;
-        bare.visuals = false;
-        return std::make_shared<const MujocoModel>(write_mjcf(airframe, bare));
-    }};
+const Engine kMujocoEngine = {"mujoco", "general rigid bodies, joints and contacts, by MuJoCo 2.2",
+                              [](const vehicle::Airframe& airframe,
+                                 const models::Scene& scene) -> std::shared_ptr<const PlantModel> {
+                                  models::Scene bare = scene;
+                                  bare.visuals = false;
+                                  return compiled(write_mjcf(airframe, bare));
+                              }};
 
 }  // namespace limpet::plant

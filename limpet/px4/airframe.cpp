@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/px4/data.hpp"
 
 namespace limpet::px4 {
@@ -83,10 +84,8 @@ void add_part(const char* part, const Px4Airframe& airframe, Settings& settings)
     static const auto parts = nlohmann::json::parse(kSettingsJson);
     for (const auto& row : parts.at(part)) {
         const std::string name = row.at("name");
-        const auto& table = autopilot::autopilot_table();
-        const auto ours = std::find_if(table.begin(), table.end(),
-                                       [&](const auto& known) { return known.name == name; });
-        require(row.contains("value") || ours != table.end(), "a setting has a value");
+        const auto* ours = find_named(autopilot::autopilot_table(), name);
+        require(row.contains("value") || ours != nullptr, "a setting has a value");
         add(settings, name,
             row.contains("value") ? row.at("value").get<double>() : ours->get(airframe.autopilot),
             row.at("reason"), row.value("fixed", false));

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <locale>
 #include <optional>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
 
 namespace limpet::px4 {
@@ -79,11 +79,8 @@ std::vector<std::string> load_px4_params(const std::string& path,
             throw InputError(fmt::format(
                 "{}: expected five columns: vehicle, component, name, value, type", where));
         }
-        const auto& table = autopilot::autopilot_table();
-        const auto row = std::find_if(table.begin(), table.end(), [&line](const auto& candidate) {
-            return candidate.name == line->name;
-        });
-        if (row == table.end() || line->component != kAutopilotComponent) {
+        const auto* row = find_named(autopilot::autopilot_table(), line->name);
+        if (row == nullptr || line->component != kAutopilotComponent) {
             ignored.push_back(line->name);
             continue;
         }

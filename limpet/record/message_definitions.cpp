@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/record/schema.hpp"
 
 namespace limpet::record {
@@ -17,9 +18,8 @@ constexpr MessageDefinition kDefinitions[] = {
 };
 
 const MessageDefinition& definition_of(std::string_view type) {
-    const auto* const found = std::find_if(std::begin(kDefinitions), std::end(kDefinitions),
-                                           [type](const auto& d) { return d.type == type; });
-    require(found != std::end(kDefinitions), "every message type used has a definition");
+    const MessageDefinition* found = find_by(kDefinitions, &MessageDefinition::type, type);
+    require(found != nullptr, "every message type used has a definition");
     return *found;
 }
 

@@ -54,7 +54,7 @@ struct RecordingInfo {
 /// as they are. A text has at most 256 characters, else InternalError: texts are names and reasons.
 ///
 /// The file grows as PATH.part and becomes PATH in finish(); PATH.part of a run that died is
-/// readable (mcap_writer.hpp). Between constructor and finish() nothing is allocated.
+/// readable (limpet/mcap/writer.hpp). Between constructor and finish() nothing is allocated.
 class Recorder {
 public:
     /// Writes metadata "limpet" (scenario, seed, version), attachments, schemas and channels, which

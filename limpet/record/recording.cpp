@@ -61,22 +61,17 @@ std::vector<RecordedEvent> events_of(const Table& table) {
     return events;
 }
 
-template <class Item>
-std::string names_of(const std::vector<Item>& items, std::string Item::*name) {
-    std::vector<std::string_view> names;
-    for (const Item& item : items) {
-        names.push_back(item.*name);
-    }
-    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
 }  // namespace
 
 const Table& Recording::table(std::string_view topic) const {
     const Table* found = find_by(tables, &Table::topic, topic);
     if (found == nullptr) {
-        throw InputError(fmt::format("{}: no topic {}; there are: {}", path.string(), topic,
-                                     names_of(tables, &Table::topic)));
+        std::vector<std::string> topics;
+        for (const Table& each : tables) {
+            topics.push_back(each.topic);
+        }
+        throw InputError(
+            fmt::format("{}: no topic {}; there are: {}", path.string(), topic, listed(topics)));
     }
     return *found;
 }
@@ -86,7 +81,7 @@ Series Recording::series(std::string_view topic, std::string_view column) const 
     const Column* found = of_topic.find(column);
     if (found == nullptr) {
         throw InputError(fmt::format("{}: no column {} in {}; there are: {}", path.string(), column,
-                                     topic, names_of(of_topic.columns, &Column::name)));
+                                     topic, listed(names_of(of_topic.columns))));
     }
     return {of_topic.time_s, found->values};
 }

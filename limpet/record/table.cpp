@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/mcap/format.hpp"
 #include "limpet/record/units.hpp"
 
@@ -137,15 +137,14 @@ std::size_t TableReader::add_column(Primitive primitive, const std::string& path
         table_.texts.push_back({name, std::vector<std::string>(rows)});
         return table_.texts.size() - 1;
     }
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    table_.columns.push_back({name, std::vector<double>(rows, kNone)});
+    table_.columns.push_back({name, std::vector<double>(rows, kNaN)});
     return table_.columns.size() - 1;
 }
 
 void TableReader::append(double time_s, std::span<const std::uint8_t> message) {
     table_.time_s.push_back(time_s);
     for (Column& column : table_.columns) {
-        column.values.push_back(std::numeric_limits<double>::quiet_NaN());
+        column.values.push_back(kNaN);
     }
     for (TextColumn& column : table_.texts) {
         column.values.emplace_back();

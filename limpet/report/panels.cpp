@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <limits>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/draw/colours.hpp"
@@ -76,7 +75,8 @@ std::array<draw::ChartPanel, 6> templates() {
 /// Columns of a topic, read by row.
 class Columns {
 public:
-    Columns(const record::Recording& recording, const char* topic, std::vector<const char*> names)
+    Columns(const record::Recording& recording, const char* topic,
+            const std::vector<const char*>& names)
         : table_(find_table(recording, topic)) {
         for (const char* name : names) {
             columns_.push_back(table_ == nullptr ? nullptr : table_->find(name));

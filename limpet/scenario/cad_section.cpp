@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
@@ -20,15 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr double kSameShare = 0.01;  // of masses and inertias
 constexpr double kSameLength_m = 1e-3;
-
-template <class All>
-std::string names_of(const All& all) {
-    std::string names;
-    for (const auto& one : all) {
-        names += (names.empty() ? "" : ", ") + one.name;
-    }
-    return names.empty() ? "none" : names;
-}
 
 /// Reads the names of one kind and sees that the URDF has them.
 /// @param all  its links or its joints
@@ -43,12 +35,10 @@ void read_names(const YamlNode& model, const char* section, const char* kind,
     for (const std::string_view part : parts) {
         const YamlNode* given = is_section(node) ? node->find(part) : nullptr;
         const std::string name = given != nullptr ? read_text(*given) : std::string(part);
-        const bool there =
-            std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
-        if (!there) {
+        if (find_named(all, name) == nullptr) {
             fail(given != nullptr ? *given : model,
                  fmt::format("{}: there is no {} \"{}\" for the {}, there are: {}", robot.file,
-                             kind, shown(name), part, names_of(all)));
+                             kind, shown(name), part, listed(names_of(all))));
         }
         names.emplace(part, name);
     }

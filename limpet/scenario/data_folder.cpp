@@ -45,7 +45,7 @@ fs::path data_root() {
         }
         return given;
     }
-    if (const fs::path known = LIMPET_DATA_DIR; !known.empty()) {
+    if (const fs::path known = LIMPET_DATA_DIR; holds_data(known)) {
         return known;
     }
     const fs::path module = file_of_this_code();

@@ -28,16 +28,6 @@ namespace limpet::scenario {
 /// Whether find_file() takes it as a path.
 [[nodiscard]] bool is_path(const std::string& wanted);
 
-/// What all that have a name are called, in their order.
-template <class All>
-[[nodiscard]] std::vector<std::string> names_of(const All& all) {
-    std::vector<std::string> names;
-    for (const auto& one : all) {
-        names.emplace_back(one.name);
-    }
-    return names;
-}
-
 /// @return `"wanted": no such kind (did you mean ...?); there are ...`
 [[nodiscard]] std::string unknown_name(const std::string& wanted, std::string_view kind,
                                        const std::vector<std::string>& names);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "limpet/sensors/magnetometer.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::scenario {
@@ -20,15 +21,6 @@ double drag_1_s(const Scenario& scenario) {
     const double hover_speed_rad_s =
         rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_command(scenario.airframe);
     return kRotors * rotor.drag_constant_kg * hover_speed_rad_s / scenario.airframe.mass_kg;
-}
-
-/// The earth's, that PX4 would look up in its world model.
-Vector3 field_W_gauss(const sensors::SensorParameters& sensors) {
-    const double dip_rad = radians(sensors.mag_inclination_deg);
-    const double east_of_x_rad = radians(sensors.mag_declination_deg);
-    const double level_gauss = sensors.mag_field_gauss * std::cos(dip_rad);
-    return {level_gauss * std::cos(east_of_x_rad), level_gauss * std::sin(east_of_x_rad),
-            sensors.mag_field_gauss * std::sin(dip_rad)};
 }
 
 using S = const Scenario&;
@@ -50,9 +42,12 @@ constexpr DerivedKey kDerived[] = {
     {"guidance", "drag_1_s", &drag_1_s},
     {"guidance", "valve_fitted", [](S s) { return s.cup.valve_fitted ? 1.0 : 0.0; }},
     {"autopilot", "MPC_THR_HOVER", [](S s) { return hover_command(s.airframe); }},
-    {"autopilot", "mag_field_north_gauss", [](S s) { return field_W_gauss(s.sensors).x(); }},
-    {"autopilot", "mag_field_east_gauss", [](S s) { return field_W_gauss(s.sensors).y(); }},
-    {"autopilot", "mag_field_down_gauss", [](S s) { return field_W_gauss(s.sensors).z(); }},
+    {"autopilot", "mag_field_north_gauss",
+     [](S s) { return sensors::earth_field_W_gauss(s.sensors).x(); }},
+    {"autopilot", "mag_field_east_gauss",
+     [](S s) { return sensors::earth_field_W_gauss(s.sensors).y(); }},
+    {"autopilot", "mag_field_down_gauss",
+     [](S s) { return sensors::earth_field_W_gauss(s.sensors).z(); }},
 };
 
 }  // namespace

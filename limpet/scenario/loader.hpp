@@ -17,7 +17,7 @@ struct LoadOptions {
     /// vehicle.slider.stiffness_N_m=400, wall.surface=metal, wall.surface.friction=0.5.
     std::vector<std::string> overrides{};
     std::optional<std::uint64_t> seed{};  ///< after the overrides
-    std::filesystem::path data_root{};    ///< empty: limpet::data_root()
+    std::filesystem::path data_root{};    ///< empty: scenario::data_root()
 };
 
 /// Reads, overrides, derives and checks one experiment. A scenario's keys are described in

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::scenario {
@@ -24,9 +25,7 @@ void adopt(YamlNode& node, const std::string& path, const std::string& place) {
 }
 
 YamlNode& entry(YamlNode& map, const std::string& key, const std::string& place) {
-    const auto found = std::find_if(map.children.begin(), map.children.end(),
-                                    [&](const YamlNode& child) { return child.key == key; });
-    if (found != map.children.end()) {
+    if (YamlNode* found = find_by(map.children, &YamlNode::key, key)) {
         return *found;
     }
     YamlNode node;

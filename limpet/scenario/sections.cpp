@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::scenario {
@@ -76,7 +77,9 @@ std::vector<BoundParameter> suction_rows(suction::CupParameters& cup) {
 void read_suction(const YamlNode* section, suction::CupParameters& cup) {
     const YamlNode* old = section == nullptr ? nullptr : section->find("pneumatic");
     if (old != nullptr) {
-        fail(*old, "is no key any more, say pressure_model: pneumatic");
+        fail(*old,
+             "is no key any more: for 0 say pressure_model: first_order, for 1 pressure_model: "
+             "pneumatic");
     }
     read_rows(section, suction_rows(cup), {"pressure_model"});
     if (const YamlNode* named = section == nullptr ? nullptr : section->find("pressure_model")) {
@@ -134,9 +137,8 @@ void read_section(const YamlNode* node, const Section& section,
 }
 
 const Section& find_section(const std::vector<Section>& sections, std::string_view name) {
-    const auto found = std::find_if(sections.begin(), sections.end(),
-                                    [&](const Section& section) { return section.name == name; });
-    require(found != sections.end(), "the section is one of ours");
+    const Section* found = find_named(sections, name);
+    require(found != nullptr, "the section is one of ours");
     return *found;
 }
 

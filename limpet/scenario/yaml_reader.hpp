@@ -58,7 +58,7 @@ void read_given(const YamlNode& map, std::string_view key, Value& value) {
             value = read_enum<Value>(*node);
         } else if constexpr (std::is_same_v<Value, bool>) {
             value = read_flag(*node);
-        } else if constexpr (std::is_integral_v<Value>) {
+        } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
             value = read_count(*node);
         } else {
             value = read_text(*node);

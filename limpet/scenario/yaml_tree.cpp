@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -151,12 +152,7 @@ bool is_text(const std::string& text) {
 }  // namespace
 
 const YamlNode* YamlNode::find(std::string_view name) const {
-    if (kind != Kind::map) {
-        return nullptr;
-    }
-    const auto found = std::find_if(children.begin(), children.end(),
-                                    [&](const YamlNode& child) { return child.key == name; });
-    return found == children.end() ? nullptr : &*found;
+    return kind == Kind::map ? find_by(children, &YamlNode::key, name) : nullptr;
 }
 
 YamlNode parse_yaml(const std::string& text, const std::string& name) {

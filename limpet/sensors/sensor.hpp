@@ -33,11 +33,9 @@ namespace limpet::sensors {
 //   kRate_Hz            which of them is its rate, an int; 0: not fitted
 //   kLatency_s          which of them says how late it arrives, if it does
 //   State               of one unit, plain and copyable: BiasedSensor where that is enough
-//   kBias               which of the numbers is the bias, to be drawn at the start, if there is
-//   one;
+//   kBias               which number is the bias, to be drawn at the start, if there is one;
 //                       start() in its place, (Parameters, RandomStream, Truth), where it is more
-//   measure()           (Parameters, State, SensorView) the reading of now; nothing when it is
-//   lost.
+//   measure()           (Parameters, State, SensorView) the reading of now; nothing when lost.
 //                       Draws as many numbers whatever happens, so that a fault moves nothing else
 //
 // and where its samples go: to those who read them by name,

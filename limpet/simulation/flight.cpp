@@ -110,8 +110,9 @@ void Flight::restore(const Snapshot& snapshot) {
     plant_->restore(snapshot.plant);
 }
 
-FlightResult fly(std::shared_ptr<const FlightModel> model, const std::filesystem::path& recording,
-                 const FlightWatch& watch, std::uint32_t run, const FlightConduct& conduct) {
+FlightResult fly(const std::shared_ptr<const FlightModel>& model,
+                 const std::filesystem::path& recording, const FlightWatch& watch,
+                 std::uint32_t run, const FlightConduct& conduct) {
     const autopilot::ExternalAutopilot* autopilot = conduct.outside.autopilot;
     Flight flight = autopilot == nullptr ? Flight(model, run, conduct.outside)
                                          : Flight(model,

@@ -111,7 +111,7 @@ struct FlightResult {
 /// @param recording  file to write; empty: none
 /// @throws InputError when the recording cannot be written, or the autopilot does not bring the
 ///         vehicle to its start
-[[nodiscard]] FlightResult fly(std::shared_ptr<const FlightModel> model,
+[[nodiscard]] FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                const std::filesystem::path& recording = {},
                                const FlightWatch& watch = {}, std::uint32_t run = 0,
                                const FlightConduct& conduct = {});

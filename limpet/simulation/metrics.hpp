@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "limpet/core/enum_names.hpp"
+#include "limpet/core/frames.hpp"
 
 namespace limpet::simulation {
 
@@ -38,37 +39,35 @@ struct CupLoads {
 /// Figures of one flight, from the truth; NaN: did not come to pass. Those of a touch are of the
 /// last docking run.
 struct Metrics {
-    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-    int attempts = 0;                          ///< docking runs
-    double impact_speed_m_s = kNone;           ///< of the lip along the wall's normal
-    double impact_force_N = kNone;             ///< largest press through the slider, > 0
-    double cup_press_max_N = kNone;            ///< largest press at the lip, > 0
-    double alignment_at_approach_deg = kNone;  ///< heading off the wall's normal
-    double time_to_land_pressure_s = kNone;    ///< from the touch to P_land
-    double pressure_at_hold_end_Pa = kNone;
-    double pressure_min_Pa = kNone;
-    double perched_pitch_deg = kNone;         ///< at the end of the rest
-    double perched_pitch_spread_deg = kNone;  ///< over the last 5 s of it
-    double cup_pull_max_N = kNone;
-    double release_s = kNone;                   ///< from pump_off to detached
-    double pressure_at_release_end_Pa = kNone;  ///< when the release was done or given up
-    double pitch_oscillation_max_deg = kNone;   ///< while waiting for the release
-    double pitch_swing_deg = kNone;             ///< half of its span, lowest to highest, meanwhile
-    double cup_margin_min_N = kNone;
+    int attempts = 0;                         ///< docking runs
+    double impact_speed_m_s = kNaN;           ///< of the lip along the wall's normal
+    double impact_force_N = kNaN;             ///< largest press through the slider, > 0
+    double cup_press_max_N = kNaN;            ///< largest press at the lip, > 0
+    double alignment_at_approach_deg = kNaN;  ///< heading off the wall's normal
+    double time_to_land_pressure_s = kNaN;    ///< from the touch to P_land
+    double pressure_at_hold_end_Pa = kNaN;
+    double pressure_min_Pa = kNaN;
+    double perched_pitch_deg = kNaN;         ///< at the end of the rest
+    double perched_pitch_spread_deg = kNaN;  ///< over the last 5 s of it
+    double cup_pull_max_N = kNaN;
+    double release_s = kNaN;                   ///< from pump_off to detached
+    double pressure_at_release_end_Pa = kNaN;  ///< when the release was done or given up
+    double pitch_oscillation_max_deg = kNaN;   ///< while waiting for the release
+    double pitch_swing_deg = kNaN;             ///< half of its span, lowest to highest, meanwhile
+    double cup_margin_min_N = kNaN;
     double energy_flying_Wh = 0.0;
     double energy_perched_Wh = 0.0;
     std::array<CupLoads, kLoadPhases.size()> loads{};
 
     /// Bookkeeping.
     struct Memory {
-        double touch_s = kNone;
-        double pump_off_s = kNone;
+        double touch_s = kNaN;
+        double pump_off_s = kNaN;
         bool awaits_touch = false;
-        double waiting_pitch_min_deg = kNone;
-        double waiting_pitch_max_deg = kNone;
-        double rest_pitch_min_deg = kNone;
-        double rest_pitch_max_deg = kNone;
+        double waiting_pitch_min_deg = kNaN;
+        double waiting_pitch_max_deg = kNaN;
+        double rest_pitch_min_deg = kNaN;
+        double rest_pitch_max_deg = kNaN;
     };
     Memory memory;
 };

@@ -109,17 +109,17 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
             std::abs(wrap_pi(std::atan2(x_B_W.y(), x_B_W.x()) - std::atan2(x_T_W.y(), x_T_W.x()))));
         ++metrics.attempts;
         metrics.memory.awaits_touch = true;
-        metrics.memory.touch_s = Metrics::kNone;
-        metrics.time_to_land_pressure_s = Metrics::kNone;
-        metrics.impact_force_N = Metrics::kNone;
-        metrics.cup_press_max_N = Metrics::kNone;
+        metrics.memory.touch_s = kNaN;
+        metrics.time_to_land_pressure_s = kNaN;
+        metrics.impact_force_N = kNaN;
+        metrics.cup_press_max_N = kNaN;
     } else if (event.name == EventName::hold_over) {
         metrics.pressure_at_hold_end_Pa = truth.cup_status.pressure_Pa;
     } else if (event.name == EventName::motors_off) {
         metrics.perched_pitch_deg = pitch_deg(truth);
-        metrics.perched_pitch_spread_deg = Metrics::kNone;
-        metrics.memory.rest_pitch_min_deg = Metrics::kNone;
-        metrics.memory.rest_pitch_max_deg = Metrics::kNone;
+        metrics.perched_pitch_spread_deg = kNaN;
+        metrics.memory.rest_pitch_min_deg = kNaN;
+        metrics.memory.rest_pitch_max_deg = kNaN;
     } else if (event.name == EventName::pump_off) {
         metrics.memory.pump_off_s = event.time_s;
     } else if (event.name == EventName::detached && !std::isnan(metrics.memory.pump_off_s)) {

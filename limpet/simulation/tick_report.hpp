@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <limits>
-
+#include "limpet/core/frames.hpp"
 #include "limpet/guidance/perching.hpp"
 
 namespace limpet::simulation {
 
 /// The most that the cup bore in a tick, over all steps of the plant; NaN: it was not so.
 struct ContactPeaks {
-    static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-    double touch_s = kNone;          ///< when the lip met the wall
-    double touch_speed_m_s = kNone;  ///< of the lip along the wall's normal
-    double slider_press_N = kNone;   ///< on the wall
-    double lip_press_N = kNone;      ///< on the wall
-    double pull_N = kNone;           ///< while sealed, as the two below
-    double shear_N = kNone;
-    double peel_N_m = kNone;
-    double margin_N = kNone;  ///< the least of pull, shear and peel while attached
+    double touch_s = kNaN;          ///< when the lip met the wall
+    double touch_speed_m_s = kNaN;  ///< of the lip along the wall's normal
+    double slider_press_N = kNaN;   ///< on the wall
+    double lip_press_N = kNaN;      ///< on the wall
+    double pull_N = kNaN;           ///< while sealed, as the two below
+    double shear_N = kNaN;
+    double peel_N_m = kNaN;
+    double margin_N = kNaN;  ///< the least of pull, shear and peel while attached
 };
 
 /// What happened on the way from one tick to the next, for whoever watches the loop.

@@ -4,21 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/simulation/outside.hpp"
 
 namespace limpet::ros {
 namespace {
 
 constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not fill the memory
-
-std::optional<EventName> event_name(const std::string& name) {
-    for (int i = 0; i <= static_cast<int>(EventName::parameter_set); ++i) {
-        if (to_string(static_cast<EventName>(i)) == name) {
-            return static_cast<EventName>(i);
-        }
-    }
-    return std::nullopt;
-}
 
 }  // namespace
 
@@ -69,7 +61,7 @@ void Heard::take_events(guidance::EventList& events) {
     std::size_t taken = 0;
     for (; taken < std::min(events_.size(), simulation::kMostEvents); ++taken) {
         const limpet_ros::PerchingEvent& heard = events_[taken];
-        const auto name = event_name(heard.name);
+        const auto name = enumerator_of<EventName>(heard.name);
         if (!name) {
             continue;
         }

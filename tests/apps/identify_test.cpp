@@ -53,19 +53,19 @@ TEST(Identify, JsonIsInSiAndHoldsTheTruth) {
     (void)bench.write("log.csv", concrete_log());
     const Finished finished = bench.run({"identify", "log.csv", "--json"});
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    const auto json = nlohmann::json::parse(finished.out);
+    const auto said = nlohmann::json::parse(finished.out);
     const std::pair<const char*, double> truths[] = {
         {"vacuum_pressure_Pa", 65000.0},     {"sealing_time_constant_s", 0.33},
         {"unsealing_time_constant_s", 0.40}, {"atmosphere_Pa", 101600.0},
         {"atmosphere_offset_Pa", 275.0},     {"sealing_begins_s", 1.0},
         {"unsealing_begins_s", 4.0}};
     for (const auto& [key, truth] : truths) {
-        EXPECT_NEAR(json[key]["value"].get<double>(), truth, 0.005 * truth) << key;
-        EXPECT_LT(json[key]["low"].get<double>(), json[key]["value"].get<double>()) << key;
-        EXPECT_GT(json[key]["high"].get<double>(), json[key]["value"].get<double>()) << key;
+        EXPECT_NEAR(said[key]["value"].get<double>(), truth, 0.005 * truth) << key;
+        EXPECT_LT(said[key]["low"].get<double>(), said[key]["value"].get<double>()) << key;
+        EXPECT_GT(said[key]["high"].get<double>(), said[key]["value"].get<double>()) << key;
     }
-    EXPECT_NEAR(json["ripple_Hz"]["value"].get<double>(), 50.0 / 6.283185307, 0.02);
-    EXPECT_EQ(json["nearest_surface"], "porous_concrete");
+    EXPECT_NEAR(said["ripple_Hz"]["value"].get<double>(), 50.0 / 6.283185307, 0.02);
+    EXPECT_EQ(said["nearest_surface"], "porous_concrete");
     EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
 }
 

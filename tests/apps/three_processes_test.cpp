@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-struct Ports {
+struct DevicePorts {
     std::string hil = "tcp:" + free_port(SOCK_STREAM);
     std::string onboard = "udp:" + free_port(SOCK_DGRAM);
     std::string autopilot = "udp:" + free_port(SOCK_DGRAM);
@@ -27,7 +27,7 @@ struct Ports {
 
 struct OverDevices : testing::Test {
     Bench bench;
-    Ports ports;
+    DevicePorts ports;
     std::optional<Started> stand_in;
     std::optional<Started> sim_io;
     std::optional<Started> companion;

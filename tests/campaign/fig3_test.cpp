@@ -25,10 +25,9 @@ struct Bin {
 std::map<double, Bin> fly_all_trials() {
     const Campaign campaign = load_campaign("fig3", LIMPET_SOURCE_DIR);
     EXPECT_EQ(campaign.runs, 253U);  // paper, III.B
-    PlantCache plants;
     std::map<double, Bin> bins;
     for (std::uint32_t run = 0; run < campaign.runs; ++run) {
-        const RunRow row = fly_run(campaign, run, plants);
+        const RunRow row = fly_run(campaign, run);
         const double speed_m_s = std::get<double>(row.sample[0]);
         EXPECT_NEAR(row.metrics.impact_speed_m_s, speed_m_s, 0.02 * speed_m_s) << run;
         EXPECT_THAT(row.outcome, testing::AnyOf("perched", "failed_to_seal")) << run;

@@ -46,8 +46,7 @@ TEST(Workers, RowsDoNotDependOnTheirNumber) {
 TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     const Bench bench;
     const Campaign campaign = campaign_of(bench, short_hovers(4));
-    PlantCache plants;
-    const RunRow row = fly_run(campaign, 3, plants);
+    const RunRow row = fly_run(campaign, 3);
     const auto sample = draw(campaign.keys, campaign.seed, 3);
     EXPECT_EQ(row.sample, sample);
     EXPECT_EQ(std::get<std::string>(row.sample[1]), "iris");
@@ -55,18 +54,6 @@ TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {
     EXPECT_EQ(scenario.sensors.lidar_noise_m, std::get<double>(sample[0]));
     EXPECT_EQ(row.state_hash,
               hash_text(simulation::fly(simulation::build_model(scenario), {}, {}, 3).state_hash));
-}
-
-TEST(Workers, PlantsAreMadeOnceForEachVehicleAndScene) {
-    const Bench bench;
-    const Campaign campaign = campaign_of(bench, short_hovers(4));
-    PlantCache plants;
-    const auto plant_of = [&](std::uint32_t run) {
-        const auto sample = draw(campaign.keys, campaign.seed, run);
-        return plants.get(scenario_of(campaign, sample));
-    };
-    EXPECT_EQ(plant_of(0), plant_of(2));  // the same vehicle
-    EXPECT_NE(plant_of(0), plant_of(1));
 }
 
 TEST(Workers, GoOnWhereTheyWereStopped) {
@@ -91,9 +78,7 @@ TEST(Workers, FillGapsAndRepeatNothing) {
     const Campaign campaign = campaign_of(bench, short_hovers(8));
     const auto whole = table_of(fly_all(bench, campaign, "whole", 1));
     Results results = begin_results(campaign, bench.folder(), false);
-    PlantCache plants;
-    results.add(
-        {fly_run(campaign, 0, plants), fly_run(campaign, 2, plants), fly_run(campaign, 5, plants)});
+    results.add({fly_run(campaign, 0), fly_run(campaign, 2), fly_run(campaign, 5)});
     EXPECT_THAT(results.finished_runs(), testing::ElementsAre(0U, 2U, 5U));
     EXPECT_EQ(run_campaign(results, 1).flown, 5U);
     EXPECT_EQ(table_of(bench.folder() / Results::kFileName), whole);
@@ -116,6 +101,24 @@ TEST(Workers, ValuesThatDoNotFitEachOtherNameTheirRun) {
     }
     const auto kept = results.finished_runs();
     EXPECT_TRUE(kept.empty() || kept.back() + 1 == kept.size());  // all before it
+}
+
+TEST(Workers, AFullDiskStopsThemAllAndLosesNothing) {
+    const Bench bench;
+    const Campaign campaign = campaign_of(bench, short_hovers(60));
+    const auto whole = table_of(fly_all(bench, campaign, "whole", 2));
+    Results results = begin_results(campaign, bench.folder(), false);
+    results.database().exec("PRAGMA max_page_count = 1");  // no more than it has
+    try {
+        (void)run_campaign(results, 4);
+        FAIL() << "60 rows went into the last page";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("full"));
+    }
+    EXPECT_LT(results.finished(), 60U);
+    results.database().exec("PRAGMA max_page_count = 10000");
+    EXPECT_EQ(run_campaign(results, 2).finished, 60U);
+    EXPECT_EQ(table_of(bench.folder() / Results::kFileName), whole);
 }
 
 TEST(FolderLock, KeepsASecondOut) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
@@ -20,11 +21,6 @@ namespace {
 using Mark = ChartSeries::Mark;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// A chart as it is seen and as it is written.
 struct Drawn {
@@ -57,7 +53,7 @@ Drawn drawn(const Chart& chart) {
     const test::Folder folder;
     const Pictures pictures = draw_chart(chart, "chart", folder.path() / "new");
     EXPECT_EQ(pictures.files.size(), 2u);
-    return {test::read_png(pictures.files.at(0)), read_text(pictures.files.at(1))};
+    return {test::read_png(pictures.files.at(0)), load_text(pictures.files.at(1))};
 }
 
 Drawn drawn(const ChartPanel& panel) {

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
@@ -17,11 +18,6 @@ using testing::HasSubstr;
 using testing::Property;
 using testing::Throws;
 
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 TEST(Gnuplot, quotes_what_a_user_may_have_written) {
     EXPECT_EQ(gnuplot::literal("plain, 5°"), "\"plain, 5°\"");
     EXPECT_EQ(gnuplot::literal("it's"), "\"it\\047s\"");
@@ -29,7 +25,7 @@ TEST(Gnuplot, quotes_what_a_user_may_have_written) {
     const gnuplot::TemporaryFolder folder;
     const std::string nasty = "'\"; system(\"touch hurt\") \\ `touch hurt` $x {y}_z # ' \" °";
     gnuplot::run(folder.path(), "set print 'said.txt'\nprint " + gnuplot::literal(nasty));
-    EXPECT_EQ(read_text(folder.path() / "said.txt"), nasty + "\n");
+    EXPECT_EQ(load_text(folder.path() / "said.txt"), nasty + "\n");
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "hurt"));
 }
 
@@ -66,7 +62,7 @@ TEST(Publish, replaces_a_file_and_leaves_nothing_else) {
     const auto published = publish({from.path() / "a.png"}, to.path());
     ASSERT_EQ(published.size(), 1u);
     EXPECT_EQ(published[0], to.path() / "a.png");
-    EXPECT_EQ(read_text(published[0]), "new");
+    EXPECT_EQ(load_text(published[0]), "new");
     const auto left = std::distance(std::filesystem::directory_iterator(to.path()), {});
     EXPECT_EQ(left, 1);
 }

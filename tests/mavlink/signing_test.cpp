@@ -34,7 +34,7 @@ Heartbeat heartbeat() {
 }
 
 /// One that sends signed heartbeats.
-struct Peer {
+struct SigningPeer {
     Signing signing;
     Sender from{1, 191, 7};
 
@@ -58,7 +58,7 @@ Verdict judged(Signing& signing, ByteView bytes, std::uint64_t now = kNow) {
 
 TEST(Signing, IsSha256OfKeyFrameLinkAndTime) {
     // Computed with Python's hashlib from the heartbeat of the vectors, key 00 01 .. 1f, link 3.
-    Peer peer{Signing(counting_key(), 3)};
+    SigningPeer peer{Signing(counting_key(), 3)};
     EXPECT_EQ(to_hex(peer.send(kNow)),
               "fd0901000701bf0000000000000012080004030a8c0301a81bb74922fea8ed769129");
 }
@@ -71,7 +71,7 @@ TEST(Signing, TimeCountsTenMicrosecondsSince2015) {
 }
 
 TEST(Signing, AcceptsTheOtherEnd) {
-    Peer peer{Signing(counting_key(), 3)};
+    SigningPeer peer{Signing(counting_key(), 3)};
     Signing ours(counting_key(), 4);
     EXPECT_EQ(judged(ours, peer.send(kNow)), Verdict::accepted);
     EXPECT_EQ(judged(ours, peer.send(kNow)), Verdict::accepted) << "a clock that stands";
@@ -80,7 +80,7 @@ TEST(Signing, AcceptsTheOtherEnd) {
 }
 
 TEST(Signing, RefusesUnsignedForgedAndForeignFrames) {
-    Peer peer{Signing(counting_key(), 3)};
+    SigningPeer peer{Signing(counting_key(), 3)};
     Signing ours(counting_key(), 3);
     EXPECT_EQ(judged(ours, from_hex(kVectors[0].hex)), Verdict::not_signed);
     const auto good = peer.send(kNow);
@@ -91,13 +91,13 @@ TEST(Signing, RefusesUnsignedForgedAndForeignFrames) {
     }
     SigningKey other = counting_key();
     other[31] = 0;
-    Peer stranger{Signing(other, 3)};
+    SigningPeer stranger{Signing(other, 3)};
     EXPECT_EQ(judged(ours, stranger.send(kNow + 1'000'000'000)), Verdict::wrong_signature);
     EXPECT_EQ(judged(ours, good), Verdict::accepted) << "forgeries have locked nobody out";
 }
 
 TEST(Signing, RefusesWhatIsPlayedAgain) {
-    Peer peer{Signing(counting_key(), 3)};
+    SigningPeer peer{Signing(counting_key(), 3)};
     Signing ours(counting_key(), 3);
     const auto first = peer.send(kNow);
     const auto second = peer.send(kNow);
@@ -108,7 +108,7 @@ TEST(Signing, RefusesWhatIsPlayedAgain) {
 }
 
 TEST(Signing, ANewSenderMayBeAMinuteBehind) {
-    Peer late{Signing(counting_key(), 3)};
+    SigningPeer late{Signing(counting_key(), 3)};
     Signing ours(counting_key(), 3);
     const auto frame = late.send(kNow - Signing::kLargestAge - 1);
     EXPECT_EQ(judged(ours, frame), Verdict::too_old);
@@ -119,8 +119,8 @@ TEST(Signing, ANewSenderMayBeAMinuteBehind) {
 
 TEST(Signing, LinksOfASenderHaveTimesOfTheirOwn) {
     Signing ours(counting_key(), 0);
-    Peer one{Signing(counting_key(), 1)};
-    Peer two{Signing(counting_key(), 2)};
+    SigningPeer one{Signing(counting_key(), 1)};
+    SigningPeer two{Signing(counting_key(), 2)};
     EXPECT_EQ(judged(ours, one.send(kNow + 1000)), Verdict::accepted);
     EXPECT_EQ(judged(ours, two.send(kNow)), Verdict::accepted);
     EXPECT_EQ(judged(ours, two.send(kNow)), Verdict::accepted);
@@ -129,19 +129,19 @@ TEST(Signing, LinksOfASenderHaveTimesOfTheirOwn) {
 TEST(Signing, MoreSendersThanItCanWatchAreRefused) {
     Signing ours(counting_key(), 0);
     for (std::uint8_t link = 0; link < Signing::kMaxSenders; ++link) {
-        Peer peer{Signing(counting_key(), link)};
+        SigningPeer peer{Signing(counting_key(), link)};
         EXPECT_EQ(judged(ours, peer.send(kNow)), Verdict::accepted);
     }
-    Peer one_more{Signing(counting_key(), Signing::kMaxSenders)};
+    SigningPeer one_more{Signing(counting_key(), Signing::kMaxSenders)};
     EXPECT_EQ(judged(ours, one_more.send(kNow)), Verdict::too_many_senders);
 }
 
 TEST(Signing, GoesOnAfterARestartWithoutAClock) {
     Signing before(counting_key(), 3);
-    Peer peer{std::move(before)};
+    SigningPeer peer{std::move(before)};
     Signing ours(counting_key(), 3);
     EXPECT_EQ(judged(ours, peer.send(kNow)), Verdict::accepted);
-    Peer again{Signing(counting_key(), 3)};
+    SigningPeer again{Signing(counting_key(), 3)};
     again.signing.set_timestamp(peer.signing.timestamp());
     EXPECT_EQ(judged(ours, again.send(0)), Verdict::accepted);
 }

@@ -7,20 +7,12 @@
 #include <sstream>
 
 #include "limpet/models/finish.hpp"
+#include "numbers.hpp"
 
 namespace limpet::models {
 namespace {
 
 using testing::ElementsAre;
-
-std::vector<double> numbers(const std::string& text) {
-    std::istringstream in(text);
-    std::vector<double> values;
-    for (double value = 0.0; in >> value;) {
-        values.push_back(value);
-    }
-    return values;
-}
 
 /// Where SDF's pose puts a frame: turned about fixed x, then y, then z.
 Eigen::Isometry3d pose_of(pugi::xml_node node) {

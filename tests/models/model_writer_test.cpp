@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "limpet/models/drawing.hpp"
+#include "numbers.hpp"
 
 // What MuJoCo makes of the MJCF is in tests/plant.
 
@@ -16,15 +17,6 @@ namespace limpet::models {
 namespace {
 
 using testing::UnorderedElementsAre;
-
-std::vector<double> numbers(const std::string& text) {
-    std::istringstream in(text);
-    std::vector<double> values;
-    for (double value = 0.0; in >> value;) {
-        values.push_back(value);
-    }
-    return values;
-}
 
 /// Position and attitude as SDF and URDF write them: rotations about fixed x, y, z.
 Eigen::Isometry3d frame(const std::string& xyz, const std::string& rpy) {

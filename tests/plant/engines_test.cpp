@@ -37,6 +37,17 @@ TEST(Engines, MakePlantsOfAirframeAndScene) {
     }
 }
 
+TEST(Engines, CompileTheSameBodiesOnce) {
+    const vehicle::Airframe airframe = test::plain_multirotor();
+    const auto once = kMujocoEngine.make(airframe, test::wall_ahead());
+    vehicle::Airframe other_numbers = airframe;  // that no body has
+    other_numbers.battery.capacity_Ah *= 0.5;
+    EXPECT_EQ(kMujocoEngine.make(other_numbers, test::wall_ahead()), once);
+    vehicle::Airframe heavier = airframe;
+    heavier.mass_kg *= 1.1;
+    EXPECT_NE(kMujocoEngine.make(heavier, test::wall_ahead()), once);
+}
+
 TEST(Engines, LeaveLooksOut) {
     models::Scene scene = test::wall_ahead();
     scene.visuals = true;

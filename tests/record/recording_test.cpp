@@ -28,7 +28,7 @@ void record_flight(Recorder& recorder, int ticks) {
     }
 }
 
-RecordingInfo sample_info() {
+RecordingInfo short_info() {
     return {.scenario = "hover",
             .seed = 1,
             .version = "0.1.0",
@@ -48,7 +48,7 @@ std::string message_of(const std::function<void()>& action) {
 
 TEST(Recording, NamesWhatIsThereWhenAskedForWhatIsNot) {
     const TestFolder folder;
-    Recorder recorder(folder / "a.mcap", sample_info());
+    Recorder recorder(folder / "a.mcap", short_info());
     record_flight(recorder, 3);
     recorder.finish("{}");
     const Recording recording = read_recording(folder / "a.mcap");
@@ -63,7 +63,7 @@ TEST(Recording, NamesWhatIsThereWhenAskedForWhatIsNot) {
 TEST(Recording, CutAnywhereItKeepsWhatWasWhole) {
     const TestFolder folder;
     {
-        Recorder recorder(folder / "a.mcap", sample_info());
+        Recorder recorder(folder / "a.mcap", short_info());
         record_flight(recorder, 1500);
         recorder.finish("{}");
     }
@@ -98,7 +98,7 @@ TEST(Recording, CutAnywhereItKeepsWhatWasWhole) {
 TEST(Recording, AFlightThatDiedIsReadFromItsPart) {
     const TestFolder folder;
     {
-        Recorder recorder(folder / "a.mcap", sample_info());
+        Recorder recorder(folder / "a.mcap", short_info());
         record_flight(recorder, 500);
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "a.mcap"));

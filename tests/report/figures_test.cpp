@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
 #include "limpet/core/errors.hpp"
@@ -24,11 +25,6 @@ std::vector<std::string> names(const std::vector<std::filesystem::path>& files) 
         found.push_back(file.filename().string());
     }
     return found;
-}
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 /// For texts that are too long to be printed when they lack it.
@@ -53,7 +49,7 @@ TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
     EXPECT_EQ(curves, 10u);
     EXPECT_EQ(named, flight.events.size());
     const test::Folder folder;
-    const std::string svg = read_text(draw_chart(chart, "stem", folder.path()).files.at(1));
+    const std::string svg = load_text(draw_chart(chart, "stem", folder.path()).files.at(1));
     for (const char* text : {"impact  3.90", "pressure released  25.06", "resting",
                              "cup pressure  [hPa]", "P_land 870", "estimated"}) {
         EXPECT_TRUE(has(svg, text)) << text;
@@ -75,7 +71,7 @@ TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {
             EXPECT_GT(image.height_px, 1300) << file;
             EXPECT_GT(test::distinct_colours(image), 200u) << file;
         } else {
-            const std::string svg = read_text(file);
+            const std::string svg = load_text(file);
             EXPECT_TRUE(has(svg, "width=\"1400\"")) << file;
             EXPECT_TRUE(has(svg, "total thrust")) << file;
             EXPECT_TRUE(has(svg, "</svg>")) << file;
@@ -89,7 +85,7 @@ TEST(Plot, of_the_same_recording_is_the_same) {
     const auto a = plot(flight, first.path()).files, b = plot(flight, second.path()).files;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_TRUE(read_text(a[i]) == read_text(b[i])) << a[i];
+        EXPECT_TRUE(load_text(a[i]) == load_text(b[i])) << a[i];
     }
 }
 
@@ -98,7 +94,7 @@ TEST(Plot, of_a_hover_has_what_there_is) {
     const draw::Pictures pictures = plot(test::fly({.cup = false}), folder.path());
     EXPECT_THAT(names(pictures.files), ElementsAre("overview.png", "overview.svg"));
     EXPECT_THAT(pictures.missing, IsEmpty());
-    EXPECT_FALSE(has(read_text(folder.path() / "overview.svg"), "cup pressure"));
+    EXPECT_FALSE(has(load_text(folder.path() / "overview.svg"), "cup pressure"));
 }
 
 TEST(Plot, of_half_a_recording_says_where_it_was_cut) {
@@ -110,7 +106,7 @@ TEST(Plot, of_half_a_recording_says_where_it_was_cut) {
                 ElementsAre("overview.png", "overview.svg", "perching.png", "perching.svg"));
     char cut[64];
     std::snprintf(cut, sizeof cut, "recording cut at t = %.2f s", whole_flight(flight).to_s);
-    EXPECT_TRUE(has(read_text(folder.path() / "overview.svg"), cut));
+    EXPECT_TRUE(has(load_text(folder.path() / "overview.svg"), cut));
 }
 
 TEST(Plot, of_nothing_is_an_error_that_leaves_no_file) {

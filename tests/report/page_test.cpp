@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/html.hpp"
@@ -18,11 +19,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Property;
 using testing::Throws;
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t found = 0;
@@ -148,8 +144,8 @@ TEST_F(PageHtml, is_written_with_its_data_or_not_at_all) {
     test::draw_samples(out.path());
     const auto files = write_page(test::sample_page(), out.path());
     ASSERT_EQ(files.size(), 2u);
-    EXPECT_TRUE(read_text(out.path() / "index.html") == html());
-    EXPECT_TRUE(read_text(out.path() / "results.json") == results_json(test::sample_page()));
+    EXPECT_TRUE(load_text(out.path() / "index.html") == html());
+    EXPECT_TRUE(load_text(out.path() / "results.json") == results_json(test::sample_page()));
     std::filesystem::remove(out.path() / "index.html");
     std::filesystem::remove(out.path() / "success.svg");
     EXPECT_THROW(write_page(test::sample_page(), out.path()), InputError);

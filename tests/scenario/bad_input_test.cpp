@@ -34,7 +34,8 @@ TEST_F(BadInput, NoPressureModel) {
     EXPECT_EQ(hover_error("suction: {pressure_model: linear}\n"),
               "x.yaml:3: suction.pressure_model: \"linear\" is none of first_order, pneumatic");
     EXPECT_EQ(hover_error("suction: {pneumatic: 1}\n"),
-              "x.yaml:3: suction.pneumatic: is no key any more, say pressure_model: pneumatic");
+              "x.yaml:3: suction.pneumatic: is no key any more: for 0 say pressure_model: "
+              "first_order, for 1 pressure_model: pneumatic");
 }
 
 TEST_F(BadInput, NamesOfRegistries) {

@@ -106,4 +106,12 @@ void run(const sensors::SensorsModel& model, Tick count, TruthAt truth_at, Look 
     }
 }
 
+/// The readings after one second.
+template <class TruthAt>
+Readings after_a_second(const sensors::SensorsModel& model, TruthAt truth_at) {
+    Readings last;
+    run(model, 1000, truth_at, [&](Tick, const Readings& readings) { last = readings; });
+    return last;
+}
+
 }  // namespace limpet::test

@@ -11,6 +11,7 @@
 namespace limpet::sensors {
 namespace {
 
+using test::after_a_second;
 using test::at_rest;
 using test::quiet_model;
 using test::run;
@@ -23,13 +24,6 @@ auto pressed(double force_N, double pressure_Pa = kAtmosphere_Pa) {
         truth.cup_status.pressure_Pa = pressure_Pa;
         return truth;
     };
-}
-
-template <class TruthAt>
-Readings after_a_second(const SensorsModel& model, TruthAt truth_at) {
-    Readings last;
-    run(model, 1000, truth_at, [&](Tick, const Readings& readings) { last = readings; });
-    return last;
 }
 
 TEST(ForceSensor, KeepsTheSignAndSaturates) {

@@ -11,6 +11,7 @@
 namespace limpet::sensors {
 namespace {
 
+using test::after_a_second;
 using test::at_rest;
 using test::quiet_model;
 using test::run;
@@ -23,14 +24,6 @@ auto facing(double distance_m, double yaw_rad = 0.0, double pitch_rad = 0.0) {
         truth.base.q_WF = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = yaw_rad});
         return truth;
     };
-}
-
-/// The readings after one second.
-template <class TruthAt>
-Readings after_a_second(const SensorsModel& model, TruthAt truth_at) {
-    Readings last;
-    run(model, 1000, truth_at, [&](Tick, const Readings& readings) { last = readings; });
-    return last;
 }
 
 TEST(Lidar, MeasuresFromItsMountAlongXOfB) {

@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <new>
 
-// In a file of its own: where these are seen, GCC takes an inlined delete for a mismatched free.
-
 namespace {
 std::atomic<long> count{0};
 }
