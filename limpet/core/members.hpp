@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <type_traits>
 
 // The members of a plain struct without their names. Boost.PFR does the same, from Boost 1.75 on;
@@ -10,7 +11,9 @@ namespace limpet {
 
 struct AnyMember {
     template <class T>
-    operator T() const;
+    operator T() const {
+        std::terminate();  // asked for, never called
+    }
 };
 
 /// Of a plain struct: as many as it can be initialised with.

@@ -142,8 +142,7 @@ std::string to_yaml(const Scenario& scenario) {
         const Section& section = find_section(sections, name);
         write_section(writer, section, scenario);
         if (name == "suction") {
-            writer.value(1, "pressure_model",
-                         suction::pressure_models()[copy.cup.pressure_model].name);
+            writer.value(1, "pressure_model", suction::model_of(copy.cup).name);
         } else if (name != "autopilot" || copy.autopilot_kind != autopilot::autopilots().front()) {
             writer.choices(section.choices);
         }

@@ -80,7 +80,7 @@ std::optional<Event> advance_contact(const CupParameters& parameters, CupState& 
 
 void advance_pressure(const CupParameters& parameters, CupState& state, const Surface& surface,
                       const CupInput& input, double dt_s) {
-    const PressureModel& model = pressure_models()[parameters.pressure_model];
+    const PressureModel& model = model_of(parameters);
     CupStatus& status = state.status;
     SealedAir air{.surface = surface,
                   .radius_m = parameters.lip.radius_m,

@@ -40,6 +40,10 @@ struct CupParameters {
     int pressure_model = 0;                   ///< place in pressure_models()
 };
 
+[[nodiscard]] inline const PressureModel& model_of(const CupParameters& cup) {
+    return pressure_models()[static_cast<std::size_t>(cup.pressure_model)];
+}
+
 /// Rows of `suction:` other than the lip's and the pressure models'.
 [[nodiscard]] const ParameterTable<CupParameters>& cup_table();
 

@@ -16,7 +16,7 @@ TEST(PressureModels, AreNamedApartAndThePapersIsTheDefault) {
         names.insert(model.name);
     }
     EXPECT_EQ(names.size(), pressure_models().size());
-    EXPECT_EQ(pressure_models()[CupParameters{}.pressure_model].name, "first_order");
+    EXPECT_EQ(model_of(CupParameters{}).name, "first_order");
 }
 
 TEST(PressureModels, ShareNoKeyWithTheCupOrEachOther) {
