@@ -41,7 +41,7 @@ endfunction()
 # A few files are compiled as one: their headers are read and their templates made once, and a build from
 # nothing takes much less. Names within the unnamed namespaces of a room, or of a test program, are
 # therefore its own once. One by one (preset dev) is quickest for work on a single file.
-set(LIMPET_UNITY 5 CACHE STRING "how many files are compiled as one; 1: each by itself")
+set(LIMPET_UNITY 12 CACHE STRING "how many files are compiled as one; 1: each by itself")
 function(limpet_unity target)
   if(LIMPET_UNITY GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${LIMPET_UNITY})

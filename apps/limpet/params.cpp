@@ -38,7 +38,7 @@ std::string default_of(const BoundParameter& row) {
                                  : fmt::format("{:g}", row.value.get());
 }
 
-std::string range(const BoundParameter& row) {
+std::string range_text(const BoundParameter& row) {
     return row.value.is_switch() ? "true, false"
                                  : fmt::format("{:g} .. {:g}", row.minimum, row.maximum);
 }
@@ -68,7 +68,7 @@ void print_text(const std::vector<scenario::Section>& sections) {
         fmt::print("{}{}:\n", &section == &sections.front() ? "" : "\n", section.name);
         for (const BoundParameter& row : section.rows) {
             fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  {}  [{}]\n", row.name, width,
-                       default_of(row), row.unit, range(row), row.description, row.source);
+                       default_of(row), row.unit, range_text(row), row.description, row.source);
         }
     }
 }
@@ -85,7 +85,7 @@ void print_markdown(const std::vector<scenario::Section>& sections) {
             section.name);
         for (const BoundParameter& row : section.rows) {
             fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", row.name, default_of(row), row.unit,
-                       range(row), row.description, row.source);
+                       range_text(row), row.description, row.source);
         }
     }
 }

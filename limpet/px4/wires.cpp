@@ -22,10 +22,10 @@ std::unique_ptr<mavlink::Link> open(std::unique_ptr<wire::Transport> wire) {
 
 void wait_for_peer(mavlink::Link& link, double wait_s, const Px4WireWatch& watch,
                    const std::atomic<bool>* stop) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point begin = Clock::now();
+    using SteadyClock = std::chrono::steady_clock;
+    const SteadyClock::time_point begin = SteadyClock::now();
     while (!link.wait_for_peer(std::chrono::milliseconds(100))) {
-        const double waited_s = std::chrono::duration<double>(Clock::now() - begin).count();
+        const double waited_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
         if (watch.on_wait) {
             watch.on_wait(waited_s);
         }

@@ -28,13 +28,13 @@ TEST(RotorVerb, JsonHoldsEveryRowAndWhatWasChosen) {
     const Finished run = bench.run(
         {"rotor", "p.txt", "--diameter", "25cm", "--density", "1.2", "--rpm", "5000", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const auto json = nlohmann::json::parse(run.out);
-    EXPECT_EQ(json["rows"].size(), 2U);
-    EXPECT_NEAR(json["diameter_m"].get<double>(), 0.25, 1e-15);
+    const auto said = nlohmann::json::parse(run.out);
+    EXPECT_EQ(said["rows"].size(), 2U);
+    EXPECT_NEAR(said["diameter_m"].get<double>(), 0.25, 1e-15);
     // half-way: C_T 0.11 in eq. (3); C_P 0.045 in eq. (4)
-    EXPECT_NEAR(json["rotor"]["motor_constant_kg_m"].get<double>(), 1.1 * 1.187358e-5, 1e-11);
-    EXPECT_NEAR(json["rotor"]["moment_constant_m"].get<double>(), 0.0162772, 1e-7);
-    EXPECT_EQ(json["how"], "at 5000 rpm");
+    EXPECT_NEAR(said["rotor"]["motor_constant_kg_m"].get<double>(), 1.1 * 1.187358e-5, 1e-11);
+    EXPECT_NEAR(said["rotor"]["moment_constant_m"].get<double>(), 0.0162772, 1e-7);
+    EXPECT_EQ(said["how"], "at 5000 rpm");
 }
 
 TEST(RotorVerb, RefusesInOneLine) {

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "defaults.hpp"
 #include "limpet/core/random.hpp"
 
 namespace limpet::autopilot {
 namespace {
-
-constexpr double kDt_s = 0.004;
 
 /// A stretch of brisk flight: the states and the samples between them.
 struct Stretch {

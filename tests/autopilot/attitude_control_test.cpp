@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "defaults.hpp"
 #include "limpet/core/random.hpp"
 
 namespace limpet::autopilot {
 namespace {
-
-const AutopilotParameters kDefaults;
 
 Quaternion euler_deg(double roll, double pitch, double yaw) {
     return quaternion_from_euler({radians(roll), radians(pitch), radians(yaw)});

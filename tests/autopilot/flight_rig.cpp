@@ -3,14 +3,14 @@
 
 #include <cmath>
 
+#include "defaults.hpp"
+
 namespace limpet::autopilot {
 namespace {
 
-constexpr double kImu_s = 0.004;
 constexpr double kLatency_s = 0.02;
 constexpr double kMotorConstant = 2.5e-5;
 const Vector3 kInertia_kg_m2 = {0.05, 0.10, 0.14};
-const Vector3 kGravity_W_m_s2 = {0.0, 0.0, kGravity_m_s2};
 
 }  // namespace
 
@@ -56,13 +56,13 @@ void FlightRig::sense() {
             rotation_vector_from_quaternion(imu_from_.q_WF.conjugate() * truth.q_WF);
         const Quaternion q_middle =
             imu_from_.q_WF * quaternion_from_rotation_vector(0.5 * turn_rad);
-        const Vector3 a_W_m_s2 = (truth.v_WF_W_m_s - imu_from_.v_WF_W_m_s) / kImu_s;
+        const Vector3 a_W_m_s2 = (truth.v_WF_W_m_s - imu_from_.v_WF_W_m_s) / kDt_s;
         readings_.imu.time_s = now_s;
         readings_.imu.value.rate_B_rad_s =
-            turn_rad / kImu_s + noise * 3.39e-4 / std::sqrt(kImu_s) * random_.normal3();
+            turn_rad / kDt_s + noise * 3.39e-4 / std::sqrt(kDt_s) * random_.normal3();
         readings_.imu.value.specific_force_B_m_s2 =
             q_middle.conjugate() * (a_W_m_s2 - kGravity_W_m_s2) +
-            noise * 4e-3 / std::sqrt(kImu_s) * random_.normal3();
+            noise * 4e-3 / std::sqrt(kDt_s) * random_.normal3();
         imu_from_ = truth;
     }
     if (due(tick, 120)) {

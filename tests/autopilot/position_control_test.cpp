@@ -5,13 +5,11 @@
 
 #include <cmath>
 
+#include "defaults.hpp"
 #include "limpet/core/random.hpp"
 
 namespace limpet::autopilot {
 namespace {
-
-constexpr double kDt_s = 0.004;
-const AutopilotParameters kDefaults;
 
 AttitudeSetpoint once(const VelocitySetpoint& target, const AutopilotParameters& parameters = {}) {
     PositionControlState state;

@@ -5,11 +5,10 @@
 
 #include <cmath>
 
+#include "defaults.hpp"
+
 namespace limpet::autopilot {
 namespace {
-
-constexpr double kDt_s = 0.004;
-const AutopilotParameters kDefaults;
 
 /// Amplitude of a filtered sine once it has settled.
 double gain_at(double frequency_Hz, double cutoff_Hz) {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include "defaults.hpp"
+
 namespace limpet::autopilot {
 namespace {
 
-constexpr double kImu_s = 0.004;
 constexpr double kGpsVertical = 1.5;
-const Vector3 kGravity_W_m_s2 = {0.0, 0.0, kGravity_m_s2};
 
 Quaternion attitude_at(double t) {
     return quaternion_from_euler({.roll_rad = 0.25 * std::sin(1.3 * t),
@@ -98,7 +98,7 @@ SensedFlight::SensedFlight(Motion motion, const SensorNoise& noise_in, RandomStr
 
 void SensedFlight::step() {
     const Kinematics from = truth;
-    time_s += kImu_s;
+    time_s += kDt_s;
     truth = motion_(time_s);
     sense_imu(from);
     send();
@@ -107,18 +107,18 @@ void SensedFlight::step() {
 }
 
 void SensedFlight::sense_imu(const Kinematics& from) {
-    const double root_s = std::sqrt(kImu_s);
+    const double root_s = std::sqrt(kDt_s);
     gyro_bias_rad_s += noise.gyro_bias_rad_s2_rtHz * root_s * random_.normal3();
     accelerometer_bias_m_s2 += noise.accelerometer_bias_m_s3_rtHz * root_s * random_.normal3();
     const Vector3 turn_rad = rotation_vector_from_quaternion(from.q_WF.conjugate() * truth.q_WF);
     const Quaternion q_middle = from.q_WF * quaternion_from_rotation_vector(0.5 * turn_rad);
-    const Vector3 a_W_m_s2 = (truth.v_WF_W_m_s - from.v_WF_W_m_s) / kImu_s;
+    const Vector3 a_W_m_s2 = (truth.v_WF_W_m_s - from.v_WF_W_m_s) / kDt_s;
     readings.imu = {.time_s = time_s,
                     .value = {.specific_force_B_m_s2 =
                                   q_middle.conjugate() * (a_W_m_s2 - kGravity_W_m_s2) +
                                   accelerometer_bias_m_s2 +
                                   noise.accelerometer_m_s2_rtHz / root_s * random_.normal3(),
-                              .rate_B_rad_s = turn_rad / kImu_s + gyro_bias_rad_s +
+                              .rate_B_rad_s = turn_rad / kDt_s + gyro_bias_rad_s +
                                               noise.gyro_rad_s_rtHz / root_s * random_.normal3()}};
 }
 

@@ -7,19 +7,19 @@
 namespace limpet {
 namespace {
 
-enum class Colour {
+enum class Paint {
     red,
     dark_green,
     blue
 };
 
 TEST(EnumNames, AreThoseOfTheCode) {
-    EXPECT_THAT(kNamesOf<Colour>, testing::ElementsAre("red", "dark_green", "blue"));
-    EXPECT_EQ(name_of(Colour::dark_green), "dark_green");
-    EXPECT_EQ(enumerator_of<Colour>("blue"), Colour::blue);
-    EXPECT_EQ(enumerator_of<Colour>("green"), std::nullopt);
-    EXPECT_THROW((void)name_of(static_cast<Colour>(3)), InternalError);
-    EXPECT_THROW((void)name_of(static_cast<Colour>(-1)), InternalError);
+    EXPECT_THAT(kNamesOf<Paint>, testing::ElementsAre("red", "dark_green", "blue"));
+    EXPECT_EQ(name_of(Paint::dark_green), "dark_green");
+    EXPECT_EQ(enumerator_of<Paint>("blue"), Paint::blue);
+    EXPECT_EQ(enumerator_of<Paint>("green"), std::nullopt);
+    EXPECT_THROW((void)name_of(static_cast<Paint>(3)), InternalError);
+    EXPECT_THROW((void)name_of(static_cast<Paint>(-1)), InternalError);
 }
 
 }  // namespace

@@ -75,12 +75,12 @@ std::string json_case(const Message& message, std::uint8_t sequence, Signing& si
                        fields);
 }
 
-struct Answer {
+struct NodeAnswer {
     int exit_code = -1;
     std::string text;
 };
 
-Answer ask_node(const std::string& cases, const SigningKey& key) {
+NodeAnswer ask_node(const std::string& cases, const SigningKey& key) {
     std::string pattern = (std::filesystem::temp_directory_path() / "limpet_node_XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) {
         return {};
@@ -92,7 +92,7 @@ Answer ask_node(const std::string& cases, const SigningKey& key) {
         "NODE_PATH='{0}/build/node/node_modules' node '{0}/tests/mavlink/node/check.js' "
         "'{1}/cases.jsonl' {2} 2>/dev/null",
         source, folder.string(), to_hex(key));
-    Answer answer;
+    NodeAnswer answer;
     if (FILE* pipe = popen(command.c_str(), "r")) {
         char part[4096];
         for (std::size_t n = 0; (n = fread(part, 1, sizeof part, pipe)) > 0;) {
@@ -148,7 +148,7 @@ TEST_P(NodeMavlink, ReadsOurFramesAndWeReadIts) {
         using Message = std::remove_cvref_t<decltype(sample)>;
         cases += json_case(filled<Message>(GetParam()), sequence++, signing) + '\n';
     });
-    const Answer answer = ask_node(cases, key);
+    const NodeAnswer answer = ask_node(cases, key);
     if (answer.exit_code == kNothingThere || answer.exit_code == kCommandMissing) {
         GTEST_SKIP() << "node or node-mavlink is not there; ./test fetches it where npm is";
     }

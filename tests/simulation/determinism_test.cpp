@@ -6,15 +6,11 @@
 #include <iterator>
 #include <thread>
 
+#include "../support/files.hpp"
 #include "flown.hpp"
 
 namespace limpet::simulation {
 namespace {
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST(Determinism, SameScenarioAndSeedGiveTheSameBytes) {
     const std::filesystem::path folder = testing::TempDir();
@@ -24,9 +20,9 @@ TEST(Determinism, SameScenarioAndSeedGiveTheSameBytes) {
     const FlightResult a = fly_once("determinism_a.mcap");
     const FlightResult b = fly_once("determinism_b.mcap");
     EXPECT_EQ(a.state_hash, b.state_hash);
-    const std::string bytes = bytes_of(a.recording);
+    const std::string bytes = load_text(a.recording);
     EXPECT_GT(bytes.size(), 100000U);
-    EXPECT_TRUE(bytes == bytes_of(b.recording));
+    EXPECT_TRUE(bytes == load_text(b.recording));
     std::filesystem::remove(a.recording);
     std::filesystem::remove(b.recording);
 }

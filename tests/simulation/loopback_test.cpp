@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../support/files.hpp"
 #include "flown.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
@@ -38,11 +39,6 @@ FlightResult fly_behind_wire(const std::string& scenario) {
     const auto model = model_of(scenario);
     Loopback loopback(*model);
     return fly_behind_wire(model, loopback);
-}
-
-std::string bytes_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 class LoopbackFile : public testing::Test {
@@ -81,9 +77,9 @@ TEST_F(LoopbackFile, TheSameFlightIsTheSameBytes) {
         Loopback loopback(*model);
         EXPECT_EQ(fly_behind_wire(model, loopback, file(name)).outcome, Outcome::released);
     }
-    const std::string one = bytes_of(file("one.mcap"));
+    const std::string one = load_text(file("one.mcap"));
     EXPECT_GT(one.size(), 100'000U);
-    EXPECT_TRUE(one == bytes_of(file("two.mcap")));
+    EXPECT_TRUE(one == load_text(file("two.mcap")));
 }
 
 TEST(Loopback, EverySensorIsAnsweredOnceAndNothingIsLost) {
