@@ -10,13 +10,18 @@ set(LIMPET_COMMON_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <cstdint
     <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
 
 # limpet_precompile(TARGET [tests]): the headers come precompiled, for tests with GoogleTest's. Rooms,
-# programs and tests have a holder each, with the compile options of those who use it; else the
-# compiler refuses.
+# the shared library and tests have a holder each, with the compile options of those who use it; else the
+# compiler refuses. Programs are compiled as rooms are.
 function(limpet_precompile target)
   if(NOT LIMPET_PRECOMPILE)
     return()
   endif()
   get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE AND NOT ARGN)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+    set(type STATIC_LIBRARY)
+  endif()
   string(TOLOWER limpet_headers_${type}${ARGN} holder)
   if(NOT TARGET ${holder})
     if(type STREQUAL EXECUTABLE)
