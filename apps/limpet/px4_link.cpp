@@ -43,17 +43,16 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
 OptionList options_of(Px4LinkOptions& options, bool flies) {
     OptionList list = {{"--hil ADDRESS", &options.hil,
                         "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
-                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)"},
-                       {"--offboard ADDRESS", &options.offboard,
+                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)"}};
+    if (flies) {
+        list.push_back({"--offboard ADDRESS", &options.offboard,
                         "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
-                        "serial all goes over the one wire)"},
-                       {"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
-                        range(0.1, 86400.0, false)},
-                       {"--record-wire", &options.record_wire,
-                        "write every byte of the simulator link as well, into wire.mcap"}};
-    if (!flies) {
-        list.erase(list.begin() + 1);
+                        "serial all goes over the one wire)"});
     }
+    list.push_back({"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
+                    range(0.1, 86400.0, false)});
+    list.push_back({"--record-wire", &options.record_wire,
+                    "write every byte of the simulator link as well, into wire.mcap"});
     return list;
 }
 

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
+#include "limpet/core/find_by.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::campaign {
@@ -17,14 +15,6 @@ namespace {
 constexpr std::size_t kMostValues = 30;  ///< of a grid; more are put into bins
 constexpr std::size_t kMostBins = 10;
 constexpr std::size_t kRunsABin = 8;  ///< of what is drawn, on average and at least
-
-std::vector<std::string> words(const std::vector<Outcome>& outcomes) {
-    std::vector<std::string> names;
-    for (const Outcome outcome : outcomes) {
-        names.emplace_back(to_string(outcome));
-    }
-    return names;
-}
 
 std::vector<EndingCount> count_endings(SQLite::Database& database, const std::string& sql,
                                        std::uint32_t finished) {
@@ -120,7 +110,8 @@ CampaignSummary summarise(Results& results) {
     return asking(results.database(), [&results] {
         const Campaign& campaign = results.campaign();
         SQLite::Database& database = results.database();
-        const std::vector<std::string> success_means = words(campaign.success);
+        const std::vector<std::string> success_means =
+            names_of(campaign.success, [](Outcome outcome) { return to_string(outcome); });
         const std::string success =
             fmt::format("(outcome IN ('{}'))", fmt::join(success_means, "', '"));
         const std::uint32_t finished = results.finished();

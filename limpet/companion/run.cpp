@@ -10,7 +10,6 @@
 #include <thread>
 
 #include "limpet/core/enum_names.hpp"
-#include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/devices/tfmini.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -25,14 +26,19 @@ template <class All>
     return found == std::end(all) ? nullptr : &*found;
 }
 
-/// What all that have a name are called, in their order.
-template <class All>
-[[nodiscard]] std::vector<std::string> names_of(const All& all) {
+/// What all are called, in their order.
+/// @param member  that says it
+template <class All, class Member>
+[[nodiscard]] std::vector<std::string> names_of(const All& all, Member member) {
     std::vector<std::string> names;
     for (const auto& one : all) {
-        names.emplace_back(one.name);
+        names.emplace_back(std::invoke(member, one));
     }
     return names;
+}
+template <class All>
+[[nodiscard]] std::vector<std::string> names_of(const All& all) {
+    return names_of(all, [](const auto& one) { return one.name; });
 }
 
 /// @return "one, two", or "none"

@@ -15,7 +15,7 @@ public:
 
     /// Makes it the one that the calling thread draws with.
     /// @return whether it is the one that is drawn into now
-    bool use() noexcept;
+    [[nodiscard]] bool use() noexcept;
 
 private:
     void* display_ = nullptr;  // EGLDisplay and EGLContext, without their header

@@ -104,8 +104,9 @@ struct Stage::Parts {
         make_renderer();
     }
     ~Parts() {
-        screen.use();
-        mjr_freeContext(&renderer);
+        if (screen.use()) {  // else it took what it held along
+            mjr_freeContext(&renderer);
+        }
         mjv_freeScene(&scene);
     }
     Parts(const Parts&) = delete;
@@ -189,7 +190,9 @@ std::optional<WallFace> Stage::wall() const {
 
 Image Stage::photograph(const Pose& pose, const View& view) {
     Parts& p = *parts_;
-    p.screen.use();
+    if (!p.screen.use()) {
+        throw InputError("cannot draw: OpenGL's context was lost");
+    }
     p.set(pose);
     mjvCamera camera;
     mjv_defaultCamera(&camera);

@@ -3,7 +3,6 @@
 
 #include "limpet/core/find_by.hpp"
 #include "limpet/face/inside.hpp"
-#include "limpet/scenario/data_folder.hpp"
 
 namespace limpet {
 
@@ -22,11 +21,7 @@ Recording::Recording(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> Recording::topics() const {
-    std::vector<std::string> names;
-    for (const auto& table : inside_->recording.tables) {
-        names.push_back(table.topic);
-    }
-    return names;
+    return names_of(inside_->recording.tables, &record::Table::topic);
 }
 
 std::vector<std::string> Recording::columns(std::string_view topic) const {

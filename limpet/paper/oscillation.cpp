@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/paper/parallel.hpp"

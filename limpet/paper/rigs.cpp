@@ -78,7 +78,7 @@ CupStatus last_hold(const scenario::Scenario& scenario, double pressure_Pa, cons
                    .q_WF = Quaternion(model.wall.R_WT),
                    .v_WF_W_m_s = model.wall.R_WT * v_T_m_s,
                    .w_WF_F_rad_s = w_C_rad_s};
-    for (int k = 0; k < static_cast<int>(kLongest_s / kStep_s); ++k) {
+    for (int k = 0; k < static_cast<int>(std::lround(kLongest_s / kStep_s)); ++k) {
         state.mean_pressure_Pa = pressure_Pa;
         const CupStatus before = state.status;
         const suction::CupOutput output =

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "limpet/core/errors.hpp"
@@ -66,12 +65,8 @@ std::vector<RecordedEvent> events_of(const Table& table) {
 const Table& Recording::table(std::string_view topic) const {
     const Table* found = find_by(tables, &Table::topic, topic);
     if (found == nullptr) {
-        std::vector<std::string> topics;
-        for (const Table& each : tables) {
-            topics.push_back(each.topic);
-        }
-        throw InputError(
-            fmt::format("{}: no topic {}; there are: {}", path.string(), topic, listed(topics)));
+        throw InputError(fmt::format("{}: no topic {}; there are: {}", path.string(), topic,
+                                     listed(names_of(tables, &Table::topic))));
     }
     return *found;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -10,7 +9,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/models/cad_model.hpp"
-#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/parts.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 

@@ -2,7 +2,6 @@
 #include "limpet/scenario/derived.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "limpet/sensors/magnetometer.hpp"

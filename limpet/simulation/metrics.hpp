@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <string_view>

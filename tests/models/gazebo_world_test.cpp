@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "limpet/models/finish.hpp"
 #include "numbers.hpp"

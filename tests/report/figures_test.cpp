@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
