@@ -66,7 +66,6 @@ void bare_physics(benchmark::State& state) {
             for (const PlantStep::Applied& applied : step.applied) {
                 plant.apply(applied.body, applied.wrench_W, applied.p_W_m);
             }
-            plant.apply_slider(step.slider_N);
             plant.step(step.mode);
         }
     }

@@ -15,7 +15,6 @@ struct PlantStep {
         Vector3 p_W_m;
     };
     std::vector<Applied> applied;
-    double slider_N = 0.0;
     plant::StepMode mode;
 };
 
@@ -29,9 +28,9 @@ public:
         next_.applied.push_back({body, wrench_W, p_W_m});
         plant_.apply(body, wrench_W, p_W_m);
     }
-    void apply_slider(double force_N) override {
-        next_.slider_N += force_N;
-        plant_.apply_slider(force_N);
+    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT,
+                                           const plant::StepMode& mode) override {
+        return plant_.cup_response(R_WT, mode);
     }
     void step(const plant::StepMode& mode) override {
         next_.mode = mode;

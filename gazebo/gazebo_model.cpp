@@ -130,6 +130,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
     : vehicle_(std::move(vehicle)),
       world_(vehicle_->GetWorld()),
       engine_(world_->Physics()),
+      mechanism_(plant::make_mechanism(scenario.airframe)),
       next_(std::move(next)) {
     if (engine_->GetType() != "ode") {
         throw InputError(fmt::format("physics engine \"{}\": only \"ode\" flies this vehicle",
@@ -150,6 +151,7 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
         for (const char* hinge : {"cup_pitch", "cup_yaw"}) {
             hinges_.push_back(find_hinge(*vehicle_, models::called(airframe, hinge)));
         }
+        slider_->SetStiffnessDamping(0, 0.0, 0.0);
         slider_->SetLowerLimit(0, -kFree_m);
         slider_->SetUpperLimit(0, kFree_m);
         lip_F_m_ = {airframe.cup.lip_offset_m, 0.0, 0.0};

@@ -46,19 +46,48 @@ void GazeboPlant::apply(plant::Body body, const Wrench& wrench_W, const Vector3&
     const physics::LinkPtr& on = link(body);
     on->AddForceAtWorldPosition(turn(wrench_W.force_N), turn(p_W_m));
     on->AddTorque(turn(wrench_W.moment_N_m));
+    if (model_->slider_ != nullptr) {
+        push(twin_, body, wrench_W, p_W_m);
+    }
 }
 
-void GazeboPlant::apply_slider(double force_N) {
-    require(model_->slider_ != nullptr, "this vehicle has a slider");
-    model_->slider_->SetForce(0, force_N);
+/// Where ODE's bodies are, pushed by the legs as in the last step.
+void GazeboPlant::start_twin() {
+    if (model_->slider_ == nullptr) {
+        return;
+    }
+    const Kinematics base = kinematics(plant::Body::base);
+    plant::MechanismState<double> state{.p_WB_m = base.p_WF_m,
+                                        .q_WB = base.q_WF.normalized(),
+                                        .v_WB_W_m_s = base.v_WF_W_m_s,
+                                        .w_WB_B_rad_s = base.w_WF_F_rad_s};
+    const physics::JointPtr joints[] = {model_->slider_, model_->hinges_[0], model_->hinges_[1]};
+    for (std::size_t k = 0; k < state.joint.size(); ++k) {
+        state.joint[k] = joints[k]->Position(0);
+        state.joint_rate[k] = joints[k]->GetVelocity(0);
+    }
+    twin_.start(model_->mechanism_, state);
+    push(twin_, plant::Body::base, contacts_W(), base.p_WF_m);
+}
+
+CupResponse GazeboPlant::cup_response(const Matrix3& R_WT, const plant::StepMode& mode) {
+    require(model_->slider_ != nullptr, "this vehicle has a slider and a cup");
+    twin_.close(mode.step_s);
+    return twin_.response(R_WT);
 }
 
 void GazeboPlant::step(const plant::StepMode& mode) {
     if (model_->engine_->GetMaxStepSize() != mode.step_s) {
         set_step(mode.step_s);
     }
+    if (model_->slider_ != nullptr) {
+        twin_.close(mode.step_s);
+        slider_N_ = twin_.joint_force(0, twin_.change());
+        model_->slider_->SetForce(0, slider_N_);
+    }
     model_->next_();
     require_healthy();
+    start_twin();
 }
 
 void GazeboPlant::set_step(double step_s) {
@@ -100,7 +129,9 @@ plant::SliderMotion GazeboPlant::slider() const {
     if (slider == nullptr) {
         return {};
     }
-    return {.position_m = slider->Position(0), .velocity_m_s = slider->GetVelocity(0)};
+    return {.position_m = slider->Position(0),
+            .velocity_m_s = slider->GetVelocity(0),
+            .force_N = slider_N_};
 }
 
 std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
@@ -127,9 +158,15 @@ std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3&
 }
 
 Vector3 GazeboPlant::contact_force_W() const {
+    return contacts_W().force_N;
+}
+
+/// On the base, about B.
+Wrench GazeboPlant::contacts_W() const {
     const physics::ContactManager& manager = *model_->engine_->GetContactManager();
     const auto& contacts = manager.GetContacts();
-    Vector3d sum = Vector3d::Zero;
+    Wrench sum;
+    const Vector3 base_m = turn(link(plant::Body::base)->WorldPose().Pos());
     for (unsigned i = 0; i < manager.GetContactCount(); ++i) {
         const physics::Contact& contact = *contacts[i];
         const bool first = contact.collision1->GetModel() == model_->vehicle_;
@@ -143,10 +180,12 @@ Vector3 GazeboPlant::contact_force_W() const {
         for (int k = 0; k < contact.count; ++k) {
             const Vector3d& force =
                 first ? contact.wrench[k].body1Force : contact.wrench[k].body2Force;
-            sum += own->WorldPose().Rot().RotateVector(force);
+            const Vector3 force_W_N = turn(own->WorldPose().Rot().RotateVector(force));
+            sum.force_N += force_W_N;
+            sum.moment_N_m += (turn(contact.positions[k]) - base_m).cross(force_W_N);
         }
     }
-    return turn(sum);
+    return sum;
 }
 
 plant::PlantState GazeboPlant::save() const {
@@ -180,6 +219,7 @@ void GazeboPlant::restore(const plant::PlantState& state) {
         part->SetAngularVel(rate);
         v += kValuesALink;
     }
+    start_twin();
 }
 
 void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
@@ -195,6 +235,7 @@ void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const 
         part->SetLinearVel(turn(v_WB_W_m_s) + rate.Cross(arm));
         part->SetAngularVel(rate);
     }
+    start_twin();
 }
 
 }  // namespace limpet::gazebo11

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "limpet/plant/mechanism_step.hpp"
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 
@@ -19,11 +20,11 @@ public:
     /// Hands control to Gazebo and comes back at its next world update.
     using NextUpdate = std::function<void()>;
 
-    /// Takes the slider's own limits and ODE's auto-disable out of the model: the loop applies the
-    /// stops, and a vehicle at rest must not fall asleep.
-    /// From then on ODE's complaints of its contact solver are counted instead of printed, a line
-    /// a step: with friction the direct solver now and then takes what it has found until then. All
-    /// else that ODE says goes on to stderr.
+    /// Takes the slider's own spring, damper and limits and ODE's auto-disable out of the model:
+    /// the plant applies them, and a vehicle at rest must not fall asleep. From then on ODE's
+    /// complaints of its contact solver are counted instead of printed, a line a step: with
+    /// friction the direct solver now and then takes what it has found until then. All else that
+    /// ODE says goes on to stderr.
     /// @param scenario  what the loop believes; the world must agree
     /// @param next      called once by each step of the plant
     /// @throws InputError in one line when the engine is not ODE, when a link or joint is missing
@@ -45,6 +46,7 @@ private:
     gazebo::physics::JointPtr slider_;               ///< null: no cup
     std::vector<gazebo::physics::JointPtr> hinges_;
     gazebo::physics::RayShapePtr ray_;
+    plant::MechanismModel mechanism_;
     Vector3 lip_F_m_ = Vector3::Zero();  ///< of the cup's link, forward-right-down
     NextUpdate next_;
     plant::PlantState first_;
@@ -62,7 +64,8 @@ public:
     [[nodiscard]] static plant::PlantState state_of(const gazebo::physics::Model& vehicle);
 
     void apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
-    void apply_slider(double force_N) override;
+    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT,
+                                           const plant::StepMode& mode) override;
     void step(const plant::StepMode& mode) override;
 
     [[nodiscard]] Kinematics kinematics(plant::Body body) const override;
@@ -79,10 +82,14 @@ public:
 
 private:
     [[nodiscard]] const gazebo::physics::LinkPtr& link(plant::Body body) const;
+    void start_twin();
+    [[nodiscard]] Wrench contacts_W() const;
     void set_step(double step_s);
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;
+    plant::MechanismStep<double> twin_;  ///< of a vehicle with a cup, see MujocoPlant
+    double slider_N_ = 0.0;
 };
 
 }  // namespace limpet::gazebo11

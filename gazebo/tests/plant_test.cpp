@@ -31,15 +31,12 @@ protected:
         plant = model->make();
     }
 
-    /// As the loop does in each step: the slider's stops, and what `pushes` adds.
+    /// As the loop does in each step.
+    /// @param pushes  what is added
     template <class Push>
     void run(double duration_s, Push pushes, double step_s = 1e-3) {
         const int steps = static_cast<int>(std::lround(duration_s / step_s));
         for (int k = 0; k < steps; ++k) {
-            const plant::SliderMotion motion = plant->slider();
-            plant->apply_slider(
-                slider_force(scenario.airframe.slider, motion.position_m, motion.velocity_m_s)
-                    .stop_N);
             pushes();
             plant->step({.step_s = step_s, .contacts = true});
         }

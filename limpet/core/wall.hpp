@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -59,6 +60,8 @@ struct WallShape {
     TangentFrame (*tangent_frame)(const WallGeometry& wall, const Vector3& p_W_m);
     double (*before_m)(const WallGeometry& wall, const Vector3& p_W_m);
     WallSolid (*solid)(const WallGeometry& wall);
+    std::optional<double> (*ray_m)(const WallGeometry& wall, const Vector3& p_T_m,
+                                   const Vector3& dir_T);
 };
 [[nodiscard]] std::span<const WallShape* const> wall_shapes();
 
@@ -72,6 +75,15 @@ struct WallShape {
 }
 [[nodiscard]] inline WallSolid solid_of(const WallGeometry& wall) {
     return wall.shape->solid(wall);
+}
+/// Way along a ray to the wall's solid from outside it.
+/// @param dir_W  unit vector
+/// @return nullopt when it hits nothing
+[[nodiscard]] inline std::optional<double> ray_to_wall_m(const WallGeometry& wall,
+                                                         const Vector3& p_W_m,
+                                                         const Vector3& dir_W) {
+    return wall.shape->ray_m(wall, wall.R_WT.transpose() * (p_W_m - wall.p_WT_m),
+                             wall.R_WT.transpose() * dir_W);
 }
 
 }  // namespace limpet

@@ -40,10 +40,33 @@ WallSolid cylinder_solid(const WallGeometry& wall) {
             .size_m = {wall.radius_m, wall.radius_m, 2.0 * wall.half_height_m}};
 }
 
+/// Its side, or an end of it.
+std::optional<double> cylinder_ray_m(const WallGeometry& wall, const Vector3& p_T_m,
+                                     const Vector3& dir_T) {
+    const Vector3 out_m = across_m(wall, p_T_m);
+    const Vector3 across(dir_T.x(), dir_T.y(), 0.0);
+    const double a = across.squaredNorm();
+    const double b = out_m.dot(across);
+    const double inside = b * b - a * (out_m.squaredNorm() - wall.radius_m * wall.radius_m);
+    if (a > 0.0 && inside >= 0.0) {
+        const double way_m = (-b - std::sqrt(inside)) / a;
+        if (way_m > 0.0 && std::abs(p_T_m.z() + way_m * dir_T.z()) <= wall.half_height_m) {
+            return way_m;
+        }
+    }
+    const double end_z_m = std::copysign(wall.half_height_m, p_T_m.z());
+    const double way_m = (end_z_m - p_T_m.z()) / dir_T.z();
+    return std::abs(p_T_m.z()) > wall.half_height_m && way_m > 0.0 &&
+                   (out_m + way_m * across).norm() <= wall.radius_m
+               ? std::optional(way_m)
+               : std::nullopt;
+}
+
 }  // namespace
 
-extern const WallShape kCylinderWall = {"cylinder",
-                                        "a round pillar of radius_m from outside, height_m high",
-                                        &cylinder_frame, &before_cylinder_m, &cylinder_solid};
+extern const WallShape kCylinderWall = {
+    "cylinder",      "a round pillar of radius_m from outside, height_m high",
+    &cylinder_frame, &before_cylinder_m,
+    &cylinder_solid, &cylinder_ray_m};
 
 }  // namespace limpet

@@ -16,30 +16,21 @@ vehicle::BodyInertia share_of(vehicle::BodyInertia body, double share) {
     return body;
 }
 
-/// +x is forward: extends. The rest beyond the outer stop is the pre-load.
-Joint slider_joint(const vehicle::Airframe& airframe) {
-    const vehicle::SliderParameters& slider = airframe.slider;
-    return {.name = "slider",
-            .kind = Joint::Kind::prismatic,
-            .axis = Vector3::UnitX(),
-            .lower = -slider.travel_m,
-            .upper = 0.0,
-            .stiffness = slider.stiffness_N_m,
-            .damping = slider.damping_N_s_m,
-            .rest = slider.preload_N / slider.stiffness_N_m};
+Joint joint(std::string_view name, Joint::Kind kind, const Vector3& axis,
+            const vehicle::JointLaw& law) {
+    return {.name = name,
+            .kind = kind,
+            .axis = axis,
+            .lower = law.lower,
+            .upper = law.upper,
+            .stiffness = law.stiffness,
+            .damping = law.damping,
+            .rest = law.rest};
 }
 
 /// Positive as the vehicle's angles are: pitch up, yaw right.
-Joint cup_hinge(const vehicle::CupMountParameters& mount, std::string_view name,
-                const Vector3& axis) {
-    const double range_rad = radians(mount.range_deg);
-    return {.name = name,
-            .kind = Joint::Kind::revolute,
-            .axis = axis,
-            .lower = -range_rad,
-            .upper = range_rad,
-            .stiffness = mount.centring_stiffness_N_m_rad,
-            .damping = mount.centring_damping_N_m_s_rad};
+Joint hinge(const vehicle::Airframe& airframe, std::string_view name, const Vector3& axis) {
+    return joint(name, Joint::Kind::revolute, axis, hinge_law(airframe.cup));
 }
 
 }  // namespace
@@ -59,17 +50,18 @@ std::vector<Link> make_links(const vehicle::Airframe& airframe) {
                      .p_BF_m = joint_B_m,
                      .inertia = carriage_inertia(airframe),
                      .parent = "base",
-                     .joint = slider_joint(airframe)});
+                     .joint = joint("slider", Joint::Kind::prismatic, Vector3::UnitX(),
+                                    slider_law(airframe.slider))});
     links.push_back({.name = "cup_yoke",
                      .p_BF_m = joint_B_m,
                      .inertia = share_of(cup, kYokeShare),
                      .parent = "carriage",
-                     .joint = cup_hinge(airframe.cup, "cup_pitch", Vector3::UnitY())});
+                     .joint = hinge(airframe, "cup_pitch", Vector3::UnitY())});
     links.push_back({.name = "cup",
                      .p_BF_m = joint_B_m,
                      .inertia = share_of(cup, 1.0 - kYokeShare),
                      .parent = "cup_yoke",
-                     .joint = cup_hinge(airframe.cup, "cup_yaw", Vector3::UnitZ())});
+                     .joint = hinge(airframe, "cup_yaw", Vector3::UnitZ())});
     return links;
 }
 

@@ -11,11 +11,6 @@ namespace {
 
 using namespace model_text;
 
-// MuJoCo's contact of time constant 4 ms and damping ratio 1 (mjcf_writer.cpp) on the 1.5 kg that
-// a leg carries: k = m / (0.95 * 0.004)^2, d = 2 m / (0.95 * 0.004).
-constexpr double kFootStiffness_N_m = 1.0e5;
-constexpr double kFootDamping_N_s_m = 800.0;
-
 void write_inertial(pugi::xml_node link, const Link& spec) {
     auto inertial = add(link, "inertial");
     add_text(inertial, "pose", pose(spec.inertia.centre_B_m - spec.p_BF_m), "mass",
@@ -43,8 +38,8 @@ void write_foot(pugi::xml_node link, const Part& tip, double friction) {
     auto collision = add(link, "collision", "name", tip.name);
     write_geometry(collision, tip);
     write_surface(collision, {.friction = friction,
-                              .stiffness_N_m = kFootStiffness_N_m,
-                              .damping_N_s_m = kFootDamping_N_s_m});
+                              .stiffness_N_m = vehicle::kTipStiffness_N_m,
+                              .damping_N_s_m = vehicle::kTipDamping_N_s_m});
 }
 
 void write_joint(pugi::xml_node model, const vehicle::Airframe& airframe, const Link& link) {

@@ -28,7 +28,8 @@ constexpr double kResting = 1e-8;   ///< by how much the rest may move in a peri
 
 LevelOnCup::LevelOnCup(std::shared_ptr<const simulation::FlightModel> model)
     : model_(std::move(model)),
-      plant_(model_->plant),
+      plant_(plant::kReducedEngine.make(model_->scenario->airframe,
+                                        scenario::scene_of(*model_->scenario))),
       state_(start(*model_, plant_)),
       ticks_(kTicksPerSecond / model_->control_rate_Hz) {
     require(model_->airframe.has_cup && model_->has_wall, "a cup and a wall to be level on");
@@ -86,14 +87,14 @@ void LevelOnCup::restore(const simulation::Snapshot& snapshot) {
 }
 
 Eigen::Index LevelOnCup::size() const {
-    return static_cast<Eigen::Index>(2 * plant_.freedoms() + carried_.size());
+    return static_cast<Eigen::Index>(2 * plant::kFreedoms + carried_.size());
 }
 
 /// @return the bodies' displacement from `origin`, then the carried numbers as they are
 Vector LevelOnCup::numbers(const plant::PlantState& origin) {
     Vector all(size());
-    plant_.displacement_from(origin, {all.data(), 2 * plant_.freedoms()});
-    auto at = static_cast<Eigen::Index>(2 * plant_.freedoms());
+    plant_.displacement_from(origin, {all.data(), 2 * plant::kFreedoms});
+    auto at = static_cast<Eigen::Index>(2 * plant::kFreedoms);
     const std::vector<double*> own = numbers_of(state_);
     for (const std::size_t place : carried_) {
         all[at++] = *own[place];
@@ -102,8 +103,8 @@ Vector LevelOnCup::numbers(const plant::PlantState& origin) {
 }
 
 void LevelOnCup::add(const Vector& step) {
-    plant_.displace({step.data(), 2 * plant_.freedoms()});
-    auto at = static_cast<Eigen::Index>(2 * plant_.freedoms());
+    plant_.displace({step.data(), 2 * plant::kFreedoms});
+    auto at = static_cast<Eigen::Index>(2 * plant::kFreedoms);
     const std::vector<double*> own = numbers_of(state_);
     for (const std::size_t place : carried_) {
         *own[place] += step[at++];
@@ -149,7 +150,7 @@ void LevelOnCup::find_carried() {
 void LevelOnCup::keep_what_reaches(Eigen::Index group) {
     const simulation::Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
     const Eigen::Index n = size();
-    const auto bodies = static_cast<Eigen::Index>(2 * plant_.freedoms());
+    const auto bodies = static_cast<Eigen::Index>(2 * plant::kFreedoms);
     const Vector at_rest = image(here, Vector::Zero(n));
     using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
     std::vector<Flags> reached;  // by each group

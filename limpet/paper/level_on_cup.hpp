@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "limpet/plant/mujoco_plant.hpp"
+#include "limpet/plant/reduced_plant.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/snapshot.hpp"
 
@@ -26,7 +26,7 @@ struct Mode {
 /// the last period. Noise, gusts and the battery's sag are left out too, the cup's pressure stays.
 class LevelOnCup {
 public:
-    /// @param model  its vehicle has a cup and its scenario a wall
+    /// @param model  its vehicle has a cup and its scenario a wall; the engine is the reduced one
     explicit LevelOnCup(std::shared_ptr<const simulation::FlightModel> model);
 
     /// Modes of the linearised loop, fastest growing first. Jacobian by central differences at the
@@ -48,7 +48,7 @@ private:
     [[nodiscard]] Eigen::MatrixXd jacobian(const simulation::Snapshot& at);
 
     std::shared_ptr<const simulation::FlightModel> model_;
-    plant::MujocoPlant plant_;
+    plant::ReducedPlant plant_;
     simulation::FlightState state_;
     int ticks_ = 1;  ///< of a control period
     /// Which of the state's numbers, in the order of the walk, the loop carries beside the bodies'

@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/paper/parallel.hpp"
-#include "limpet/plant/mujoco_plant.hpp"
+#include "limpet/plant/reduced_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -41,16 +41,15 @@ void silence(scenario::Scenario& scenario) {
 }
 
 /// Turns the vehicle about its cup's joint with a speed, the cup itself staying as it is.
-void turn_about_joint(plant::MujocoPlant& plant, const vehicle::Airframe& airframe,
+void turn_about_joint(plant::ReducedPlant& plant, const vehicle::Airframe& airframe,
                       double pitch_rate_rad_s) {
-    // Freedoms in MuJoCo's axes (x ahead, y left, z up): place, attitude, slider, cup_pitch,
-    // cup_yaw.
-    constexpr std::size_t kUp = 2, kAboutLeft = 4, kCupPitch = 7;
-    const std::size_t speeds = plant.freedoms();
-    std::vector<double> step(2 * speeds, 0.0);
-    step[speeds + kUp] = -pitch_rate_rad_s * airframe.cup.joint_x_m;
-    step[speeds + kAboutLeft] = -pitch_rate_rad_s;
-    step[speeds + kCupPitch] = -pitch_rate_rad_s;
+    // Speeds: place (down), angular velocity (about y), slider, cup_pitch, cup_yaw.
+    constexpr std::size_t kDown = 2, kPitch = 4, kCupPitch = 7;
+    std::array<double, 2 * plant::kFreedoms> step{};
+    double* const speeds = step.data() + plant::kFreedoms;
+    speeds[kDown] = pitch_rate_rad_s * airframe.cup.joint_x_m;
+    speeds[kPitch] = pitch_rate_rad_s;
+    speeds[kCupPitch] = -pitch_rate_rad_s;
     plant.displace(step);
 }
 
@@ -134,6 +133,7 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     scenario::Scenario quiet =
         scenario::load_scenario(scenario, {.overrides = joined(patient, overrides)});
     silence(quiet);
+    quiet.engine = &plant::kReducedEngine;  // whose bodies can be pushed
     const auto model = simulation::build_model(quiet);
     constexpr double kLeast_Hz = 0.3;  // where the loop hardly swings at all
     const double frequency_Hz =
@@ -145,7 +145,7 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     }
     simulation::Flight kicked(model);
     simulation::Snapshot snapshot = twin.save();
-    plant::MujocoPlant plant(model->plant);
+    plant::ReducedPlant plant(model->plant);
     plant.restore(snapshot.plant);
     turn_about_joint(plant, quiet.airframe, radians(kick_deg) * 2.0 * kPi * frequency_Hz);
     snapshot.plant = plant.save();

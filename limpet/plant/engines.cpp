@@ -8,6 +8,7 @@ namespace limpet::plant {
 std::span<const Engine* const> engines() {
     static constexpr std::array kEngines = {
         &kMujocoEngine,
+        &kReducedEngine,
     };
     return kEngines;
 }

@@ -26,5 +26,7 @@ struct Engine {
 /// The general one. A program that is built without MuJoCo knows its name and throws InputError
 /// when it is to make a plant.
 extern const Engine kMujocoEngine;
+/// Closed form, for the vehicle of our shape: with our cup, or with none.
+extern const Engine kReducedEngine;
 
 }  // namespace limpet::plant

@@ -71,27 +71,33 @@ int find_joint(const mjModel& model, int body, mjtJoint type, const char* what) 
 /// The model of a text, made once for all who ask for it: a campaign that varies neither vehicle
 /// nor wall compiles once. Few are kept, so that one that varies a mass does not keep a model a
 /// run.
-std::shared_ptr<const MujocoModel> compiled(std::string mjcf) {
+std::shared_ptr<const MujocoModel> compiled(std::string mjcf, const vehicle::Airframe& airframe) {
     constexpr std::size_t kMost = 32;
     static std::mutex mutex;  // also over MuJoCo's compiler, which keeps globals
-    static std::deque<std::pair<std::string, std::shared_ptr<const MujocoModel>>> kept;
+    struct Kept {
+        std::string mjcf;
+        vehicle::SliderParameters slider;  // its stops are not in the text
+        std::shared_ptr<const MujocoModel> model;
+    };
+    static std::deque<Kept> kept;
     const std::lock_guard lock(mutex);
-    for (const auto& [text, model] : kept) {
-        if (text == mjcf) {
-            return model;
+    for (const Kept& one : kept) {
+        if (one.mjcf == mjcf && one.slider == airframe.slider) {
+            return one.model;
         }
     }
-    auto model = std::make_shared<const MujocoModel>(mjcf);
+    auto model = std::make_shared<const MujocoModel>(mjcf, airframe);
     if (kept.size() == kMost) {
         kept.pop_front();
     }
-    kept.emplace_back(std::move(mjcf), model);
+    kept.push_back({std::move(mjcf), airframe.slider, model});
     return model;
 }
 
 }  // namespace
 
-MujocoModel::MujocoModel(const std::string& mjcf) : model_(compile(mjcf), mj_deleteModel) {
+MujocoModel::MujocoModel(const std::string& mjcf, const vehicle::Airframe& airframe)
+    : model_(compile(mjcf), mj_deleteModel), mechanism_(make_mechanism(airframe)) {
     mjModel& model = *model_;
     Places& at = places_;
     at.base_body = find(model, mjOBJ_BODY, "body", "base");
@@ -104,9 +110,15 @@ MujocoModel::MujocoModel(const std::string& mjcf) : model_(compile(mjcf), mj_del
         at.carriage_body = find(model, mjOBJ_BODY, "body", "carriage");
         at.lip_site = find(model, mjOBJ_SITE, "site", "lip");
         const int slider = find_joint(model, at.carriage_body, mjJNT_SLIDE, "slide");
-        at.slider_position = model.jnt_qposadr[slider];
-        at.slider_velocity = model.jnt_dofadr[slider];
-        model.jnt_limited[slider] = 0;
+        const int pitch = find_joint(model, at.cup_body, mjJNT_HINGE, "hinge");
+        for (std::size_t k = 0; k < kJoints; ++k) {
+            const int joint = k == 0 ? slider : pitch + static_cast<int>(k) - 1;
+            at.joint_position[k] = model.jnt_qposadr[joint];
+            at.joint_velocity[k] = model.jnt_dofadr[joint];
+            model.jnt_limited[joint] = 0;
+            model.jnt_stiffness[joint] = 0.0;
+            model.dof_damping[at.joint_velocity[k]] = 0.0;
+        }
     }
     model.opt.disableflags |=
         mjDSBL_SENSOR | mjDSBL_ACTUATION | mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_CLAMPCTRL;
@@ -117,7 +129,7 @@ const Engine kMujocoEngine = {"mujoco", "general rigid bodies, joints and contac
                                  const models::Scene& scene) -> std::shared_ptr<const PlantModel> {
                                   models::Scene bare = scene;
                                   bare.visuals = false;
-                                  return compiled(write_mjcf(airframe, bare));
+                                  return compiled(write_mjcf(airframe, bare), airframe);
                               }};
 
 }  // namespace limpet::plant

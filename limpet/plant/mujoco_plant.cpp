@@ -22,13 +22,16 @@ using Map3 = Eigen::Map<const Vector3>;
 /// Visits every array on which the future depends, beside the positions, in the order in which it
 /// is saved. All else that mjData holds follows from these.
 template <class Visit>
-void for_each_state(const mjModel& model, mjData& data, Vector3& contact_force_N, Visit visit) {
+void for_each_state(const mjModel& model, mjData& data, Wrench& contacts_W, double& slider_N,
+                    Visit visit) {
     visit(&data.time, 1);
     visit(data.qvel, model.nv);
     visit(data.qacc_warmstart, model.nv);
     visit(data.qfrc_applied, model.nv);
     visit(data.xfrc_applied, 6 * model.nbody);
-    visit(contact_force_N.data(), 3);
+    visit(contacts_W.force_N.data(), 3);
+    visit(contacts_W.moment_N_m.data(), 3);
+    visit(&slider_N, 1);
 }
 
 std::shared_ptr<const MujocoModel> own_model(const std::shared_ptr<const PlantModel>& model) {
@@ -45,6 +48,7 @@ MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
       data_(mj_makeData(options_.get()), mj_deleteData),
       integrated_(data_->qpos, data_->qpos + options_->nq) {
     refresh();
+    start_twin();
 }
 
 MujocoPlant::MujocoPlant(const std::shared_ptr<const PlantModel>& model)
@@ -75,11 +79,9 @@ void MujocoPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m)
     double* applied = data_->xfrc_applied + 6 * id;
     Eigen::Map<Vector3>(applied) += force;
     Eigen::Map<Vector3>(applied + 3) += turn(wrench_W.moment_N_m) + arm.cross(force);
-}
-
-void MujocoPlant::apply_slider(double force_N) {
-    require(model_->places().has_cup, "this vehicle has a slider");
-    data_->qfrc_applied[model_->places().slider_velocity] += force_N;
+    if (model_->places().has_cup) {
+        push(twin_, body, wrench_W, p_W_m);
+    }
 }
 
 void MujocoPlant::step(const StepMode& mode) {
@@ -89,12 +91,16 @@ void MujocoPlant::step(const StepMode& mode) {
         options_->opt.disableflags = without;
         refresh();
     }
+    if (model_->places().has_cup) {
+        push_joints(mode.step_s);
+    }
     mj_step2(options_.get(), data_.get());
     // The first half makes new contacts, which have no forces yet.
     sum_contacts();
     take_positions();
     refresh();
     require_healthy();
+    start_twin();
     std::fill_n(data_->xfrc_applied, 6 * options_->nbody, 0.0);
     std::fill_n(data_->qfrc_applied, options_->nv, 0.0);
 }
@@ -111,8 +117,46 @@ void MujocoPlant::refresh() {
     mj_step1(options_.get(), data_.get());
 }
 
+/// Where MuJoCo's bodies are, and pushed by the legs as in the last step: what they will push in
+/// this one is MuJoCo's solver's to find.
+void MujocoPlant::start_twin() {
+    const MujocoModel::Places& at = model_->places();
+    if (!at.has_cup) {
+        return;
+    }
+    const double* qpos = data_->qpos + at.base_position;
+    const double* qvel = data_->qvel + at.base_velocity;
+    MechanismState<double> state{.p_WB_m = turn(qpos),
+                                 .q_WB = turn_attitude(qpos + 3).normalized(),
+                                 .v_WB_W_m_s = turn(qvel),
+                                 .w_WB_B_rad_s = turn(qvel + 3)};
+    for (std::size_t k = 0; k < kJoints; ++k) {
+        state.joint[k] = data_->qpos[at.joint_position[k]];
+        state.joint_rate[k] = data_->qvel[at.joint_velocity[k]];
+    }
+    twin_.start(model_->mechanism(), state);
+    push(twin_, Body::base, contacts_W_, state.p_WB_m);
+}
+
+CupResponse MujocoPlant::cup_response(const Matrix3& R_WT, const StepMode& mode) {
+    require(model_->places().has_cup, "this vehicle has a slider and a cup");
+    twin_.close(mode.step_s);
+    return twin_.response(R_WT);
+}
+
+void MujocoPlant::push_joints(double step_s) {
+    twin_.close(step_s);
+    const Speeds<double> change = twin_.change();
+    for (std::size_t k = 0; k < kJoints; ++k) {
+        data_->qfrc_applied[model_->places().joint_velocity[k]] =
+            twin_.joint_force(static_cast<int>(k), change);
+    }
+    slider_N_ = twin_.joint_force(0, change);
+}
+
 void MujocoPlant::sum_contacts() {
-    contact_force_W_N_.setZero();
+    contacts_W_ = {};
+    const Vector3 base = turn(data_->xpos + 3 * model_->places().base_body);
     for (int i = 0; i < data_->ncon; ++i) {
         const mjContact& contact = data_->contact[i];
         if (contact.efc_address < 0) {
@@ -124,7 +168,9 @@ void MujocoPlant::sum_contacts() {
         mju_rotVecMatT(force_world, force, contact.frame);
         const int second = options_->body_weldid[options_->geom_bodyid[contact.geom2]];
         const double sign = second == 0 ? -1.0 : 1.0;
-        contact_force_W_N_ += sign * turn(force_world);
+        const Vector3 force_W_N = sign * turn(force_world);
+        contacts_W_.force_N += force_W_N;
+        contacts_W_.moment_N_m += (turn(contact.pos) - base).cross(force_W_N);
     }
 }
 
@@ -160,8 +206,9 @@ SliderMotion MujocoPlant::slider() const {
     if (!at.has_cup) {
         return {};
     }
-    return {.position_m = data_->qpos[at.slider_position],
-            .velocity_m_s = data_->qvel[at.slider_velocity]};
+    return {.position_m = data_->qpos[at.joint_position[0]],
+            .velocity_m_s = data_->qvel[at.joint_velocity[0]],
+            .force_N = slider_N_};
 }
 
 std::optional<double> MujocoPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
@@ -176,17 +223,19 @@ std::optional<double> MujocoPlant::ray(const Vector3& origin_W_m, const Vector3&
 
 PlantState MujocoPlant::save() const {
     PlantState state{.values = integrated_};
-    Vector3 contact_force_N = contact_force_W_N_;
-    for_each_state(*options_, *data_, contact_force_N, [&state](const double* values, int count) {
-        state.values.insert(state.values.end(), values, values + count);
-    });
+    Wrench contacts_W = contacts_W_;
+    double slider_N = slider_N_;
+    for_each_state(*options_, *data_, contacts_W, slider_N,
+                   [&state](const double* values, int count) {
+                       state.values.insert(state.values.end(), values, values + count);
+                   });
     return state;
 }
 
 void MujocoPlant::restore(const PlantState& state) {
     int expected = options_->nq;
     const auto add = [&expected](const double*, int count) { expected += count; };
-    for_each_state(*options_, *data_, contact_force_W_N_, add);
+    for_each_state(*options_, *data_, contacts_W_, slider_N_, add);
     require(state.values.size() == static_cast<std::size_t>(expected), "a state of this model");
     // Also after a divergence: its warnings and half-done work must not outlive it.
     mj_resetData(options_.get(), data_.get());
@@ -196,8 +245,16 @@ void MujocoPlant::restore(const PlantState& state) {
         from += count;
     };
     read(integrated_.data(), options_->nq);
-    for_each_state(*options_, *data_, contact_force_W_N_, read);
+    for_each_state(*options_, *data_, contacts_W_, slider_N_, read);
     refresh();
+    start_twin();
+    if (model_->places().has_cup) {  // what waits for the next step
+        for (const Body body : {Body::base, Body::carriage, Body::cup}) {
+            const double* applied = data_->xfrc_applied + 6 * engine_body(body);
+            push(twin_, body, {.force_N = turn(applied), .moment_N_m = turn(applied + 3)},
+                 turn(data_->xipos + 3 * engine_body(body)));
+        }
+    }
 }
 
 void MujocoPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
@@ -209,29 +266,7 @@ void MujocoPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const 
     mujoco_frames::write(w_WB_B_rad_s, data_->qvel + at.base_velocity + 3);
     take_positions();
     refresh();
-}
-
-std::size_t MujocoPlant::freedoms() const {
-    return static_cast<std::size_t>(options_->nv);
-}
-
-void MujocoPlant::displace(std::span<const double> step) {
-    require(step.size() == 2 * freedoms(), "a step for each degree of freedom and each speed");
-    mj_integratePos(options_.get(), integrated_.data(), step.data(), 1.0);
-    for (std::size_t i = 0; i < freedoms(); ++i) {
-        data_->qvel[i] += step[freedoms() + i];
-    }
-    refresh();
-}
-
-void MujocoPlant::displacement_from(const PlantState& origin, std::span<double> step) const {
-    require(step.size() == 2 * freedoms(), "room for each degree of freedom and each speed");
-    mj_differentiatePos(options_.get(), step.data(), 1.0, origin.values.data(), integrated_.data());
-    // As save() lays it out: positions, time, speeds.
-    const double* speeds = origin.values.data() + integrated_.size() + 1;
-    for (std::size_t i = 0; i < freedoms(); ++i) {
-        step[freedoms() + i] = data_->qvel[i] - speeds[i];
-    }
+    start_twin();
 }
 
 std::span<const double> MujocoPlant::positions() const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "limpet/plant/mechanism_step.hpp"
 #include "limpet/plant/mujoco_model.hpp"
 #include "limpet/plant/plant.hpp"
 
@@ -19,6 +20,10 @@ namespace limpet::plant {
 /// steps is never stale and never computed twice. The step length and the contact switch live in
 /// the model's options; every plant keeps its own shallow copy of mjModel for them, whose arrays
 /// are the shared, immutable ones.
+///
+/// The mechanism's joints are without springs in MuJoCo, which takes a spring from the step's
+/// beginning: stiff ones would be unstable. Their forces are those of a twin of the bodies in
+/// closed form (MechanismStep), that stands where MuJoCo's bodies do and feels what they felt.
 class MujocoPlant final : public Plant {
 public:
     /// Starts at the model's initial state: B at the origin of W, level, at rest.
@@ -28,14 +33,14 @@ public:
     ~MujocoPlant() override;
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
-    void apply_slider(double force_N) override;
+    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT, const StepMode& mode) override;
     void step(const StepMode& mode) override;
 
     [[nodiscard]] Kinematics kinematics(Body body) const override;
     [[nodiscard]] SliderMotion slider() const override;
     [[nodiscard]] std::optional<double> ray(const Vector3& origin_W_m,
                                             const Vector3& dir_W) const override;
-    [[nodiscard]] Vector3 contact_force_W() const override { return contact_force_W_N_; }
+    [[nodiscard]] Vector3 contact_force_W() const override { return contacts_W_.force_N; }
 
     [[nodiscard]] PlantState save() const override;
     void restore(const PlantState& state) override;
@@ -47,28 +52,22 @@ public:
     /// MuJoCo's axes, slider, cup_pitch, cup_yaw.
     [[nodiscard]] std::span<const double> positions() const;
 
-    /// Degrees of freedom: 3 of the base's place and 3 of its attitude, slider, cup_pitch, cup_yaw.
-    [[nodiscard]] std::size_t freedoms() const;
-    /// Moves the state by small steps, for linearisation: one a degree of freedom, then one a
-    /// speed, in MuJoCo's axes; attitude as a rotation vector in the base.
-    /// @param step  2 freedoms() numbers [m, rad, m/s, rad/s]
-    void displace(std::span<const double> step);
-    /// The step that leads from a saved state to this one: the inverse of displace().
-    /// @param step  is filled, 2 freedoms() numbers
-    void displacement_from(const PlantState& origin, std::span<double> step) const;
-
 private:
     [[nodiscard]] int engine_body(Body body) const;
     void take_positions();
     void refresh();
+    void start_twin();
     void sum_contacts();
+    void push_joints(double step_s);
     void require_healthy();
 
     std::shared_ptr<const MujocoModel> model_;
     std::unique_ptr<mjModel_> options_;  ///< shallow: never given to mj_deleteModel
     std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
     std::vector<double> integrated_;  ///< qpos as the last step left it
-    Vector3 contact_force_W_N_ = Vector3::Zero();
+    Wrench contacts_W_;               ///< of the last step, on the base about B
+    double slider_N_ = 0.0;
+    MechanismStep<double> twin_;  ///< of a vehicle with a cup
 };
 
 }  // namespace limpet::plant

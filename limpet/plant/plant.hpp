@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limpet/core/frames.hpp"
+#include "limpet/core/signals/cup_response.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
 
@@ -21,6 +22,7 @@ enum class Body {
 struct SliderMotion {
     double position_m = 0.0;    ///< 0 at the outer stop, < 0 compressed
     double velocity_m_s = 0.0;  ///< > 0 extends
+    double force_N = 0.0;       ///< spring, damper and stops, mean over the last step, > 0 extends
 };
 
 /// Everything that a plant needs to go on bit-exactly; opaque to everybody else.
@@ -36,8 +38,9 @@ struct StepMode {
 };
 
 /// Rigid-body truth behind one small interface: it takes wrenches on bodies, steps, and answers
-/// where things are. It knows neither rotor nor cup nor clock. Everything is in W (NED) and B
-/// (FRD); an engine's own axes stay inside the engine's file.
+/// where things are. It moves the joints by their own springs, dampers and stops. It knows neither
+/// rotor nor cup nor clock. Everything is in W (NED) and B (FRD); an engine's own axes stay inside
+/// the engine's file.
 class Plant {
 public:
     virtual ~Plant() = default;
@@ -46,8 +49,14 @@ public:
     /// @param wrench_W  force and moment about p_W, in W [N, N m]
     /// @param p_W_m     where the force acts [m]
     virtual void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) = 0;
-    /// Adds a force that extends the slider, for the next step only [N].
-    virtual void apply_slider(double force_N) = 0;
+    /// What the cup would do in a step of this mode with the wrenches added so far, and what one on
+    /// it would change: a lip that is stiff for the step needs it. Its wrench is applied after.
+    /// @param R_WT  axes of the answer
+    /// @return zero from a plant that does not know: then a stiff lip is stable only at short steps
+    [[nodiscard]] virtual CupResponse cup_response(const Matrix3& /*R_WT*/,
+                                                   const StepMode& /*mode*/) {
+        return {};
+    }
     /// Integrates one step of mode.step_s with the wrenches added since the last one.
     /// @throws InternalError when the engine diverges
     virtual void step(const StepMode& mode) = 0;

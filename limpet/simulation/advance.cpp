@@ -19,17 +19,6 @@ bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
             cup.gap_m > -model.simulation.touch_range_m);
 }
 
-/// Forces inside the slider: the plant integrates spring and damper itself, the stops are ours.
-SliderStatus apply_slider_stops(const FlightModel& model, plant::Plant& plant) {
-    const plant::SliderMotion motion = plant.slider();
-    const vehicle::SliderForce force =
-        vehicle::slider_force(model.airframe.slider, motion.position_m, motion.velocity_m_s);
-    plant.apply_slider(force.stop_N);
-    return {.position_m = motion.position_m,
-            .velocity_m_s = motion.velocity_m_s,
-            .force_N = -force.total_N()};
-}
-
 /// What the cup bears at one step of the plant.
 void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatus& cup) {
     if (cup.phase == CupPhase::free) {
@@ -52,18 +41,21 @@ void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatu
 
 /// The cup between wall and mechanism: its wrench goes to the plant, its events to the report.
 void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant, double time_s,
-               double dt_s, TickReport& report, ExternalCup* external) {
+               const plant::StepMode& mode, TickReport& report, ExternalCup* external) {
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
+    const TangentFrame spot = tangent_frame(model.cup.wall, cup.p_WF_m);
+    const bool meets_wall = before != CupPhase::free || spot.gap_m <= 0.0;
     const suction::Surface& surface = surface_under_cup(model, state.cup);
     const suction::CupInput input{
         .time_s = time_s,
         .press_N = -state.truth.slider.force_N,
+        .response = meets_wall ? plant.cup_response(spot.R_WT, mode) : CupResponse{},
         .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
         .valve_open = state.guidance.setpoint.valve_open};
     const suction::CupOutput output =
-        external != nullptr ? external->step(model.cup, state.cup, surface, cup, input, dt_s)
-                            : suction::step(model.cup, state.cup, surface, cup, input, dt_s);
+        external != nullptr ? external->step(model.cup, state.cup, surface, cup, input, mode.step_s)
+                            : suction::step(model.cup, state.cup, surface, cup, input, mode.step_s);
     if (state.cup.status.phase != CupPhase::free) {
         plant.apply(plant::Body::cup, output.wrench_W, cup.p_WF_m);
     }
@@ -71,13 +63,11 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
     if (before == CupPhase::free && state.cup.status.phase != CupPhase::free &&
         std::isnan(peaks.touch_s)) {
         peaks.touch_s = time_s;
-        peaks.touch_speed_m_s =
-            tangent_frame(model.cup.wall, cup.p_WF_m).into_W().dot(cup.v_WF_W_m_s);
+        peaks.touch_speed_m_s = spot.into_W().dot(cup.v_WF_W_m_s);
     }
     if (output.event) {
         report.events.add(*output.event);
     }
-    see_contact(peaks, state.truth.slider, state.cup.status);
     if (state.cup.status.phase != before) {
         state.fine_until =
             state.tick + static_cast<Tick>(model.simulation.touch_transient_s / kTick_s);
@@ -136,10 +126,16 @@ void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, 
             plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
         }
         if (has_cup) {
-            state.truth.slider = apply_slider_stops(model, plant);
-            apply_cup(model, state, plant, time_s, mode.step_s, report, external_cup);
+            apply_cup(model, state, plant, time_s, mode, report, external_cup);
         }
         plant.step(mode);
+        if (has_cup) {
+            const plant::SliderMotion slider = plant.slider();
+            state.truth.slider = {.position_m = slider.position_m,
+                                  .velocity_m_s = slider.velocity_m_s,
+                                  .force_N = -slider.force_N};
+            see_contact(report.contact, state.truth.slider, state.cup.status);
+        }
     }
     report.physics_steps += steps;
     state.truth.thrust_N = air.thrust_N;

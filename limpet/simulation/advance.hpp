@@ -8,7 +8,7 @@
 namespace limpet::simulation {
 
 /// One base tick of rigid-body truth, in one step of the plant or, around a touch, in several:
-/// rotors, slider stops and cup push, the plant moves.
+/// rotors and cup push, the plant moves.
 /// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
 void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,

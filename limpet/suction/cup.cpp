@@ -10,14 +10,14 @@ namespace {
 
 /// The lip's load in the phase it is in now.
 LipLoad load_on(const CupModel& model, CupState& state, const Surface& surface,
-                const LipMotion& motion, const std::optional<Wrench>& held_T) {
+                const LipMotion& motion, const CupInput& input) {
     const LipParameters& lip = model.parameters.lip;
     const bool sealed = is_sealed(state.status.phase);
     const double vacuum_N = sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m) : 0.0;
-    if (sealed && held_T) {
-        return held_load(lip, *held_T, surface.friction, vacuum_N);
+    if (sealed && input.held_T) {
+        return held_load(lip, *input.held_T, surface.friction, vacuum_N);
     }
-    return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed);
+    return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed, input.response);
 }
 
 /// The rows of the table that keep the contact.
@@ -29,7 +29,7 @@ std::optional<Event> advance_phase(const CupParameters& parameters, CupState& st
         case CupPhase::free: break;
         case CupPhase::touching:
             if (sucks && contact.lies_still &&
-                seals(state.demand, input.press_N, contact.tilt_rad)) {
+                seals(state.demand, contact.press_N, contact.tilt_rad)) {
                 status.phase = CupPhase::sealing;
                 state.let_go_said = false;
             }
@@ -155,18 +155,23 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
         state.anchor = {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
     }
     if (!free || touches) {
-        lip.load = load_on(model, state, surface, motion, input.held_T);
+        lip.load = load_on(model, state, surface, motion, input);
     }
     const LipLoad& load = lip.load;
-    lip.contact = {.touches = touches,
-                   .gap_m = motion.gap_m,
-                   .tilt_rad = motion.tilt_rad(),
-                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
-                   .let_go = load.let_go,
-                   .pull_N = load.pull_N,
-                   .pull_margin_N = load.pull_margin_N,
-                   .shear_margin_N = load.shear_margin_N,
-                   .peel_margin_N = load.peel_margin_N};
+    Vector6 wrench_T;
+    wrench_T << load.wrench_T.force_N, load.wrench_T.moment_N_m;
+    const CupResponse& response = input.response;
+    lip.contact = {
+        .touches = touches,
+        .gap_m = motion.gap_m,
+        .tilt_rad = motion.tilt_rad(),
+        .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
+        .let_go = load.let_go,
+        .press_N = response.step_s > 0.0 ? response.press_with_N(wrench_T) : input.press_N,
+        .pull_N = load.pull_N,
+        .pull_margin_N = load.pull_margin_N,
+        .shear_margin_N = load.shear_margin_N,
+        .peel_margin_N = load.peel_margin_N};
     return lip;
 }
 
@@ -175,9 +180,8 @@ Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
     CupStatus& status = state.status;
     LipLoad& load = lip.load;
     if (load.let_go != LetGo::no) {
-        load = status.phase == CupPhase::free
-                   ? LipLoad{}
-                   : load_on(model, state, surface, lip.motion, input.held_T);
+        load = status.phase == CupPhase::free ? LipLoad{}
+                                              : load_on(model, state, surface, lip.motion, input);
     }
     const Wrench wrench_W{.force_N = lip.motion.R_WT * load.wrench_T.force_N,
                           .moment_N_m = lip.motion.R_WT * load.wrench_T.moment_N_m};

@@ -67,7 +67,8 @@ struct CupState {
 
 struct CupInput {
     double time_s = 0.0;
-    double press_N = 0.0;  ///< through the mechanism, > 0 presses the cup on the wall [N]
+    double press_N = 0.0;       ///< through the mechanism, > 0 presses the cup on the wall [N]
+    CupResponse response = {};  ///< of what hangs on the cup; it knows the press better
     bool pump_on = false;
     bool valve_open = false;
     /// In T, about the lip's centre: what a joint, that holds the cup in the lip's place, does to
@@ -96,6 +97,7 @@ struct LipContact {
     double tilt_rad = 0.0;
     bool lies_still = true;  ///< neither slides nor rocks: a seal needs the whole lip on the wall
     LetGo let_go = LetGo::no;
+    double press_N = 0.0;  ///< as CupInput::press_N
     double pull_N = 0.0;
     double pull_margin_N = 0.0;
     double shear_margin_N = 0.0;

@@ -5,38 +5,161 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/within_step.hpp"
 
 namespace limpet::suction {
 namespace {
 
-/// Lip in compression: soft, then hard where it bottoms out [N].
-double lip_spring_N(const LipParameters& lip, double depth_m) {
-    const double beyond_m = std::max(0.0, depth_m - lip.hard_depth_m);
-    return lip.stiffness_N_m * (depth_m - beyond_m) + lip.hard_stiffness_N_m * beyond_m;
-}
+/// The six springs and dampers between lip and wall as they stand: x, y, z, twist, tilt about y and
+/// z.
+struct LipSprings {
+    Vector6 spring = Vector6::Zero();  ///< [N, N m]
+    Vector6 stiffness = Vector6::Zero();
+    Vector6 damping = Vector6::Zero();
+    Vector6 rate = Vector6::Zero();
+};
 
-/// Pull in the direction away from the wall, before its limit [N].
-double pull_demand_N(const LipParameters& lip, const LipMotion& motion, bool sealed) {
+LipSprings springs_of(const LipParameters& lip, const LipMotion& motion, const Anchor& anchor,
+                      bool sealed) {
+    LipSprings s;
     const double depth_m = -motion.gap_m;
+    const double beyond_m = std::max(0.0, depth_m - lip.hard_depth_m);
     // A free lip meets the wall edge first: its damping grows with the area in contact.
     const double contact = sealed ? 1.0 : std::clamp(depth_m / lip.damping_depth_m, 0.0, 1.0);
     const double push_N =
-        lip_spring_N(lip, depth_m) - lip.damping_N_s_m * contact * motion.gap_rate_m_s;
-    return sealed ? -push_N : std::min(0.0, -push_N);
+        lip.stiffness_N_m * (depth_m - beyond_m) + lip.hard_stiffness_N_m * beyond_m;
+    const double shear = lip.shear_stiffness_N_m;
+    const double tilt = lip.tilt_stiffness_N_m_rad;
+    const double twist = lip.twist_stiffness_N_m_rad;
+    const Vector3& turned_rad = motion.rotation_rad;
+    s.spring << -push_N, -shear * (motion.y_m - anchor.y_m), -shear * (motion.z_m - anchor.z_m),
+        -twist * (turned_rad.x() - anchor.twist_rad), -tilt * turned_rad.y(),
+        -tilt * turned_rad.z();
+    s.stiffness << (beyond_m > 0.0 ? lip.hard_stiffness_N_m : lip.stiffness_N_m), shear, shear,
+        twist, tilt, tilt;
+    s.damping << lip.damping_N_s_m * contact, lip.shear_damping_N_s_m, lip.shear_damping_N_s_m,
+        lip.twist_damping_N_m_s_rad, lip.tilt_damping_N_m_s_rad, lip.tilt_damping_N_m_s_rad;
+    s.rate << -motion.gap_rate_m_s, motion.y_rate_m_s, motion.z_rate_m_s, motion.rate_rad_s;
+    return s;
 }
 
-/// Two components along the wall, shortened where together they ask for more than a limit.
-struct Limited {
-    double y, z;
-    double demand = std::hypot(y, z);
-
-    Limited(double limit, double y_asked, double z_asked) : y(y_asked), z(z_asked) {
-        if (limit - demand < 0.0) {
-            y *= limit / demand;
-            z *= limit / demand;
+/// The springs' mean wrench over a step together with what hangs on the cup:
+/// w = now - G (drift + A w).
+class LipStep {
+public:
+    LipStep(const LipSprings& springs, const CupResponse& response) : response_(response) {
+        for (int i = 0; i < 6; ++i) {
+            const StepForce<double> force =
+                within_step<double>(springs.spring[i], springs.stiffness[i], springs.damping[i],
+                                    springs.rate[i], response.mobility(i, i), response.step_s);
+            now_[i] = force.now;
+            gain_[i] = force.gain;
         }
     }
+    /// All hold. I + G A has only positive principal minors: no pivoting.
+    [[nodiscard]] Vector6 solve() const {
+        Matrix6 matrix = gain_.asDiagonal() * response_.mobility;
+        matrix.diagonal().array() += 1.0;
+        Vector6 w = now_ - gain_.cwiseProduct(response_.drift);
+        for (int k = 0; k < 6; ++k) {
+            const double inverse = 1.0 / matrix(k, k);
+            for (int i = k + 1; i < 6; ++i) {
+                const double share = matrix(i, k) * inverse;
+                for (int j = k + 1; j < 6; ++j) {
+                    matrix(i, j) -= share * matrix(k, j);
+                }
+                w[i] -= share * w[k];
+            }
+        }
+        for (int k = 5; k >= 0; --k) {
+            for (int j = k + 1; j < 6; ++j) {
+                w[k] -= matrix(k, j) * w[j];
+            }
+            w[k] /= matrix(k, k);
+        }
+        return w;
+    }
+    /// Where the others are at w, this one would be here.
+    [[nodiscard]] double alone(int i, const Vector6& w) const {
+        const double off =
+            w[i] - now_[i] + gain_[i] * (response_.drift[i] + response_.mobility.row(i).dot(w));
+        return w[i] - off / (1.0 + gain_[i] * response_.mobility(i, i));
+    }
+
+private:
+    const CupResponse& response_;
+    Vector6 now_;
+    Vector6 gain_;
 };
+
+/// What limits the lip, the normal force given.
+struct LipLimits {
+    double vacuum_N, friction, radius_m;
+    bool sealed;
+
+    /// An open lip only pushes, and both pull at most as the vacuum does.
+    [[nodiscard]] double pull_N(double demand_N) const {
+        return std::min(sealed ? demand_N : std::min(0.0, demand_N), vacuum_N);
+    }
+    [[nodiscard]] double lip_N(double pull_N) const { return std::max(0.0, vacuum_N - pull_N); }
+    [[nodiscard]] double shear_N(double pull_N) const { return friction * lip_N(pull_N); }
+    [[nodiscard]] double twist_N_m(double pull_N) const { return shear_N(pull_N) * radius_m; }
+    [[nodiscard]] double peel_N_m(double pull_N) const { return lip_N(pull_N) * lever_m(); }
+    [[nodiscard]] double lever_m() const { return 0.5 * radius_m; }
+};
+
+/// What the lip is asked for, before its limits.
+struct LipDemand {
+    double pull_N, shear_N, twist_N_m, peel_N_m;
+
+    explicit LipDemand(const Vector6& w)
+        : pull_N(w[0]),
+          shear_N(std::hypot(w[1], w[2])),
+          twist_N_m(std::abs(w[3])),
+          peel_N_m(std::hypot(w[4], w[5])) {}
+    [[nodiscard]] bool fits(const LipLimits& limits) const {
+        return limits.pull_N(pull_N) == pull_N && shear_N <= limits.shear_N(pull_N) &&
+               twist_N_m <= limits.twist_N_m(pull_N) && peel_N_m <= limits.peel_N_m(pull_N);
+    }
+};
+
+/// Shortens two components that together ask for more than a limit.
+double shorten(Vector6& w, int first, double limit) {
+    const double asked = std::hypot(w[first], w[first + 1]);
+    if (asked > limit) {
+        w[first] *= limit / asked;
+        w[first + 1] *= limit / asked;
+    }
+    return asked;
+}
+
+/// Where some give way the others have to do with what is left, and turn to where it leads: swept
+/// through in turn until all agree (projected Gauss-Seidel).
+LipDemand give_way(const LipStep& step, const LipLimits& limits, Vector6& w) {
+    constexpr int kSweeps = 40;
+    constexpr double kAgree_N = 1e-9;
+    LipDemand demand(w);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        const Vector6 before = w;
+        demand.pull_N = step.alone(0, w);
+        w[0] = limits.pull_N(demand.pull_N);
+        for (const int i : {1, 2}) {
+            w[i] = step.alone(i, w);
+        }
+        demand.shear_N = shorten(w, 1, limits.shear_N(w[0]));
+        const double twist_N_m = step.alone(3, w);
+        demand.twist_N_m = std::abs(twist_N_m);
+        w[3] = std::clamp(twist_N_m, -limits.twist_N_m(w[0]), limits.twist_N_m(w[0]));
+        for (const int i : {4, 5}) {
+            w[i] = step.alone(i, w);
+        }
+        demand.peel_N_m = shorten(w, 4, limits.peel_N_m(w[0]));
+        if ((w - before).lpNorm<Eigen::Infinity>() < kAgree_N) {
+            break;
+        }
+    }
+    return demand;
+}
 
 /// Beyond which limit a sealed lip is loaded; the gravest first.
 LetGo let_go_of(const LipLoad& load, bool twisted_open) {
@@ -122,51 +245,41 @@ double vacuum_force_N(double pressure_Pa, double radius_m) {
 }
 
 LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,
-                 double vacuum_N, bool sealed) {
+                 double vacuum_N, bool sealed, const CupResponse& response) {
+    const LipStep step(springs_of(lip, motion, anchor, sealed), response);
+    const LipLimits limits{vacuum_N, friction, lip.radius_m, sealed};
+    Vector6 w = step.solve();
+    LipDemand demand(w);
+    if (!demand.fits(limits)) {
+        const LipDemand held = demand;
+        demand = give_way(step, limits, w);
+        if (sealed) {
+            demand = held;  // it lets go of what it cannot hold
+        }
+    }
     LipLoad load;
-    const double demand_N = pull_demand_N(lip, motion, sealed);
-    load.pull_N = std::min(demand_N, vacuum_N);
-    load.pull_margin_N = vacuum_N - demand_N;
-    const double lip_N = std::max(0.0, vacuum_N - load.pull_N);
-
-    const double shear_limit_N = friction * lip_N;
-    const auto shear_N = [&](double stretch_m, double rate_m_s) {
-        return -lip.shear_stiffness_N_m * stretch_m - lip.shear_damping_N_s_m * rate_m_s;
-    };
-    const Limited shear(shear_limit_N, shear_N(motion.y_m - anchor.y_m, motion.y_rate_m_s),
-                        shear_N(motion.z_m - anchor.z_m, motion.z_rate_m_s));
-    load.shear_N = std::hypot(shear.y, shear.z);
-    load.shear_margin_N = shear_limit_N - shear.demand;
-    if (!sealed && load.shear_margin_N < 0.0) {
-        // slides: the anchor follows so that the spring alone holds the limit
-        anchor.y_m = motion.y_m + shear.y / lip.shear_stiffness_N_m;
-        anchor.z_m = motion.z_m + shear.z / lip.shear_stiffness_N_m;
+    load.wrench_T = {.force_N = w.head<3>(), .moment_N_m = w.tail<3>()};
+    load.pull_N = w[0];
+    load.shear_N = std::hypot(w[1], w[2]);
+    load.peel_N_m = std::hypot(w[4], w[5]);
+    const double pull_N = sealed ? limits.pull_N(demand.pull_N) : w[0];
+    load.pull_margin_N = vacuum_N - (sealed ? demand.pull_N : w[0]);
+    load.shear_margin_N = limits.shear_N(pull_N) - demand.shear_N;
+    load.peel_margin_N = (limits.peel_N_m(pull_N) - demand.peel_N_m) / limits.lever_m();
+    const bool twists = demand.twist_N_m > limits.twist_N_m(pull_N);
+    if (sealed) {
+        load.let_go = let_go_of(load, twists);
+        return load;
     }
-
-    const double lever_m = 0.5 * lip.radius_m;
-    const double peel_limit_N_m = lip_N * lever_m;
-    const Vector3 upright_N_m = -lip.tilt_stiffness_N_m_rad * motion.rotation_rad -
-                                lip.tilt_damping_N_m_s_rad * motion.rate_rad_s;
-    const Limited tilt(peel_limit_N_m, upright_N_m.y(), upright_N_m.z());
-    load.peel_N_m = std::hypot(tilt.y, tilt.z);
-    load.peel_margin_N = (peel_limit_N_m - tilt.demand) / lever_m;
-
-    const double twist_limit_N_m = friction * lip_N * lip.radius_m;
-    const double twist_demand_N_m =
-        -lip.twist_stiffness_N_m_rad * (motion.rotation_rad.x() - anchor.twist_rad) -
-        lip.twist_damping_N_m_s_rad * motion.rate_rad_s.x();
-    const double twist_N_m = std::clamp(twist_demand_N_m, -twist_limit_N_m, twist_limit_N_m);
-    if (!sealed && twist_N_m != twist_demand_N_m) {
-        anchor.twist_rad = motion.rotation_rad.x() + twist_N_m / lip.twist_stiffness_N_m_rad;
+    // What gives way moves its anchor along, so that the spring alone holds the limit.
+    if (load.shear_margin_N < 0.0) {
+        anchor.y_m = motion.y_m + w[1] / lip.shear_stiffness_N_m;
+        anchor.z_m = motion.z_m + w[2] / lip.shear_stiffness_N_m;
     }
-
-    load.wrench_T.force_N = {load.pull_N, shear.y, shear.z};
-    load.wrench_T.moment_N_m = {twist_N_m, tilt.y, tilt.z};
-    if (!sealed) {
-        load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
-    } else {
-        load.let_go = let_go_of(load, twist_N_m != twist_demand_N_m);
+    if (twists) {
+        anchor.twist_rad = motion.rotation_rad.x() + w[3] / lip.twist_stiffness_N_m_rad;
     }
+    load.let_go = motion.gap_m > 0.0 ? LetGo::lifted : LetGo::no;
     return load;
 }
 

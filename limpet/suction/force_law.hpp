@@ -6,6 +6,7 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
+#include "limpet/core/signals/cup_response.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/core/wall.hpp"
@@ -21,6 +22,10 @@ namespace limpet::suction {
 //   peel     tilt spring, at most N R/2: where a ring-shaped lip begins to lift
 //   twist    about the axis, at most mu N R
 //   with N = F_vac + push - pull, the force between lip and wall.
+//
+// Within a step the six springs and dampers are solved together with what hangs on the cup: w = now
+// - G dv, dv = drift + A w, a 6 by 6 system; where a limit is met, its components stay at the
+// limit.
 
 /// Lip of an 80 mm cup. Source: baseline.md where not said otherwise.
 struct LipParameters {
@@ -89,8 +94,12 @@ struct LipLoad {
 /// @param friction  Coulomb's mu
 /// @param vacuum_N  F_vac, the force with which the vacuum holds; 0 when not sealed [N]
 /// @param sealed    a sealed lip pulls and lets go beyond its limits; an open one slides and lifts
+/// @param response  of what hangs on the cup: the load is the mean over the step that comes, in
+/// which
+///                  springs and dampers act as the lip moves (core/within_step.hpp)
 [[nodiscard]] LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor,
-                               double friction, double vacuum_N, bool sealed);
+                               double friction, double vacuum_N, bool sealed,
+                               const CupResponse& response = {});
 
 /// Load on a sealed lip that a joint holds to the wall in the law's place, against the same limits.
 /// @param wrench_T  by the joint on the cup about the lip's centre, in T

@@ -111,20 +111,26 @@ BodyInertia base_inertia(const Airframe& airframe) {
     return base;
 }
 
-SliderForce slider_force(const SliderParameters& slider, double position_m, double velocity_m_s) {
-    SliderForce force;
-    force.spring_N =
-        slider.preload_N - slider.stiffness_N_m * position_m - slider.damping_N_s_m * velocity_m_s;
-    // A stop is a bumper, not a magnet: it only pushes back into the travel.
-    const double inner_m = position_m + slider.travel_m;
-    if (position_m > 0.0) {
-        force.stop_N = std::min(0.0, -slider.stop_stiffness_N_m * position_m -
-                                         slider.stop_damping_N_s_m * velocity_m_s);
-    } else if (inner_m < 0.0) {
-        force.stop_N = std::max(
-            0.0, -slider.stop_stiffness_N_m * inner_m - slider.stop_damping_N_s_m * velocity_m_s);
-    }
-    return force;
+JointLaw slider_law(const SliderParameters& slider) {
+    return {.stiffness = slider.stiffness_N_m,
+            .damping = slider.damping_N_s_m,
+            .rest = slider.preload_N / slider.stiffness_N_m,
+            .lower = -slider.travel_m,
+            .upper = 0.0,
+            .stop_stiffness = slider.stop_stiffness_N_m,
+            .stop_damping = slider.stop_damping_N_s_m};
+}
+
+JointLaw hinge_law(const CupMountParameters& mount) {
+    constexpr double kBumper_N_m_rad = 20.0;  // assumed: gives by a degree under a leg's push
+    constexpr double kBumper_N_m_s_rad = 0.05;
+    const double range_rad = radians(mount.range_deg);
+    return {.stiffness = mount.centring_stiffness_N_m_rad,
+            .damping = mount.centring_damping_N_m_s_rad,
+            .lower = -range_rad,
+            .upper = range_rad,
+            .stop_stiffness = kBumper_N_m_rad,
+            .stop_damping = kBumper_N_m_s_rad};
 }
 
 BodyInertia cup_with_yoke(const CadBodies& cad) {

@@ -162,16 +162,26 @@ void require_physical(const std::string& what, double mass_kg, const Matrix3& in
 /// A solid disc of the cup's radius, as thick as the lip is ahead of the joint.
 [[nodiscard]] BodyInertia cup_inertia(const Airframe& airframe);
 
-/// Forces inside the slider at an extension and its rate.
-struct SliderForce {
-    double spring_N = 0.0;  ///< spring, pre-load and damper: the plant integrates these itself
-    double stop_N = 0.0;    ///< of the stop that is touched, else 0
-    [[nodiscard]] double total_N() const { return spring_N + stop_N; }
+/// Spring, damper and two stops of a joint, see joint_law.hpp. [N/m or N m/rad, N s/m or N m s/rad,
+/// m or rad]
+struct JointLaw {
+    double stiffness = 0.0;
+    double damping = 0.0;
+    double rest = 0.0;  ///< where the spring is slack
+    double lower = 0.0;
+    double upper = 0.0;
+    double stop_stiffness = 0.0;
+    double stop_damping = 0.0;
 };
-/// @param position_m    0 at the outer stop, < 0 compressed
-/// @param velocity_m_s  > 0 extends
-/// @return forces that extend the slider, > 0 pushes the cup forward [N]
-[[nodiscard]] SliderForce slider_force(const SliderParameters& slider, double position_m,
-                                       double velocity_m_s);
+/// The slider: > 0 extends, 0 at the outer stop. The rest beyond that is the pre-load.
+[[nodiscard]] JointLaw slider_law(const SliderParameters& slider);
+/// Either hinge of the cup; its end is a rubber bumper.
+[[nodiscard]] JointLaw hinge_law(const CupMountParameters& mount);
+
+// A leg's tip on a wall or the ground: as MuJoCo's contact of time constant 4 ms and damping ratio
+// 1 (models/mjcf_writer.cpp) on the 1.5 kg that a leg carries: k = m / (0.95 * 0.004)^2, d = 2 m /
+// (0.95 * 0.004).
+inline constexpr double kTipStiffness_N_m = 1e5;
+inline constexpr double kTipDamping_N_s_m = 800.0;
 
 }  // namespace limpet::vehicle

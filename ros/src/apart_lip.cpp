@@ -100,7 +100,6 @@ suction::CupOutput ApartLip::step(const suction::CupModel& model, suction::CupSt
         barrier_ = next_;
     }
     limpet_ros::CupContact now = contact_message(lip.contact);
-    now.press_N = input.press_N;
     now.touch = static_cast<std::uint32_t>(state.touches);
     if (lets_go) {
         if (const auto event = let_go(state, lip.contact, input.time_s)) {

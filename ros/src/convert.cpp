@@ -89,6 +89,7 @@ struct ContactNumber {
 constexpr ContactNumber kContactNumbers[] = {
     {&suction::LipContact::gap_m, &CupContact::gap_m},
     {&suction::LipContact::tilt_rad, &CupContact::tilt_rad},
+    {&suction::LipContact::press_N, &CupContact::press_N},
     {&suction::LipContact::pull_N, &CupContact::pull_N},
     {&suction::LipContact::pull_margin_N, &CupContact::pull_margin_N},
     {&suction::LipContact::shear_margin_N, &CupContact::shear_margin_N},
@@ -287,7 +288,7 @@ std::optional<suction::LipContact> lip_contact(const CupContact& message) {
     suction::LipContact contact{.touches = message.touches != 0,
                                 .lies_still = message.lies_still != 0,
                                 .let_go = static_cast<suction::LetGo>(message.let_go)};
-    bool sound = message.let_go <= CupContact::PEELED && std::isfinite(message.press_N);
+    bool sound = message.let_go <= CupContact::PEELED;
     for (const ContactNumber& number : kContactNumbers) {
         contact.*number.ours = message.*number.theirs;
         sound = sound && std::isfinite(contact.*number.ours);

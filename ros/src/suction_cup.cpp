@@ -43,15 +43,13 @@ const suction::Surface& SuctionCup::surface() const {
     return spot < first.size() ? first[spot] : scenario_.wall.surface;
 }
 
-std::optional<Event> SuctionCup::feel(const suction::LipContact& contact, double press_N,
-                                      double time_s) {
+std::optional<Event> SuctionCup::feel(const suction::LipContact& contact, double time_s) {
     if (time_s < last_s_) {
         start();
     }
     const double dt_s = last_s_ < 0.0 ? 0.0 : std::min(time_s - last_s_, kLongestGap_s);
     last_s_ = time_s;
-    const suction::CupInput input{
-        .time_s = time_s, .press_N = press_N, .pump_on = pump_on_, .valve_open = valve_open_};
+    const suction::CupInput input{.time_s = time_s, .pump_on = pump_on_, .valve_open = valve_open_};
     auto event = step(scenario_.cup, state_, surface(), contact, input, dt_s);
     Truth truth;
     truth.time_s = time_s;

@@ -19,9 +19,8 @@ public:
 
     void command(bool pump_on, bool valve_open);
     /// The lip at a time; one earlier than the last begins anew.
-    /// @param press_N  through the mechanism, > 0 presses
     /// @return attached, contact_lost, detached
-    std::optional<Event> feel(const suction::LipContact& contact, double press_N, double time_s);
+    std::optional<Event> feel(const suction::LipContact& contact, double time_s);
 
     [[nodiscard]] const suction::CupState& state() const { return state_; }
     /// Of the sensor, at its rate; a new sample has a new time.

@@ -47,7 +47,7 @@ private:
             ROS_WARN_THROTTLE(5.0, "cup/contact: a message with a number that is none");
             return;
         }
-        const auto event = cup_.feel(*contact, message.press_N, message.header.stamp.toSec());
+        const auto event = cup_.feel(*contact, message.header.stamp.toSec());
         limpet_ros::CupState state = cup_message(cup_.state());
         state.contact = message.number;
         send(state_, state, message.header.stamp);

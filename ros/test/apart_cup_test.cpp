@@ -89,7 +89,7 @@ Happened in_two_halves(const scenario::Scenario& scenario, double delay_s) {
         const auto output = lip.step(model, state, scenario.wall.surface, cup, input);
         if (const auto report = lip.take_report()) {
             far.command(input.pump_on, false);
-            (void)far.feel(*lip_contact(*report), report->press_N, report->header.stamp.toSec());
+            (void)far.feel(*lip_contact(*report), report->header.stamp.toSec());
             on_the_way.emplace_back(input.time_s + delay_s, cup_message(far.state()));
             on_the_way.back().second.contact = report->number;
         }

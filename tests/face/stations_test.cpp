@@ -59,7 +59,6 @@ public:
     void apply(limpet::Body, const limpet::Wrench& wrench_W, const Vector3&) override {
         force_W_N_ += wrench_W.force_N;
     }
-    void apply_slider(double) override {}
     void step(const limpet::StepMode& mode) override {
         v_m_s_ += (force_W_N_ / 3.2 + Vector3(0.0, 0.0, limpet::kGravity_m_s2)) * mode.step_s;
         p_m_ += v_m_s_ * mode.step_s;

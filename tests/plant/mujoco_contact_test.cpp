@@ -81,9 +81,6 @@ struct LegsOnWall {
 
     void step(double push_N, const StepMode& mode) {
         const Kinematics base = plant.kinematics(Body::base);
-        plant.apply_slider(
-            slider_force(airframe.slider, plant.slider().position_m, plant.slider().velocity_m_s)
-                .stop_N);
         plant.apply(Body::base,
                     {.force_N = {0.0, 0.0, -airframe.mass_kg * kGravity_m_s2},
                      .moment_N_m = Vector3::Zero()},

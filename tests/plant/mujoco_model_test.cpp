@@ -84,7 +84,7 @@ TEST(MujocoModel, NamesWhatOthersLookFor) {
 }
 
 TEST(MujocoModel, RefusesWhatItCannotUse) {
-    const auto load = [](const char* text) { return [text] { MujocoModel{text}; }; };
+    const auto load = [](const char* text) { return [text] { MujocoModel(text, {}); }; };
     EXPECT_THAT(load(""), ThrowsMessage<InputError>(HasSubstr("MJCF")));
     EXPECT_THAT(load("<mujoco><worldbody>"), ThrowsMessage<InputError>(HasSubstr("MJCF")));
     EXPECT_THAT(load("<mujoco><nonsense/></mujoco>"),

@@ -132,9 +132,6 @@ double settled_slider_m(double push_N) {
     const vehicle::Airframe airframe;
     MujocoPlant plant(test::compile(airframe));
     for (int i = 0; i < 3000; ++i) {
-        const SliderMotion slider = plant.slider();
-        plant.apply_slider(
-            slider_force(airframe.slider, slider.position_m, slider.velocity_m_s).stop_N);
         const Vector3 push_W = plant.kinematics(Body::base).q_WF * Vector3(push_N, 0.0, 0.0);
         plant.apply(Body::base, {.force_N = push_W, .moment_N_m = Vector3::Zero()},
                     plant.kinematics(Body::base).p_WF_m);

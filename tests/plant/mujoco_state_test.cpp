@@ -14,7 +14,7 @@ namespace {
 
 /// Hangs on its cup, which a spring holds at the wall, with the legs on it; the step changes on the
 /// way as around a touch.
-void hang(MujocoPlant& plant, const vehicle::Airframe& airframe, int from, int to) {
+void hang(MujocoPlant& plant, int from, int to) {
     const Vector3 anchor_W(1.5, 0.0, 0.0);
     for (int i = from; i < to; ++i) {
         const Kinematics cup = plant.kinematics(Body::cup);
@@ -22,9 +22,6 @@ void hang(MujocoPlant& plant, const vehicle::Airframe& airframe, int from, int t
         const Vector3 straighten_N_m = -20.0 * rotation_vector_from_quaternion(cup.q_WF);
         plant.apply(Body::cup, {.force_N = hold_N, .moment_N_m = cup.q_WF * straighten_N_m},
                     cup.p_WF_m);
-        const SliderMotion slider = plant.slider();
-        plant.apply_slider(
-            slider_force(airframe.slider, slider.position_m, slider.velocity_m_s).stop_N);
         plant.step({.step_s = i < 700 ? 0.25e-3 : 1e-3, .contacts = i >= 20});
     }
 }
@@ -40,16 +37,16 @@ TEST(State, ResumesBitExactlyInAnotherPlant) {
     MujocoPlant whole(model);
     start(whole);
     for (const int middle : {10, 699, 1200}) {  // before the legs touch, at a change of step, after
-        hang(whole, airframe, middle == 10 ? 0 : (middle == 699 ? 10 : 699), middle);
+        hang(whole, middle == 10 ? 0 : (middle == 699 ? 10 : 699), middle);
         const PlantState state = whole.save();
         MujocoPlant resumed(model);
         resumed.restore(state);
         EXPECT_EQ(resumed.save().values, state.values);
-        hang(resumed, airframe, middle, 2000);
+        hang(resumed, middle, 2000);
 
         MujocoPlant straight(model);
         start(straight);
-        hang(straight, airframe, 0, 2000);
+        hang(straight, 0, 2000);
         EXPECT_EQ(resumed.save().values, straight.save().values);
         EXPECT_EQ(resumed.contact_force_W(), straight.contact_force_W());
         EXPECT_EQ(resumed.kinematics(Body::cup).v_WF_W_m_s,
@@ -63,7 +60,6 @@ TEST(State, KeepsWrenchesThatWaitForTheirStep) {
     MujocoPlant plant(model);
     plant.apply(Body::base, {.force_N = {1.0, 2.0, 3.0}, .moment_N_m = {0.1, 0.2, 0.3}},
                 Vector3::Zero());
-    plant.apply_slider(-2.0);
     MujocoPlant twin(model);
     twin.restore(plant.save());
     plant.step({});
@@ -87,7 +83,7 @@ TEST(State, ManyThreadsShareOneModelAndAgree) {
         threads.emplace_back([&airframe, &model, &end] {
             MujocoPlant plant(model);
             start(plant);
-            hang(plant, airframe, 0, 1000);
+            hang(plant, 0, 1000);
             end = plant.save();
         });
     }
@@ -128,7 +124,7 @@ TEST(MujocoPlant, RefusesPartsThatAPlainMultirotorHasNot) {
     MujocoPlant plant(test::compile(test::plain_multirotor()));
     EXPECT_THROW((void)plant.kinematics(Body::cup), InternalError);
     EXPECT_THROW(plant.apply(Body::carriage, {}, Vector3::Zero()), InternalError);
-    EXPECT_THROW(plant.apply_slider(1.0), InternalError);
+    EXPECT_THROW((void)plant.cup_response(Matrix3::Identity(), {}), InternalError);
 }
 
 }  // namespace

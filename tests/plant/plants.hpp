@@ -26,7 +26,7 @@ inline models::Scene wall_ahead() {
 
 inline std::shared_ptr<const plant::MujocoModel> compile(
     const vehicle::Airframe& airframe, const models::Scene& scene = wall_ahead()) {
-    return std::make_shared<const plant::MujocoModel>(write_mjcf(airframe, scene));
+    return std::make_shared<const plant::MujocoModel>(write_mjcf(airframe, scene), airframe);
 }
 
 }  // namespace limpet::test

@@ -15,7 +15,6 @@ namespace limpet::test {
 class WallPlant final : public plant::Plant {
 public:
     void apply(plant::Body, const Wrench&, const Vector3&) override {}
-    void apply_slider(double) override {}
     void step(const plant::StepMode&) override {}
     [[nodiscard]] Kinematics kinematics(plant::Body) const override { return {}; }
     [[nodiscard]] plant::SliderMotion slider() const override { return {}; }

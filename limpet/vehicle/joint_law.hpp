@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/core/within_step.hpp"
+#include "limpet/vehicle/airframe.hpp"
+
+namespace limpet::vehicle {
+
+/// Force of a joint's spring, damper and stops, mean over a step; > 0 towards larger positions. A
+/// stop is a bumper, not a magnet: it only pushes back into the travel.
+/// @param position  0 at the slider's outer stop or with the joint centred [m, rad]
+/// @param mobility  change of the rate over the step by a unit of force; 0: the force as it stands
+template <class T>
+[[nodiscard]] StepForce<T> joint_force(const JointLaw& law, const T& position, const T& rate,
+                                       const T& mobility, double step_s) {
+    StepForce<T> force = within_step<T>(law.stiffness * (law.rest - position), law.stiffness,
+                                        law.damping, rate, mobility, step_s);
+    T beyond(0.0);
+    if (position > law.upper) {
+        beyond = position - law.upper;
+    } else if (position < law.lower) {
+        beyond = position - law.lower;
+    } else {
+        return force;
+    }
+    const StepForce<T> stop = within_step<T>(-law.stop_stiffness * beyond, law.stop_stiffness,
+                                             law.stop_damping, rate, mobility, step_s);
+    if (stop.now * beyond < 0.0) {
+        force.now += stop.now;
+        force.gain += stop.gain;
+    }
+    return force;
+}
+
+}  // namespace limpet::vehicle
