@@ -177,8 +177,10 @@ TEST(SuctionCup, TheSameInputsAndSeedGiveTheSameStates) {
         cup.command(true, false);
         std::vector<double> out;
         for (int k = 0; k < 600; ++k) {
-            const suction::LipContact contact{.touches = k > 100, .gap_m = k > 100 ? -0.001 : 0.01};
-            (void)cup.feel(contact, k > 100 ? 200.0 : 0.0, 1.0 + 1e-3 * k);
+            const suction::LipContact contact{.touches = k > 100,
+                                              .gap_m = k > 100 ? -0.001 : 0.01,
+                                              .press_N = k > 100 ? 200.0 : 0.0};
+            (void)cup.feel(contact, 1.0 + 1e-3 * k);
             out.push_back(cup.state().status.pressure_Pa);
             out.push_back(cup.pressure().value.pressure_Pa);
             out.push_back(cup.state().status.seal_threshold_N);
@@ -196,7 +198,7 @@ TEST(SuctionCup, AttachesAfterThePapersDwell) {
     double attached_s = -1.0;
     for (int k = 0; k <= 1000 && attached_s < 0.0; ++k) {
         const double t_s = 1.0 + 1e-3 * k;
-        const auto event = cup.feel({.touches = true, .gap_m = -0.001}, 500.0, t_s);
+        const auto event = cup.feel({.touches = true, .gap_m = -0.001, .press_N = 500.0}, t_s);
         if (event && event->name == EventName::attached) {
             attached_s = t_s - 1.0;
         }
@@ -209,10 +211,10 @@ TEST(SuctionCup, TimeThatRunsBackBeginsAnew) {
     SuctionCup cup(scenario());
     cup.command(true, false);
     for (int k = 0; k < 1000; ++k) {
-        (void)cup.feel({.touches = true, .gap_m = -0.001}, 500.0, 10.0 + 1e-3 * k);
+        (void)cup.feel({.touches = true, .gap_m = -0.001, .press_N = 500.0}, 10.0 + 1e-3 * k);
     }
     EXPECT_LT(cup.state().mean_pressure_Pa, 70000.0);
-    (void)cup.feel({.gap_m = 1.0}, 0.0, 1.0);
+    (void)cup.feel({.gap_m = 1.0}, 1.0);
     EXPECT_NEAR(cup.state().mean_pressure_Pa, kAtmosphere_Pa, 1.0);
     EXPECT_EQ(cup.state().status.phase, CupPhase::free);
 }
