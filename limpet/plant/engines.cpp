@@ -7,8 +7,8 @@ namespace limpet::plant {
 
 std::span<const Engine* const> engines() {
     static constexpr std::array kEngines = {
-        &kMujocoEngine,
         &kReducedEngine,
+        &kMujocoEngine,
     };
     return kEngines;
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/within_step.hpp"
@@ -15,7 +17,7 @@
 // Nine speeds: that of B's origin and the angular velocity, both in B, then slider, pitch, yaw.
 //   M dv/dt = f,  M the mass matrix, f gravity and what follows from the speeds.
 // The first three accelerations are those of B's origin as seen from W, in the axes of B.
-// Source: any book on rigid-body dynamics; checked against MuJoCo's to 1e-12 (tests/plant).
+// Source: any book on rigid-body dynamics; checked against MuJoCo's to 1e-10 (tests/plant).
 namespace limpet::plant {
 
 inline constexpr int kFreedoms = 9;
@@ -53,68 +55,109 @@ struct MechanismState {
     std::array<T, kJoints> joint_rate{};  ///< [m/s, rad/s, rad/s]
 };
 
-/// A symmetric matrix, of which the lower triangle is kept, and its factors L D L'.
-template <class T>
-struct SpeedMatrix {
-    std::array<std::array<T, kFreedoms>, kFreedoms> row{};
+/// Calls each(0), each(1), ... with constants, so that all that depends on them is worked out by
+/// the compiler and the loop is gone: the plant's small matrices are half of a flight's
+/// instructions.
+template <class Each, int... kAt>
+[[gnu::always_inline]] constexpr void unrolled(std::integer_sequence<int, kAt...> /*at*/,
+                                               Each&& each) {
+    (each(std::integral_constant<int, kAt>{}), ...);
+}
+template <int kEnd, class Each>
+[[gnu::always_inline]] constexpr void unrolled(Each&& each) {
+    unrolled(std::make_integer_sequence<int, kEnd>{}, each);
+}
 
-    T& operator()(int i, int j) {
-        return row[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+/// Six numbers side by side: a row of what six unit wrenches do.
+template <class T>
+struct Six {
+    std::array<T, 6> at{};
+
+    [[gnu::always_inline]] Six& operator+=(const Six& other) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            at[i] += other.at[i];
+        }
+        return *this;
     }
-    const T& operator()(int i, int j) const {
-        return row[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    [[gnu::always_inline]] Six& operator-=(const Six& other) {
+        for (std::size_t i = 0; i < 6; ++i) {
+            at[i] -= other.at[i];
+        }
+        return *this;
+    }
+    [[gnu::always_inline]] friend Six operator*(const T& factor, const Six& six) {
+        Six scaled;
+        for (std::size_t i = 0; i < 6; ++i) {
+            scaled.at[i] = factor * six.at[i];
+        }
+        return scaled;
+    }
+    void set(const Vec3<T>& first, const Vec3<T>& second) {
+        for (int i = 0; i < 3; ++i) {
+            at[static_cast<std::size_t>(i)] = first[i];
+            at[static_cast<std::size_t>(3 + i)] = second[i];
+        }
     }
 };
 
+/// A symmetric matrix, of which the lower triangle is kept.
 template <class T>
-struct SpeedFactors {
-    SpeedMatrix<T> lower;  ///< below the diagonal
-    Speeds<T> inverse{};   ///< of D
+struct SpeedMatrix {
+    std::array<T, kFreedoms*(kFreedoms + 1) / 2> lower{};
 
-    /// x -> L^-1 x
-    void forward(Speeds<T>& x) const {
-        for (int i = 1; i < kFreedoms; ++i) {
-            T sum = x[static_cast<std::size_t>(i)];
-            for (int j = 0; j < i; ++j) {
-                sum -= lower(i, j) * x[static_cast<std::size_t>(j)];
-            }
-            x[static_cast<std::size_t>(i)] = sum;
-        }
+    static constexpr std::size_t place(int i, int j) {
+        return static_cast<std::size_t>(i * (i + 1) / 2 + j);
+    }
+    /// @param j  <= i
+    T& operator()(int i, int j) { return lower[place(i, j)]; }
+    const T& operator()(int i, int j) const { return lower[place(i, j)]; }
+};
+
+/// Its factors: M = L D L', L below the diagonal, 1 / D on it.
+template <class T>
+struct SpeedFactors : SpeedMatrix<T> {
+    /// x -> L^-1 x, of one or several x: an array of numbers or of rows.
+    template <class Rows>
+    void forward(Rows& x) const {
+        unrolled<kFreedoms>([&](auto i) [[gnu::always_inline]] {
+            unrolled<i.value>([&](auto j) [[gnu::always_inline]] {
+                x[i.value] -= (*this)(i.value, j.value) * x[j.value];
+            });
+        });
     }
     /// x -> L'^-1 D^-1 x, after forward(): the solution.
     void backward(Speeds<T>& x) const {
-        for (int i = 0; i < kFreedoms; ++i) {
-            x[static_cast<std::size_t>(i)] *= inverse[static_cast<std::size_t>(i)];
-        }
-        for (int i = kFreedoms - 1; i > 0; --i) {
-            for (int j = 0; j < i; ++j) {
-                x[static_cast<std::size_t>(j)] -= lower(i, j) * x[static_cast<std::size_t>(i)];
-            }
-        }
+        unrolled<kFreedoms>(
+            [&](auto i) [[gnu::always_inline]] { x[i.value] *= (*this)(i.value, i.value); });
+        unrolled<kFreedoms>([&](auto k) [[gnu::always_inline]] {
+            constexpr int kRow = kFreedoms - 1 - k.value;
+            unrolled<kRow>([&](auto j) [[gnu::always_inline]] {
+                x[j.value] -= (*this)(kRow, j.value) * x[kRow];
+            });
+        });
     }
 };
 
 template <class T>
-[[nodiscard]] SpeedFactors<T> factorise(const SpeedMatrix<T>& matrix) {
-    SpeedFactors<T> factors;
-    for (int i = 0; i < kFreedoms; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        T pivot = matrix(i, i);
-        for (int j = 0; j < i; ++j) {
-            T sum = matrix(i, j);
-            for (int k = 0; k < j; ++k) {
-                sum -= factors.lower(i, k) * factors.lower(j, k);  // row i still times D
-            }
-            factors.lower(i, j) = sum;
-        }
-        for (int j = 0; j < i; ++j) {
-            const T scaled = factors.lower(i, j) * factors.inverse[static_cast<std::size_t>(j)];
-            pivot -= scaled * factors.lower(i, j);
-            factors.lower(i, j) = scaled;
-        }
-        factors.inverse[at] = 1.0 / pivot;
-    }
-    return factors;
+void factorise(const SpeedMatrix<T>& matrix, SpeedFactors<T>& factors) {
+    unrolled<kFreedoms>([&](auto i) [[gnu::always_inline]] {
+        constexpr int kRow = i.value;
+        unrolled<kRow>([&](auto j) [[gnu::always_inline]] {
+            T sum = matrix(kRow, j.value);
+            unrolled<j.value>([&](auto k) [[gnu::always_inline]] {
+                sum -=
+                    factors(kRow, k.value) * factors(j.value, k.value);  // this row still times D
+            });
+            factors(kRow, j.value) = sum;
+        });
+        T pivot = matrix(kRow, kRow);
+        unrolled<kRow>([&](auto j) [[gnu::always_inline]] {
+            const T scaled = factors(kRow, j.value) * factors(j.value, j.value);
+            pivot -= scaled * factors(kRow, j.value);
+            factors(kRow, j.value) = scaled;
+        });
+        factors(kRow, kRow) = 1.0 / pivot;
+    });
 }
 
 /// Where everything is at one state, how it resists, and what pulls at it.
@@ -190,14 +233,14 @@ void put(SpeedMatrix<T>& mass, int row, int column, const Vec3<T>& values) {
 }  // namespace mechanism_parts
 
 /// The mechanism at a state, under gravity alone.
+/// @param at  is filled
 template <class T>
-[[nodiscard]] Mechanism<T> mechanism_at(const MechanismModel& model,
-                                        const MechanismState<T>& state) {
+void place_mechanism(const MechanismModel& model, const MechanismState<T>& state,
+                     Mechanism<T>& at) {
     using mechanism_parts::add_steiner;
     using mechanism_parts::put;
     using std::cos;
     using std::sin;
-    Mechanism<T> at;
     at.R_WB = state.q_WB.toRotationMatrix();
     const Vec3<T>& w = state.w_WB_B_rad_s;
     SpeedMatrix<T>& mass = at.mass;
@@ -205,11 +248,13 @@ template <class T>
     Vec3<T> moment_kg_m = (model.base.mass_kg * model.base.centre_B_m).template cast<T>();
 
     // What the speeds ask for: m a of each centre while no speed changes, and its moment about B.
-    const Vec3<T> base_a = w.cross(w.cross(Vec3<T>(model.base.centre_B_m.template cast<T>())));
-    Vec3<T> inertial_N = -model.base.mass_kg * base_a;
-    Vec3<T> inertial_N_m = Vec3<T>(moment_kg_m).cross(-base_a);
-    const Mat3<T> base_own = model.base.inertia_kg_m2.template cast<T>();
-    inertial_N_m -= w.cross(base_own * w);
+    const T w_squared = w.squaredNorm();
+    const auto circled = [&w, &w_squared](const Vec3<T>& arm) -> Vec3<T> {  // w x (w x arm)
+        return w.dot(arm) * w - w_squared * arm;
+    };
+    Vec3<T> inertial_N = -circled(moment_kg_m);
+    // Of a body about another point than its centre, turning about that: as one about its centre.
+    Vec3<T> inertial_N_m = -w.cross(Vec3<T>(model.base_about_B_kg_m2.template cast<T>() * w));
 
     if (model.has_cup) {
         const T sin_p = sin(state.joint[1]), cos_p = cos(state.joint[1]);
@@ -225,8 +270,10 @@ template <class T>
         const Vec3<T> carriage_B = model.carriage.centre_B_m.template cast<T>() + slid;
         const Vec3<T> arm_B = at.R_BC * model.cup.centre_B_m.template cast<T>();
         const Vec3<T> cup_B = at.joint_B_m + arm_B;
-        const Mat3<T> cup_own =
-            at.R_BC * model.cup.inertia_kg_m2.template cast<T>() * at.R_BC.transpose();
+        Mat3<T> cup_own;
+        cup_own.noalias() = (at.R_BC * model.cup.inertia_kg_m2.template cast<T>())
+                                .eval()
+                                .lazyProduct(at.R_BC.transpose());
         const T carriage_kg(model.carriage.mass_kg), cup_kg(model.cup.mass_kg);
         const Mat3<T> carriage_own = model.carriage.inertia_kg_m2.template cast<T>();
 
@@ -261,14 +308,15 @@ template <class T>
         const Vec3<T> yawing = state.joint_rate[2] * at.yaw_axis_B;
         at.cup_w_B_rad_s = w + pitching + yawing;
         at.cup_drift_B_rad_s2 = w.cross(pitching) + (w + pitching).cross(yawing);
-        const Vec3<T> coriolis = 2.0 * state.joint_rate[0] * w.cross(Vec3<T>(Vec3<T>::UnitX()));
+        const T twice = 2.0 * state.joint_rate[0];
+        const Vec3<T> coriolis(T(0.0), twice * w.z(), -twice * w.y());
         const auto swung = [&](const Vec3<T>& arm) -> Vec3<T> {
             return at.cup_drift_B_rad_s2.cross(arm) +
                    at.cup_w_B_rad_s.cross(at.cup_w_B_rad_s.cross(arm));
         };
-        const Vec3<T> joint_a = w.cross(w.cross(at.joint_B_m)) + coriolis;
+        const Vec3<T> joint_a = circled(at.joint_B_m) + coriolis;
         at.lip_drift_B_m_s2 = joint_a + swung(at.lip_arm_B_m);
-        const Vec3<T> carriage_N = -carriage_kg * (w.cross(w.cross(carriage_B)) + coriolis);
+        const Vec3<T> carriage_N = -carriage_kg * (circled(carriage_B) + coriolis);
         const Vec3<T> cup_N = -cup_kg * (joint_a + swung(arm_B));
         const Vec3<T> cup_N_m = -(cup_own * at.cup_drift_B_rad_s2 +
                                   at.cup_w_B_rad_s.cross(Vec3<T>(cup_own * at.cup_w_B_rad_s)));
@@ -311,7 +359,6 @@ template <class T>
             at.force[static_cast<std::size_t>(j)] += mass(j, i) * gravity_B[i];
         }
     }
-    return at;
 }
 
 }  // namespace limpet::plant

@@ -22,7 +22,7 @@ public:
     void start(const MechanismModel& model, const MechanismState<T>& state) {
         model_ = &model;
         state_ = state;
-        at_ = mechanism_at(model, state);
+        place_mechanism(model, state, at_);
         pushed_ = at_.force;
         ready_s_ = 0.0;
     }
@@ -51,17 +51,16 @@ public:
             springs_[static_cast<std::size_t>(i)] = joints_[joint].now;
         }
     }
-    /// Another spring in this step.
-    /// @param direction  J: the rate of the spring by the speeds
+    /// Another spring in this step, on the base.
+    /// @param direction  J: the rate of the spring by the speeds, the joints' have no part in it
     void add_spring(const Speeds<T>& direction, const StepForce<T>& spring) {
-        for (int i = 0; i < kFreedoms; ++i) {
-            const T scaled = step_s_ * spring.gain * direction[static_cast<std::size_t>(i)];
-            for (int j = 0; j <= i; ++j) {
-                matrix_(i, j) += scaled * direction[static_cast<std::size_t>(j)];
-            }
-            springs_[static_cast<std::size_t>(i)] +=
-                direction[static_cast<std::size_t>(i)] * spring.now;
-        }
+        unrolled<kFirstJoint>([&](auto i) [[gnu::always_inline]] {
+            const T scaled = step_s_ * spring.gain * direction[i.value];
+            unrolled<i.value + 1>([&](auto j) [[gnu::always_inline]] {
+                matrix_(i.value, j.value) += scaled * direction[j.value];
+            });
+            springs_[i.value] += direction[i.value] * spring.now;
+        });
     }
     /// Without other springs; does nothing when that is done already.
     void close(double step_s) {
@@ -72,7 +71,7 @@ public:
     }
     /// All springs are there.
     void close() {
-        factors_ = factorise(matrix_);
+        factorise(matrix_, factors_);
         ready_s_ = step_s_;
     }
     /// Of which length, 0: not closed since start().
@@ -92,33 +91,53 @@ public:
 
     /// To a wrench on the cup beside all that has been pushed.
     [[nodiscard]] CupResponse response(const Matrix3& R_WT) const {
-        CupResponse response{.step_s = step_s_};
         const Mat3<T> R_BT = at_.R_WB.transpose() * R_WT;
+        const Mat3<T> R_TB = R_BT.transpose();
+        // J', a column for each unit wrench in T, then L^-1 J'.
+        std::array<Six<T>, kFreedoms> rows;
+        const auto moment_arm = [&R_TB](const Vec3<T>& arm, const Vec3<T>& axis) -> Vec3<T> {
+            return R_TB * axis.cross(arm);
+        };
+        const Vec3<T> none = Vec3<T>::Zero();
+        for (int i = 0; i < 3; ++i) {
+            const Vec3<T> axis = Vec3<T>::Unit(i);
+            rows[static_cast<std::size_t>(i)].set(R_TB.col(i), none);
+            rows[static_cast<std::size_t>(3 + i)].set(moment_arm(at_.lip_B_m, axis), R_TB.col(i));
+        }
+        rows[6] = rows[0];
+        rows[7].set(moment_arm(at_.lip_arm_B_m, Vec3<T>::UnitY()), R_TB.col(1));
+        rows[8].set(moment_arm(at_.lip_arm_B_m, at_.yaw_axis_B), R_TB * at_.yaw_axis_B);
+        factors_.forward(rows);
+
         const Speeds<T> free = forward_change();
         Speeds<T> slider{};
-        slider[kFirstJoint] = T(1.0);
-        factors_.forward(slider);
-        std::array<Speeds<T>, 6> by;  // L^-1 J' of each unit wrench
-        std::array<Speeds<T>, 6> solved;
-        const Vec3<T> none = Vec3<T>::Zero();
+        slider[6] = T(1.0);
+        slider[7] = -factors_(7, 6);
+        slider[8] = -factors_(8, 6) - factors_(8, 7) * slider[7];
+        CupResponse response{.step_s = step_s_};
+        Six<T> drift, press;
+        drift.set(step_s_ * (R_TB * at_.lip_drift_B_m_s2),
+                  step_s_ * (R_TB * at_.cup_drift_B_rad_s2));
+        std::array<Six<T>, 6> mobility{};
+        T slider_change(0.0);
+        unrolled<kFreedoms>([&](auto k) [[gnu::always_inline]] {
+            const Six<T> scaled = factors_(k.value, k.value) * rows[k.value];
+            drift += free[k.value] * scaled;
+            unrolled<6>([&](auto j) [[gnu::always_inline]] {
+                mobility[j.value] += rows[k.value].at[j.value] * scaled;
+            });
+            if constexpr (k.value >= kFirstJoint) {
+                press += slider[k.value] * scaled;
+                slider_change += slider[k.value] * factors_(k.value, k.value) * free[k.value];
+            }
+        });
         for (int i = 0; i < 6; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            by[at] = i < 3 ? at_.on_lip(R_BT.col(i), none) : at_.on_lip(none, R_BT.col(i - 3));
-            factors_.forward(by[at]);
-            for (std::size_t k = 0; k < kFreedoms; ++k) {
-                solved[at][k] = by[at][k] * factors_.inverse[k];
+            response.drift[i] = drift.at[at];
+            response.press_per_wrench[i] = -joints_[0].gain * step_s_ * press.at[at];
+            for (int j = 0; j < 6; ++j) {
+                response.mobility(i, j) = step_s_ * mobility[at].at[static_cast<std::size_t>(j)];
             }
-            for (int j = 0; j <= i; ++j) {
-                const T entry = step_s_ * dot(solved[at], by[static_cast<std::size_t>(j)]);
-                response.mobility(i, j) = response.mobility(j, i) = entry;
-            }
-            const Vec3<T>& drift_B = i < 3 ? at_.lip_drift_B_m_s2 : at_.cup_drift_B_rad_s2;
-            response.drift[i] = dot(solved[at], free) + step_s_ * drift_B.dot(R_BT.col(i % 3));
-            response.press_per_wrench[i] = -joints_[0].gain * step_s_ * dot(solved[at], slider);
-        }
-        T slider_change(0.0);
-        for (std::size_t k = 0; k < kFreedoms; ++k) {
-            slider_change += slider[k] * factors_.inverse[k] * free[k];
         }
         response.press_N = joints_[0].now - joints_[0].gain * slider_change;
         return response;

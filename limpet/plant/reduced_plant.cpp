@@ -15,6 +15,9 @@ namespace {
 using vehicle::kTipDamping_N_s_m;
 using vehicle::kTipStiffness_N_m;
 
+/// How well a sliding tip's friction agrees with its press.
+constexpr double kSettled = 1e-4;
+
 /// The floor as a face that looks up.
 WallGeometry ground(double z_W_m) {
     constexpr double kEndless_m = 1e6;
@@ -64,11 +67,17 @@ void ReducedPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m
     push(step_, body, wrench_W, p_W_m);
 }
 
-void ReducedPlant::prepare(double step_s) {
-    if (step_.ready_s() != step_s) {
-        find_touches(step_s);
-        close(step_s);
+void ReducedPlant::prepare(const StepMode& mode) {
+    if (step_.ready_s() == mode.step_s) {
+        return;
     }
+    touching_ = 0;
+    if (mode.contacts && model_->mechanism_.has_cup) {
+        find_touches(mode.step_s);
+    } else {
+        state_.tips = {};
+    }
+    close(mode.step_s);
 }
 
 void ReducedPlant::close(double step_s) {
@@ -84,8 +93,7 @@ void ReducedPlant::close(double step_s) {
 void ReducedPlant::find_touches(double step_s) {
     const Mechanism<double>& at = step_.at();
     const MechanismState<double>& bodies = state_.bodies;
-    touching_ = 0;
-    for (std::size_t tip = 0; tip < kTips && model_->mechanism_.has_cup; ++tip) {
+    for (std::size_t tip = 0; tip < kTips; ++tip) {
         const Vector3& tip_B_m = model_->tip_B_m_[tip];
         const Vector3 tip_W_m = bodies.p_WB_m + at.R_WB * tip_B_m;
         for (std::size_t face = 0; face < kFaces; ++face) {
@@ -143,7 +151,10 @@ bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
     const double z_N = force_N(2);
     const double asked_N = std::hypot(y_N, z_N);
     const double limit_N = model_->friction_ * push_N;
-    if (touch.slides || asked_N <= limit_N) {
+    // One that slides presses as it slides, not as it did while it was taken to stick.
+    const bool settled = touch.slides ? std::abs(asked_N - limit_N) <= kSettled * limit_N
+                                      : asked_N <= limit_N;
+    if (settled || asked_N == 0.0) {
         return false;
     }
     touch.slides = true;
@@ -154,7 +165,7 @@ bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
 
 /// The change of the speeds with all tips either sticking within their limits or sliding.
 Speeds<double> ReducedPlant::settle(double step_s) {
-    constexpr int kPasses = 3;  // a tip lifts, another takes over and slides
+    constexpr int kPasses = 12;  // a tip lifts, another takes over and slides, harder or less
     for (int pass = 0; touching_ > 0 && pass < kPasses; ++pass) {
         const Speeds<double> change = step_.change();
         bool changed = false;
@@ -208,12 +219,12 @@ void ReducedPlant::integrate(const Speeds<double>& change, double step_s) {
 
 CupResponse ReducedPlant::cup_response(const Matrix3& R_WT, const StepMode& mode) {
     require(model_->mechanism_.has_cup, "this vehicle has a slider and a cup");
-    prepare(mode.step_s);
+    prepare(mode);
     return step_.response(R_WT);
 }
 
 void ReducedPlant::step(const StepMode& mode) {
-    prepare(mode.step_s);
+    prepare(mode);
     const Speeds<double> change = settle(mode.step_s);
     state_.slider_N = model_->mechanism_.has_cup ? step_.joint_force(0, change) : 0.0;
     take_contacts(change, mode.step_s);
@@ -256,17 +267,16 @@ SliderMotion ReducedPlant::slider() const {
 }
 
 std::optional<double> ReducedPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
-    std::optional<double> nearest_m;
-    for (const ReducedModel::Face& face : model_->faces_) {
-        if (!face.there) {
-            continue;
-        }
-        const auto way_m = ray_to_wall_m(face.geometry, origin_W_m, dir_W);
-        if (way_m && (!nearest_m || *way_m < *nearest_m)) {
-            nearest_m = way_m;
-        }
+    const auto& [wall, floor] = model_->faces_;
+    std::optional<double> way_m;
+    if (wall.there) {
+        way_m = ray_to_wall_m(wall.geometry, origin_W_m, dir_W);
     }
-    return nearest_m;
+    const double above_m = floor.geometry.p_WT_m.z() - origin_W_m.z();
+    if (above_m > 0.0 && dir_W.z() > 0.0 && (!way_m || above_m < *way_m * dir_W.z())) {
+        way_m = above_m / dir_W.z();
+    }
+    return way_m;
 }
 
 PlantState ReducedPlant::save() const {

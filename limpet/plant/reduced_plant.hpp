@@ -44,8 +44,7 @@ struct TipContact {
 };
 
 /// The reduced engine: nine generalised coordinates, semi-implicit Euler, joints and legs within
-/// the step (MechanismStep). Contacts are watched whatever mode.contacts says: they cost nothing
-/// while nothing touches.
+/// the step (MechanismStep).
 class ReducedPlant final : public Plant {
 public:
     explicit ReducedPlant(std::shared_ptr<const ReducedModel> model);
@@ -99,7 +98,7 @@ private:
     };
 
     void refresh();
-    void prepare(double step_s);
+    void prepare(const StepMode& mode);
     void find_touches(double step_s);
     void close(double step_s);
     [[nodiscard]] Speeds<double> settle(double step_s);

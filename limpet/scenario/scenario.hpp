@@ -104,7 +104,7 @@ struct Scenario {
         &autopilot::kCascade;  ///< that flies with them
     guidance::PerchingParameters guidance;
     SimulationParameters simulation;
-    const plant::Engine* engine = &plant::kMujocoEngine;  ///< that moves the bodies
+    const plant::Engine* engine = &plant::kReducedEngine;  ///< that moves the bodies
 };
 
 /// @return unit vector of travel into the wall, level

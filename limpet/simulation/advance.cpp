@@ -114,7 +114,7 @@ void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, 
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
     const plant::StepMode mode{.step_s = kTick_s / steps,
-                               .contacts = legs_near_wall(model, state.truth.base)};
+                               .contacts = legs_can_touch(model, state.truth.base)};
     const AirLoad air = load_of_air(model, state);
     for (int k = 0; k < steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;

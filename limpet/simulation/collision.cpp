@@ -7,14 +7,16 @@
 
 namespace limpet::simulation {
 
-bool legs_near_wall(const FlightModel& model, const Kinematics& base) {
+bool legs_can_touch(const FlightModel& model, const Kinematics& base) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
-    if (!airframe.has_cup || !model.has_wall) {
+    if (!airframe.has_cup) {
         return false;
     }
     const Vector3 tips_B_m(airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m);
-    return before_wall_m(model.cup.wall, base.p_WF_m + base.q_WF * tips_B_m) <
-           model.simulation.contact_range_m;
+    const Vector3 tips_W_m = base.p_WF_m + base.q_WF * tips_B_m;
+    const double range_m = model.simulation.contact_range_m;
+    return tips_W_m.z() > model.simulation.start_height_m - range_m ||
+           (model.has_wall && before_wall_m(model.cup.wall, tips_W_m) < range_m);
 }
 
 double closest_hub_m(const FlightModel& model, const Kinematics& base) {
@@ -31,7 +33,15 @@ double closest_hub_m(const FlightModel& model, const Kinematics& base) {
 std::optional<guidance::Ending> collision(const FlightModel& model, const Truth& truth) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Vector3& p_WB_m = truth.base.p_WF_m;
-    if (p_WB_m.z() > model.simulation.start_height_m) {
+    const double ground_m = model.simulation.start_height_m;
+    const double to_ground_m = ground_m - p_WB_m.z();
+    bool on_ground = to_ground_m < 0.0;
+    if (to_ground_m < airframe.rotor_p_B_m[0].norm()) {
+        for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
+            on_ground = on_ground || (p_WB_m + truth.base.q_WF * p_BR_m).z() > ground_m;
+        }
+    }
+    if (on_ground) {
         return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
     if (!model.has_wall || std::abs(before_wall_m(model.cup.wall, p_WB_m)) >

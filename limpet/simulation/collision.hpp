@@ -7,13 +7,14 @@
 
 namespace limpet::simulation {
 
-/// Whether a leg is so near the wall that the engine must look for contacts.
-[[nodiscard]] bool legs_near_wall(const FlightModel& model, const Kinematics& base);
+/// Whether a leg is so near the wall or the ground that the engine must look for contacts.
+[[nodiscard]] bool legs_can_touch(const FlightModel& model, const Kinematics& base);
 
 /// @return distance of the closest motor axis to the wall [m]; infinity beyond its edges
 [[nodiscard]] double closest_hub_m(const FlightModel& model, const Kinematics& base);
 
-/// What ends a flight: a propeller in the wall, the vehicle on the ground.
+/// What ends a flight: a propeller in the wall, its middle or a motor on the ground (it may
+/// stand there on its legs).
 [[nodiscard]] std::optional<guidance::Ending> collision(const FlightModel& model,
                                                         const Truth& truth);
 

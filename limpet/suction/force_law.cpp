@@ -92,6 +92,11 @@ private:
     Vector6 gain_;
 };
 
+/// As std::hypot, which guards against numbers that no force has.
+double along(double y, double z) {
+    return std::sqrt(y * y + z * z);
+}
+
 /// What limits the lip, the normal force given.
 struct LipLimits {
     double vacuum_N, friction, radius_m;
@@ -114,9 +119,9 @@ struct LipDemand {
 
     explicit LipDemand(const Vector6& w)
         : pull_N(w[0]),
-          shear_N(std::hypot(w[1], w[2])),
+          shear_N(along(w[1], w[2])),
           twist_N_m(std::abs(w[3])),
-          peel_N_m(std::hypot(w[4], w[5])) {}
+          peel_N_m(along(w[4], w[5])) {}
     [[nodiscard]] bool fits(const LipLimits& limits) const {
         return limits.pull_N(pull_N) == pull_N && shear_N <= limits.shear_N(pull_N) &&
                twist_N_m <= limits.twist_N_m(pull_N) && peel_N_m <= limits.peel_N_m(pull_N);
@@ -125,7 +130,7 @@ struct LipDemand {
 
 /// Shortens two components that together ask for more than a limit.
 double shorten(Vector6& w, int first, double limit) {
-    const double asked = std::hypot(w[first], w[first + 1]);
+    const double asked = along(w[first], w[first + 1]);
     if (asked > limit) {
         w[first] *= limit / asked;
         w[first + 1] *= limit / asked;
@@ -260,8 +265,8 @@ LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anch
     LipLoad load;
     load.wrench_T = {.force_N = w.head<3>(), .moment_N_m = w.tail<3>()};
     load.pull_N = w[0];
-    load.shear_N = std::hypot(w[1], w[2]);
-    load.peel_N_m = std::hypot(w[4], w[5]);
+    load.shear_N = along(w[1], w[2]);
+    load.peel_N_m = along(w[4], w[5]);
     const double pull_N = sealed ? limits.pull_N(demand.pull_N) : w[0];
     load.pull_margin_N = vacuum_N - (sealed ? demand.pull_N : w[0]);
     load.shear_margin_N = limits.shear_N(pull_N) - demand.shear_N;

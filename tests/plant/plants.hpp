@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
+#include <string>
 
 #include "limpet/models/model_writer.hpp"
+#include "limpet/plant/engines.hpp"
 #include "limpet/plant/mujoco_plant.hpp"
 
 /// Vehicles and scenes that the plant's tests share.
@@ -27,6 +31,21 @@ inline models::Scene wall_ahead() {
 inline std::shared_ptr<const plant::MujocoModel> compile(
     const vehicle::Airframe& airframe, const models::Scene& scene = wall_ahead()) {
     return std::make_shared<const plant::MujocoModel>(write_mjcf(airframe, scene), airframe);
+}
+
+/// What is asked of every engine.
+class OfEveryEngine : public testing::TestWithParam<const plant::Engine*> {
+protected:
+    [[nodiscard]] static std::unique_ptr<plant::Plant> make(
+        const vehicle::Airframe& airframe = {}, const models::Scene& scene = wall_ahead()) {
+        return GetParam()->make(airframe, scene)->make();
+    }
+};
+inline std::string engine_name(const testing::TestParamInfo<const plant::Engine*>& engine) {
+    return std::string(engine.param->name);
+}
+inline auto each_engine() {
+    return testing::ValuesIn(plant::engines().begin(), plant::engines().end());
 }
 
 }  // namespace limpet::test

@@ -41,7 +41,7 @@ TEST_F(BadInput, NoPressureModel) {
 TEST_F(BadInput, NamesOfRegistries) {
     EXPECT_EQ(hover_error("simulation: {engine: mujocko}\n"),
               "x.yaml:3: simulation.engine: \"mujocko\": no such engine (did you mean mujoco?); "
-              "there is mujoco");
+              "there are reduced, mujoco");
     EXPECT_EQ(hover_error("wall: {surface: stone, shape: sphere}\n"),
               "x.yaml:3: wall.shape: \"sphere\": no such shape of a wall; there are plane, "
               "cylinder");

@@ -81,7 +81,7 @@ TEST(Catalogue, KnowsTheKeysThatTakeAName) {
         }
     }
     EXPECT_THAT(choices, ElementsAre("wall.shape: plane", "autopilot.kind: cascade",
-                                     "simulation.engine: mujoco"));
+                                     "simulation.engine: reduced"));
 }
 
 TEST(DataRoot, IsWhereTheEnvironmentSays) {

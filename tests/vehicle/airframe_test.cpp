@@ -7,6 +7,7 @@
 #include <set>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/vehicle/joint_law.hpp"
 #include "tests/core/whole_table.hpp"
 
 namespace limpet::vehicle {
@@ -79,20 +80,29 @@ TEST(Validate, NamesWhatIsWrong) {
                 ThrowsMessage<InputError>(HasSubstr("nan")));
 }
 
+double slider_N(double position_m, double velocity_m_s) {
+    return joint_force(slider_law(SliderParameters{}), position_m, velocity_m_s, 0.0, 1e-3).now;
+}
+
 TEST(SliderForce, SpringPreloadAndDamper) {
-    const SliderParameters slider;
-    EXPECT_DOUBLE_EQ(slider_force(slider, 0.0, 0.0).total_N(), 5.0);
-    EXPECT_DOUBLE_EQ(slider_force(slider, -0.05, -0.2).spring_N, 5.0 + 25.0 + 6.0);
-    EXPECT_DOUBLE_EQ(slider_force(slider, -0.05, -0.2).stop_N, 0.0);
+    EXPECT_DOUBLE_EQ(slider_N(0.0, 0.0), 5.0);
+    EXPECT_DOUBLE_EQ(slider_N(-0.05, -0.2), 5.0 + 25.0 + 6.0);
 }
 
 TEST(SliderForce, StopsPushBackAndNeverPull) {
-    const SliderParameters slider;
-    EXPECT_DOUBLE_EQ(slider_force(slider, 0.001, 0.0).stop_N, -20.0);
-    EXPECT_DOUBLE_EQ(slider_force(slider, 0.001, 0.1).stop_N, -30.0);
-    EXPECT_DOUBLE_EQ(slider_force(slider, 0.001, -1.0).stop_N, 0.0);
-    EXPECT_NEAR(slider_force(slider, -0.091, 0.0).stop_N, 20.0, 1e-9);
-    EXPECT_DOUBLE_EQ(slider_force(slider, -0.091, 1.0).stop_N, 0.0);
+    const double stop_N = 2e4 * 0.001;
+    EXPECT_DOUBLE_EQ(slider_N(0.001, 0.0), 5.0 - 0.5 - stop_N);
+    EXPECT_DOUBLE_EQ(slider_N(0.001, 0.1), 5.0 - 0.5 - 3.0 - stop_N - 10.0);
+    EXPECT_DOUBLE_EQ(slider_N(0.001, -1.0), 5.0 - 0.5 + 30.0);
+    EXPECT_NEAR(slider_N(-0.091, 0.0), 5.0 + 45.5 + stop_N, 1e-9);
+    EXPECT_DOUBLE_EQ(slider_N(-0.091, 1.0), 5.0 + 45.5 - 30.0);
+}
+
+TEST(HingeLaw, CentresAndEndsInABumper) {
+    const CupMountParameters mount;
+    const JointLaw hinge = hinge_law(mount);
+    EXPECT_DOUBLE_EQ(joint_force(hinge, 0.5, 0.0, 0.0, 1e-3).now, -0.15);
+    EXPECT_LT(joint_force(hinge, radians(mount.range_deg) + 0.01, 0.0, 0.0, 1e-3).now, -0.5);
 }
 
 template <class Struct>
