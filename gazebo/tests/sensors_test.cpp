@@ -212,18 +212,11 @@ TEST_F(GazeboSensorsTest, SayAtRealTimeWhatOursAreMadeOf) {
     };
     compare("IMU specific force", "m/s^2", said_imu, 0.02, 0.2, accelerometer);
 
-    // Gazebo's sensor tells what is put on the joint from outside, the stops here, and not the
-    // joint's own spring and damper; ours tells their sum.
+    // Gazebo's sensor tells what is put on the joint from outside: spring, damper and stops, all of
+    // which the plant works out.
     const auto slider = [this](const Said&, const Said& said) {
         const Truth* truth = truth_at(said.time_s);
-        if (truth == nullptr) {
-            return kNone;
-        }
-        const vehicle::SliderParameters& parameters = flight.scenario.airframe.slider;
-        const double spring_N = parameters.preload_N -
-                                parameters.stiffness_N_m * truth->slider.position_m -
-                                parameters.damping_N_s_m * truth->slider.velocity_m_s;
-        return said.value.x() - spring_N - truth->slider.force_N;
+        return truth == nullptr ? kNone : said.value.x() - truth->slider.force_N;
     };
     // Largest at the impact, whose edge is a step wide.
     compare("force through the slider", "N", said_force, 0.5, 20.0, slider);
