@@ -9,8 +9,8 @@ namespace limpet::simulation {
 namespace {
 
 Trace on(const plant::Engine& engine, const std::string& scenario) {
-    return trace(model_of(scenario, {"simulation.engine=" + std::string(engine.name),
-                                     "simulation.step_s=0.00025"}));
+    return trace(model_of(
+        scenario, {"simulation.engine=" + std::string(engine.name), "simulation.step_s=0.00025"}));
 }
 
 class EveryEngineFlies : public testing::TestWithParam<const char*> {};

@@ -80,6 +80,31 @@ TEST(Impact, PeakConvergesWithTheStep) {
     EXPECT_NE(coarse.cup_press_max_N, fine.cup_press_max_N);  // the step did change
 }
 
+/// The default step against one of 0.02 ms.
+TEST(Impact, PeaksAtTheDefaultStepAreTheConvergedOnes) {
+    for (const char* scenario : {"pendulum_concrete", "perch_concrete"}) {
+        const std::vector<std::string> until_held = {"simulation.time_limit_s=6"};
+        const Metrics coarse = trace(model_of(scenario, until_held)).result.metrics;
+        const Metrics fine = trace(model_of(scenario, {until_held[0], "simulation.step_s=0.0001",
+                                                       "simulation.touch_step_s=0.00002"}))
+                                 .result.metrics;
+        EXPECT_NEAR(coarse.cup_press_max_N, fine.cup_press_max_N, 0.01 * fine.cup_press_max_N);
+        EXPECT_NEAR(coarse.impact_force_N, fine.impact_force_N, 0.01 * fine.impact_force_N);
+    }
+}
+
+/// A slow press on a cup that hangs a little: its rim gives way first, and the shear has to turn
+/// with it. At 1 ms it ends as at 0.1 ms.
+TEST(Press, OfALipThatRocksDoesNotDependOnTheStep) {
+    const auto press_N = [](const char* step_s) {
+        return trace(model_of("press_metal", {"simulation.time_limit_s=3",
+                                              "simulation.step_s=" + std::string(step_s),
+                                              "simulation.touch_step_s=" + std::string(step_s)}))
+            .result.metrics.cup_press_max_N;
+    };
+    EXPECT_NEAR(press_N("0.001"), press_N("0.0001"), 0.01 * press_N("0.0001"));
+}
+
 TEST(SlowTouch, NoneOfTwoHundredSealsOnConcrete) {
     constexpr unsigned kTouches = 200;
     const unsigned workers = std::max(1U, std::thread::hardware_concurrency());

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "limpet/core/within_step.hpp"
+#include "limpet/suction/force_law.hpp"
+
+namespace limpet::suction {
+namespace {
+
+constexpr double kStrong_N = 300.0;  ///< a vacuum that no load here exceeds
+
+/// A free mass on the cup: it turns about the lip's centre.
+CupResponse of_a_mass(double mass_kg, double inertia_kg_m2, double step_s) {
+    CupResponse response{.step_s = step_s};
+    response.mobility.diagonal() << Eigen::Vector3d::Constant(step_s / mass_kg),
+        Eigen::Vector3d::Constant(step_s / inertia_kg_m2);
+    return response;
+}
+
+LipMotion pressed(double depth_m) {
+    return {.gap_m = -depth_m,
+            .y_m = 2e-4,
+            .z_m = -1e-4,
+            .rotation_rad = {0.01, 0.02, -0.01},
+            .faces_wall = true};
+}
+
+TEST(LipWithinTheStep, WithoutAnAnswerTheLipIsAsItStands) {
+    Anchor anchor;
+    const LipLoad load = lip_load({}, pressed(1e-3), anchor, 0.8, kStrong_N, true);
+    EXPECT_DOUBLE_EQ(load.wrench_T.force_N.x(), -20.0);
+    EXPECT_DOUBLE_EQ(load.wrench_T.force_N.y(), -4.0);
+    EXPECT_DOUBLE_EQ(load.wrench_T.moment_N_m.y(), -0.4);
+}
+
+/// Six oscillators that know nothing of each other: each is the scalar rule.
+TEST(LipWithinTheStep, OfAFreeMassIsTheScalarRuleSixTimes) {
+    const LipParameters lip;
+    Anchor anchor;
+    const CupResponse response = of_a_mass(0.2, 6e-5, 1e-3);
+    const LipLoad load = lip_load(lip, pressed(1e-3), anchor, 0.8, kStrong_N, true, response);
+    const auto rule = [&](double spring, double k, double c, double mobility) {
+        const StepForce<double> force = within_step(spring, k, c, 0.0, mobility, 1e-3);
+        return force.now / (1.0 + force.gain * mobility);
+    };
+    EXPECT_NEAR(load.wrench_T.force_N.x(), rule(-20.0, 2e4, 60.0, 1e-3 / 0.2), 1e-12);
+    EXPECT_NEAR(load.wrench_T.force_N.z(), rule(2.0, 2e4, 60.0, 1e-3 / 0.2), 1e-12);
+    EXPECT_NEAR(load.wrench_T.moment_N_m.x(), rule(-0.2, 20.0, 0.2, 1e-3 / 6e-5), 1e-12);
+    EXPECT_NEAR(load.wrench_T.moment_N_m.z(), rule(0.2, 20.0, 0.02, 1e-3 / 6e-5), 1e-12);
+}
+
+/// Coupled by a lever: the answer is that of the six equations, and pulled on it is what pulls.
+TEST(LipWithinTheStep, HoldsWhatPullsAtItThroughALever) {
+    Anchor anchor;
+    CupResponse response = of_a_mass(0.2, 6e-5, 1e-3);
+    response.mobility(1, 5) = response.mobility(5, 1) = 0.04 * response.mobility(5, 5);
+    response.mobility(1, 1) += 0.04 * 0.04 * response.mobility(5, 5);
+    response.drift << 0.02, -0.01, 0.03, 0.1, -0.2, 0.3;
+    LipMotion motion = pressed(1e-3);
+    const LipLoad load = lip_load({}, motion, anchor, 0.8, kStrong_N, true, response);
+    EXPECT_EQ(load.let_go, LetGo::no);
+    Vector6 w;
+    w << load.wrench_T.force_N, load.wrench_T.moment_N_m;
+    const Vector6 change = response.drift + response.mobility * w;
+    const LipParameters lip;
+    const double shear_mobility = response.mobility(1, 1);
+    const StepForce<double> shear = within_step(-4.0, lip.shear_stiffness_N_m,
+                                                lip.shear_damping_N_s_m, 0.0, shear_mobility, 1e-3);
+    EXPECT_NEAR(w[1], shear.now - shear.gain * change[1], 1e-9);
+}
+
+/// An open lip that is tilted far more than its rim can hold: with the rim given way, friction is
+/// within its limit and against the motion that is left.
+TEST(LipWithinTheStep, WhereTheRimGivesWayTheFrictionTurns) {
+    Anchor anchor;
+    CupResponse response = of_a_mass(0.2, 6e-5, 1e-3);
+    for (const auto& [shear, tilt, sign] : {std::tuple{2, 4, -1.0}, std::tuple{1, 5, 1.0}}) {
+        response.mobility(shear, tilt) = response.mobility(tilt, shear) =
+            sign * 0.04 * response.mobility(tilt, tilt);
+        response.mobility(shear, shear) += 0.04 * 0.04 * response.mobility(tilt, tilt);
+    }
+    LipMotion motion{.gap_m = -1e-4, .rotation_rad = {0.0, -0.2, 0.0}, .faces_wall = true};
+    motion.z_rate_m_s = 0.05;  // it slides down
+    const LipLoad load = lip_load({}, motion, anchor, 0.6, 0.0, false, response);
+    EXPECT_LT(load.peel_margin_N, 0.0);
+    EXPECT_LT(load.wrench_T.force_N.z(), 0.0);
+    const double push_N = -load.wrench_T.force_N.x();
+    EXPECT_LE(std::hypot(load.wrench_T.force_N.y(), load.wrench_T.force_N.z()),
+              0.6 * push_N * (1.0 + 1e-9));
+    EXPECT_NEAR(std::hypot(load.wrench_T.moment_N_m.y(), load.wrench_T.moment_N_m.z()),
+                push_N * 0.02, 1e-9);
+}
+
+}  // namespace
+}  // namespace limpet::suction
