@@ -36,6 +36,7 @@ constexpr std::string_view kShownFigures[] = {
     "pressure_min_Pa",
     "release_s",
     "pitch_oscillation_max_deg",
+    "energy_flying_Wh",
     "rest_pitch_deg",
     "rest_roll_deg",
     "rest_cup_pull_N",
