@@ -21,7 +21,7 @@ inline constexpr double kTick_s = 1.0 / static_cast<double>(kTicksPerSecond);
 /// @param tick     base tick, >= 0
 /// @param rate_Hz  1..kTicksPerSecond
 [[nodiscard]] constexpr bool due(Tick tick, int rate_Hz) {
-    return tick == 0 || tick * rate_Hz / kTicksPerSecond != (tick - 1) * rate_Hz / kTicksPerSecond;
+    return tick * rate_Hz % kTicksPerSecond < rate_Hz;
 }
 
 }  // namespace limpet

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "limpet/core/frames.hpp"
+#include "limpet/core/unrolled.hpp"
 #include "limpet/core/within_step.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
@@ -54,19 +54,6 @@ struct MechanismState {
     std::array<T, kJoints> joint{};       ///< [m, rad, rad]
     std::array<T, kJoints> joint_rate{};  ///< [m/s, rad/s, rad/s]
 };
-
-/// Calls each(0), each(1), ... with constants, so that all that depends on them is worked out by
-/// the compiler and the loop is gone: the plant's small matrices are half of a flight's
-/// instructions.
-template <class Each, int... kAt>
-[[gnu::always_inline]] constexpr void unrolled(std::integer_sequence<int, kAt...> /*at*/,
-                                               Each&& each) {
-    (each(std::integral_constant<int, kAt>{}), ...);
-}
-template <int kEnd, class Each>
-[[gnu::always_inline]] constexpr void unrolled(Each&& each) {
-    unrolled(std::make_integer_sequence<int, kEnd>{}, each);
-}
 
 /// Six numbers side by side: a row of what six unit wrenches do.
 template <class T>
@@ -120,9 +107,11 @@ struct SpeedFactors : SpeedMatrix<T> {
     template <class Rows>
     void forward(Rows& x) const {
         unrolled<kFreedoms>([&](auto i) [[gnu::always_inline]] {
+            auto row = x[i.value];
             unrolled<i.value>([&](auto j) [[gnu::always_inline]] {
-                x[i.value] -= (*this)(i.value, j.value) * x[j.value];
+                row -= (*this)(i.value, j.value) * x[j.value];
             });
+            x[i.value] = row;
         });
     }
     /// x -> L'^-1 D^-1 x, after forward(): the solution.

@@ -118,26 +118,36 @@ public:
         Six<T> drift, press;
         drift.set(step_s_ * (R_TB * at_.lip_drift_B_m_s2),
                   step_s_ * (R_TB * at_.cup_drift_B_rad_s2));
-        std::array<Six<T>, 6> mobility{};
         T slider_change(0.0);
+        std::array<Six<T>, kFreedoms> scaled;
         unrolled<kFreedoms>([&](auto k) [[gnu::always_inline]] {
-            const Six<T> scaled = factors_(k.value, k.value) * rows[k.value];
-            drift += free[k.value] * scaled;
-            unrolled<6>([&](auto j) [[gnu::always_inline]] {
-                mobility[j.value] += rows[k.value].at[j.value] * scaled;
-            });
+            const T weight = factors_(k.value, k.value);
+            drift += weight * free[k.value] * rows[k.value];
+            scaled[k.value] = weight * step_s_ * rows[k.value];
             if constexpr (k.value >= kFirstJoint) {
-                press += slider[k.value] * scaled;
-                slider_change += slider[k.value] * factors_(k.value, k.value) * free[k.value];
+                press += weight * slider[k.value] * rows[k.value];
+                slider_change += slider[k.value] * weight * free[k.value];
             }
+        });
+        // Symmetric: each column from its diagonal's pair on, two at a time.
+        unrolled<6>([&](auto j) [[gnu::always_inline]] {
+            constexpr int kFrom = j.value / 2 * 2;
+            std::array<T, 6 - kFrom> column{};
+            unrolled<kFreedoms>([&](auto k) [[gnu::always_inline]] {
+                for (std::size_t i = 0; i < column.size(); ++i) {
+                    column[i] += rows[k.value].at[j.value] * scaled[k.value].at[kFrom + i];
+                }
+            });
+            unrolled<6 - j.value>([&](auto below) [[gnu::always_inline]] {
+                constexpr int kRow = j.value + below.value;
+                response.mobility(kRow, j.value) = response.mobility(j.value, kRow) =
+                    column[kRow - kFrom];
+            });
         });
         for (int i = 0; i < 6; ++i) {
             const auto at = static_cast<std::size_t>(i);
             response.drift[i] = drift.at[at];
             response.press_per_wrench[i] = -joints_[0].gain * step_s_ * press.at[at];
-            for (int j = 0; j < 6; ++j) {
-                response.mobility(i, j) = step_s_ * mobility[at].at[static_cast<std::size_t>(j)];
-            }
         }
         response.press_N = joints_[0].now - joints_[0].gain * slider_change;
         return response;

@@ -2,82 +2,102 @@
 #include "limpet/suction/force_law.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/unrolled.hpp"
 #include "limpet/core/within_step.hpp"
 
 namespace limpet::suction {
 namespace {
 
-/// The six springs and dampers between lip and wall as they stand: x, y, z, twist, tilt about y and
-/// z.
-struct LipSprings {
-    Vector6 spring = Vector6::Zero();  ///< [N, N m]
-    Vector6 stiffness = Vector6::Zero();
-    Vector6 damping = Vector6::Zero();
-    Vector6 rate = Vector6::Zero();
+/// One of the six springs and dampers between lip and wall as it stands: x, y, z, twist, tilt about
+/// y and z.
+struct LipSpring {
+    double spring, stiffness, damping, rate;  ///< [N, N/m, N s/m, m/s; N m, ...]
 };
 
-LipSprings springs_of(const LipParameters& lip, const LipMotion& motion, const Anchor& anchor,
-                      bool sealed) {
-    LipSprings s;
+std::array<LipSpring, 6> springs_of(const LipParameters& lip, const LipMotion& motion,
+                                    const Anchor& anchor, bool sealed) {
     const double depth_m = -motion.gap_m;
     const double beyond_m = std::max(0.0, depth_m - lip.hard_depth_m);
     // A free lip meets the wall edge first: its damping grows with the area in contact.
     const double contact = sealed ? 1.0 : std::clamp(depth_m / lip.damping_depth_m, 0.0, 1.0);
     const double push_N =
         lip.stiffness_N_m * (depth_m - beyond_m) + lip.hard_stiffness_N_m * beyond_m;
-    const double shear = lip.shear_stiffness_N_m;
-    const double tilt = lip.tilt_stiffness_N_m_rad;
-    const double twist = lip.twist_stiffness_N_m_rad;
-    const Vector3& turned_rad = motion.rotation_rad;
-    s.spring << -push_N, -shear * (motion.y_m - anchor.y_m), -shear * (motion.z_m - anchor.z_m),
-        -twist * (turned_rad.x() - anchor.twist_rad), -tilt * turned_rad.y(),
-        -tilt * turned_rad.z();
-    s.stiffness << (beyond_m > 0.0 ? lip.hard_stiffness_N_m : lip.stiffness_N_m), shear, shear,
-        twist, tilt, tilt;
-    s.damping << lip.damping_N_s_m * contact, lip.shear_damping_N_s_m, lip.shear_damping_N_s_m,
-        lip.twist_damping_N_m_s_rad, lip.tilt_damping_N_m_s_rad, lip.tilt_damping_N_m_s_rad;
-    s.rate << -motion.gap_rate_m_s, motion.y_rate_m_s, motion.z_rate_m_s, motion.rate_rad_s;
-    return s;
+    const auto shear = [&lip](double stretch_m, double rate_m_s) -> LipSpring {
+        return {-lip.shear_stiffness_N_m * stretch_m, lip.shear_stiffness_N_m,
+                lip.shear_damping_N_s_m, rate_m_s};
+    };
+    const auto tilt = [&](int axis) -> LipSpring {
+        return {-lip.tilt_stiffness_N_m_rad * motion.rotation_rad[axis], lip.tilt_stiffness_N_m_rad,
+                lip.tilt_damping_N_m_s_rad, motion.rate_rad_s[axis]};
+    };
+    const double twist_rad = motion.rotation_rad.x() - anchor.twist_rad;
+    return {LipSpring{-push_N, beyond_m > 0.0 ? lip.hard_stiffness_N_m : lip.stiffness_N_m,
+                      lip.damping_N_s_m * contact, -motion.gap_rate_m_s},
+            shear(motion.y_m - anchor.y_m, motion.y_rate_m_s),
+            shear(motion.z_m - anchor.z_m, motion.z_rate_m_s),
+            LipSpring{-lip.twist_stiffness_N_m_rad * twist_rad, lip.twist_stiffness_N_m_rad,
+                      lip.twist_damping_N_m_s_rad, motion.rate_rad_s.x()},
+            tilt(1),
+            tilt(2)};
 }
 
 /// The springs' mean wrench over a step together with what hangs on the cup:
 /// w = now - G (drift + A w).
 class LipStep {
 public:
-    LipStep(const LipSprings& springs, const CupResponse& response) : response_(response) {
+    LipStep(const std::array<LipSpring, 6>& springs, const CupResponse& response)
+        : response_(response) {
         for (int i = 0; i < 6; ++i) {
+            const LipSpring& one = springs[static_cast<std::size_t>(i)];
             const StepForce<double> force =
-                within_step<double>(springs.spring[i], springs.stiffness[i], springs.damping[i],
-                                    springs.rate[i], response.mobility(i, i), response.step_s);
+                within_step<double>(one.spring, one.stiffness, one.damping, one.rate,
+                                    response.mobility(i, i), response.step_s);
             now_[i] = force.now;
             gain_[i] = force.gain;
         }
     }
     /// All hold. I + G A has only positive principal minors: no pivoting.
     [[nodiscard]] Vector6 solve() const {
-        Matrix6 matrix = gain_.asDiagonal() * response_.mobility;
-        matrix.diagonal().array() += 1.0;
-        Vector6 w = now_ - gain_.cwiseProduct(response_.drift);
-        for (int k = 0; k < 6; ++k) {
-            const double inverse = 1.0 / matrix(k, k);
-            for (int i = k + 1; i < 6; ++i) {
-                const double share = matrix(i, k) * inverse;
-                for (int j = k + 1; j < 6; ++j) {
-                    matrix(i, j) -= share * matrix(k, j);
-                }
-                w[i] -= share * w[k];
+        std::array<std::array<double, 6>, 6> matrix;
+        std::array<double, 6> w;
+        const double* const mobility = response_.mobility.data();
+        unrolled<6>([&](auto i) [[gnu::always_inline]] {
+            const double gain = gain_[i.value];
+            for (std::size_t j = 0; j < 6; ++j) {
+                matrix[i.value][j] = gain * mobility[6 * i.value + j];  // which is symmetric
             }
-        }
-        for (int k = 5; k >= 0; --k) {
-            for (int j = k + 1; j < 6; ++j) {
-                w[k] -= matrix(k, j) * w[j];
-            }
-            w[k] /= matrix(k, k);
-        }
-        return w;
+            matrix[i.value][i.value] += 1.0;
+            w[i.value] = now_[i.value] - gain * response_.drift[i.value];
+        });
+        unrolled<6>([&](auto k) [[gnu::always_inline]] {
+            constexpr int kRow = k.value;
+            const double inverse = 1.0 / matrix[kRow][kRow];
+            matrix[kRow][kRow] = inverse;
+            unrolled<5 - kRow>([&](auto below) [[gnu::always_inline]] {
+                constexpr int kBelow = kRow + 1 + below.value;
+                const double share = matrix[kBelow][kRow] * inverse;
+                unrolled<5 - kRow>([&](auto right) [[gnu::always_inline]] {
+                    constexpr int kRight = kRow + 1 + right.value;
+                    matrix[kBelow][kRight] -= share * matrix[kRow][kRight];
+                });
+                w[kBelow] -= share * w[kRow];
+            });
+        });
+        Vector6 solved;
+        unrolled<6>([&](auto up) [[gnu::always_inline]] {
+            constexpr int kRow = 5 - up.value;
+            double sum = w[kRow];
+            unrolled<up.value>([&](auto right) [[gnu::always_inline]] {
+                constexpr int kRight = kRow + 1 + right.value;
+                sum -= matrix[kRow][kRight] * w[kRight];
+            });
+            solved[kRow] = w[kRow] = sum * matrix[kRow][kRow];
+        });
+        return solved;
     }
     /// Where the others are at w, this one would be here.
     [[nodiscard]] double alone(int i, const Vector6& w) const {

@@ -25,11 +25,15 @@ TEST_P(GoldenHash, TheFlightIsTheSameBitForBit) {
 
 // Of Debian 12's compiler and mathematical library on x86-64 (docs/decisions/0006-determinism.md).
 INSTANTIATE_TEST_SUITE_P(Shipped, GoldenHash,
-                         testing::Values(Golden{"hover", {}, 0xd9834ed888a7fd6c},
-                                         Golden{"perch_concrete", {}, 0xaff5c0a9f137aa37},
-                                         Golden{"perch_metal_valve", {}, 0x96e2650e84e52e90},
-                                         Golden{"failed_perch", {}, 0xcaa499ed5d71de32},
-                                         Golden{"pendulum_concrete", {}, 0x88c967b97a883f60}),
+                         testing::Values(Golden{"hover", {}, 0x056882120b6521b4},
+                                         Golden{"perch_concrete", {}, 0xebab8e194d3a39f6},
+                                         Golden{"perch_metal_valve", {}, 0x2380790e9e92da53},
+                                         Golden{"failed_perch", {}, 0x16318389ed22e893},
+                                         Golden{"pendulum_concrete", {}, 0xb2037c25521dc880}),
+                         [](const auto& row) { return std::string(row.param.scenario); });
+INSTANTIATE_TEST_SUITE_P(OnMujoco, GoldenHash,
+                         testing::Values(Golden{
+                             "perch_concrete", {"simulation.engine=mujoco"}, 0xc6c6bbe3942d0b17}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 
 }  // namespace
