@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a whole perch_concrete flight costs: the bare physics, the loop around it, the recording of
-// it, and the loop on MuJoCo. Runs them interleaved and prints medians and their ratios; instructions,
-// station by station, are bench/instructions'.
+// it, and the loop on MuJoCo. Runs them interleaved and prints medians and their ratios;
+// instructions, station by station, are bench/instructions'.
 //   build/release/bench/flight_bench
 //   build/release/bench/flight_bench --benchmark_repetitions=21
 

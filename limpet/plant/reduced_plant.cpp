@@ -152,8 +152,8 @@ bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
     const double asked_N = std::hypot(y_N, z_N);
     const double limit_N = model_->friction_ * push_N;
     // One that slides presses as it slides, not as it did while it was taken to stick.
-    const bool settled = touch.slides ? std::abs(asked_N - limit_N) <= kSettled * limit_N
-                                      : asked_N <= limit_N;
+    const bool settled =
+        touch.slides ? std::abs(asked_N - limit_N) <= kSettled * limit_N : asked_N <= limit_N;
     if (settled || asked_N == 0.0) {
         return false;
     }

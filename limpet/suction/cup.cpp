@@ -149,12 +149,12 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
                 const Kinematics& cup, const CupInput& input) {
     LipNow lip{.motion = lip_motion(model.wall, cup), .load = {}, .contact = {}};
     const LipMotion& motion = lip.motion;
-    // A lip meets the wall from before it: one that folded away inside is met by nothing when it turns
-    // back, or its springs would begin with what they never took up.
+    // A lip meets the wall from before it: one that folded away inside is met by nothing when it
+    // turns back, or its springs would begin with what they never took up.
     constexpr double kDeepestMeeting_m = 0.01;  // of 10 m/s in a step
     const bool free = state.status.phase == CupPhase::free;
-    const bool touches = motion.faces_wall && motion.gap_m <= 0.0 &&
-                         (!free || motion.gap_m > -kDeepestMeeting_m);
+    const bool touches =
+        motion.faces_wall && motion.gap_m <= 0.0 && (!free || motion.gap_m > -kDeepestMeeting_m);
     if (free && touches) {
         state.anchor = {.y_m = motion.y_m, .z_m = motion.z_m, .twist_rad = motion.rotation_rad.x()};
     }
