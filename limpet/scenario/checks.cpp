@@ -79,6 +79,53 @@ void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
     }
 }
 
+/// Longest step in which a spring and damper taken as they stand do not ring: h^2 k / m + 2 h c / m
+/// = 4.
+double longest_step_s(double k, double c, double m) {
+    return (std::sqrt(c * c + 4.0 * k * m) - c) / k;
+}
+
+/// Ropes and clamp act as they stand at a step's beginning, on the base; all else acts within the
+/// step.
+void check_mount(const Scenario& scenario, const YamlNode& root) {
+    if (scenario.mount == vehicle::Mount::free) {
+        return;
+    }
+    const vehicle::BodyInertia base = base_inertia(scenario.airframe);
+    const vehicle::Airframe& airframe = scenario.airframe;
+    double longest_s = 0.0;
+    if (scenario.mount == vehicle::Mount::press_rig) {
+        const vehicle::Clamp held = clamp(scenario.press_rig, airframe);
+        longest_s = longest_step_s(held.stiffness_N_m, held.damping_N_s_m, base.mass_kg);
+        for (int axis = 0; axis < 3; ++axis) {
+            longest_s = std::min(longest_s, longest_step_s(held.turn_stiffness_N_m_rad,
+                                                           held.turn_damping_N_m_s_rad[axis],
+                                                           base.inertia_kg_m2(axis, axis)));
+        }
+    } else {
+        const vehicle::Pendulum ropes =
+            hang(scenario.pendulum, airframe, Vector3::Zero(), Quaternion::Identity());
+        longest_s = longest_step_s(kRotors * ropes.stiffness_N_m, kRotors * ropes.damping_N_s_m,
+                                   base.mass_kg);
+        for (const int axis : {0, 1}) {  // rolls and pitches on its hooks
+            double arms_m2 = 0.0;
+            for (const Vector3& hook_m : ropes.hook_B_m) {
+                arms_m2 += hook_m[1 - axis] * hook_m[1 - axis];
+            }
+            longest_s = std::min(longest_s, longest_step_s(arms_m2 * ropes.stiffness_N_m,
+                                                           arms_m2 * ropes.damping_N_s_m,
+                                                           base.inertia_kg_m2(axis, axis)));
+        }
+    }
+    if (scenario.simulation.step_s > longest_s) {
+        fail_at(root, "simulation.step_s",
+                fmt::format(
+                    "{} s is unstable for this vehicle on mount {}, allowed up to {:.2g} s; or "
+                    "a softer mount",
+                    number_text(scenario.simulation.step_s), to_string(scenario.mount), longest_s));
+    }
+}
+
 /// A vehicle may be such that what follows from it is out of range: too heavy to hover.
 void check_derived(const Scenario& scenario, const std::vector<Section>& sections,
                    const YamlNode& root) {
@@ -112,6 +159,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_mission(scenario, root);
     check_environment(scenario.environment, root);
     check_steps(scenario.simulation, root);
+    check_mount(scenario, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,
                 "detach_pressure_Pa", scenario.guidance.detach_pressure_Pa);
     check_order(root, "sensors", "lidar_range_min_m", scenario.sensors.lidar_range_min_m,

@@ -186,6 +186,22 @@ TEST_F(BadInput, StepsThatDoNotDivide) {
     EXPECT_EQ(hover_error("simulation: {step_s: 0.0005, touch_step_s: 0.000125}\n"), "");
 }
 
+/// Of all springs the mounts' alone act as they stand: too stiff for a light vehicle they are
+/// refused.
+TEST_F(BadInput, AMountThatTheStepCannotHold) {
+    const auto error = [](std::vector<std::string> overrides) {
+        overrides.insert(overrides.end(), {"vehicle.mass_kg=0.5", "press_rig.stiffness_N_m=200000",
+                                           "press_rig.damping=2"});
+        return error_of([&] {
+            return load_scenario("press_concrete",
+                                 {.overrides = overrides, .data_root = LIMPET_SOURCE_DIR});
+        });
+    };
+    EXPECT_THAT(error({}), testing::HasSubstr("simulation.step_s: 0.001 s is unstable for this "
+                                              "vehicle on mount press_rig, allowed up to 0.000"));
+    EXPECT_EQ(error({"simulation.step_s=0.00025"}), "");
+}
+
 TEST_F(BadInput, SwitchesAndCounts) {
     const std::string valve = "x.yaml:3: suction.valve_fitted: must be true or false, is ";
     EXPECT_EQ(hover_error("suction: {valve_fitted: 0.5}\n"), valve + "\"0.5\"");
