@@ -16,21 +16,9 @@ vehicle::BodyInertia share_of(vehicle::BodyInertia body, double share) {
     return body;
 }
 
-Joint joint(std::string_view name, Joint::Kind kind, const Vector3& axis,
-            const vehicle::JointLaw& law) {
-    return {.name = name,
-            .kind = kind,
-            .axis = axis,
-            .lower = law.lower,
-            .upper = law.upper,
-            .stiffness = law.stiffness,
-            .damping = law.damping,
-            .rest = law.rest};
-}
-
 /// Positive as the vehicle's angles are: pitch up, yaw right.
 Joint hinge(const vehicle::Airframe& airframe, std::string_view name, const Vector3& axis) {
-    return joint(name, Joint::Kind::revolute, axis, hinge_law(airframe.cup));
+    return {.name = name, .axis = axis, .law = hinge_law(airframe.cup)};
 }
 
 }  // namespace
@@ -50,8 +38,10 @@ std::vector<Link> make_links(const vehicle::Airframe& airframe) {
                      .p_BF_m = joint_B_m,
                      .inertia = carriage_inertia(airframe),
                      .parent = "base",
-                     .joint = joint("slider", Joint::Kind::prismatic, Vector3::UnitX(),
-                                    slider_law(airframe.slider))});
+                     .joint = Joint{.name = "slider",
+                                    .kind = Joint::Kind::prismatic,
+                                    .axis = Vector3::UnitX(),
+                                    .law = slider_law(airframe.slider)}});
     links.push_back({.name = "cup_yoke",
                      .p_BF_m = joint_B_m,
                      .inertia = share_of(cup, kYokeShare),

@@ -19,11 +19,7 @@ struct Joint {
     std::string_view name;
     Kind kind = Kind::revolute;
     Vector3 axis = Vector3::UnitX();  ///< forward-right-down
-    double lower = 0.0;               ///< [m or rad]
-    double upper = 0.0;
-    double stiffness = 0.0;  ///< [N/m or N m/rad]
-    double damping = 0.0;    ///< [N s/m or N m s/rad]
-    double rest = 0.0;       ///< where the spring is slack: force = stiffness (rest - q)
+    vehicle::JointLaw law;            ///< formats know no stops, a joint ends at lower and upper
 };
 
 /// A rigid body of a format that allows one degree of freedom a joint.

@@ -163,8 +163,8 @@ void write_parts(pugi::xml_node body, const std::vector<Part>& parts) {
 void write_joint(pugi::xml_node body, const Joint& joint) {
     add(body, "joint", "name", joint.name, "type",
         joint.kind == Joint::Kind::prismatic ? "slide" : "hinge", "axis", flu(joint.axis),
-        "stiffness", joint.stiffness, "springref", joint.rest, "damping", joint.damping, "limited",
-        "true", "range", text(joint.lower, joint.upper));
+        "stiffness", joint.law.stiffness, "springref", joint.law.rest, "damping", joint.law.damping,
+        "limited", "true", "range", text(joint.law.lower, joint.law.upper));
 }
 
 /// Carriage and cup. The yoke is no body of its own here: both hinges are the cup's.

@@ -49,9 +49,9 @@ void write_joint(pugi::xml_node model, const vehicle::Airframe& airframe, const 
     add_text(joint, "parent", called(airframe, link.parent), "child", called(airframe, link.name));
     auto axis = add(joint, "axis");
     add_text(axis, "xyz", flu(spec.axis));
-    add_text(add(axis, "limit"), "lower", spec.lower, "upper", spec.upper);
-    add_text(add(axis, "dynamics"), "damping", spec.damping, "spring_reference", spec.rest,
-             "spring_stiffness", spec.stiffness);
+    add_text(add(axis, "limit"), "lower", spec.law.lower, "upper", spec.law.upper);
+    add_text(add(axis, "dynamics"), "damping", spec.law.damping, "spring_reference", spec.law.rest,
+             "spring_stiffness", spec.law.stiffness);
     if (spec.kind == Joint::Kind::revolute) {
         // The cup is light: taken explicitly, lip and hinge dampers together shake it off at 1 ms.
         auto ode = add(add(joint, "physics"), "ode");

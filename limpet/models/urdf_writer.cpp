@@ -60,9 +60,9 @@ void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const 
     add(joint, "child", "link", called(airframe, link.name));
     write_origin(joint, link.p_BF_m - p_parent_B_m);
     add(joint, "axis", "xyz", flu(spec.axis));
-    add(joint, "limit", "lower", spec.lower, "upper", spec.upper, "effort", kUnlimited, "velocity",
-        kUnlimited);
-    add(joint, "dynamics", "damping", spec.damping, "friction", "0");
+    add(joint, "limit", "lower", spec.law.lower, "upper", spec.law.upper, "effort", kUnlimited,
+        "velocity", kUnlimited);
+    add(joint, "dynamics", "damping", spec.law.damping, "friction", "0");
 }
 
 }  // namespace

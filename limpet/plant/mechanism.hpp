@@ -17,7 +17,8 @@
 // Nine speeds: that of B's origin and the angular velocity, both in B, then slider, pitch, yaw.
 //   M dv/dt = f,  M the mass matrix, f gravity and what follows from the speeds.
 // The first three accelerations are those of B's origin as seen from W, in the axes of B.
-// Source: any book on rigid-body dynamics; checked against MuJoCo's to 1e-10 (tests/plant).
+// Source: Featherstone, "Rigid Body Dynamics Algorithms", 2008, chapters 3 and 6; checked against
+// MuJoCo's to 1e-10 (tests/plant).
 namespace limpet::plant {
 
 inline constexpr int kFreedoms = 9;

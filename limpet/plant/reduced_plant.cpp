@@ -110,7 +110,6 @@ void ReducedPlant::find_touches(double step_s) {
                 contact = {};
                 continue;
             }
-            contact.touches = true;
             Touch& touch = touches_[touching_++];
             touch.contact = &contact;
             touch.spot = spot;
@@ -194,7 +193,10 @@ void ReducedPlant::take_contacts(const Speeds<double>& change, double step_s) {
         }
         state_.contact_force_W_N += touch.spot.R_WT * force_T_N;
         TipContact& contact = *touch.contact;
-        if (touch.slides) {
+        const bool lifted = touch.spring[0].gain == 0.0;
+        if (lifted) {
+            contact = {};
+        } else if (touch.slides) {
             contact.stretch_y_m = -force_T_N.y() / kTipStiffness_N_m;
             contact.stretch_z_m = -force_T_N.z() / kTipStiffness_N_m;
         } else {

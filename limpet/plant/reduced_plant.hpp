@@ -38,7 +38,6 @@ private:
 /// A leg's tip on a face: a spring and damper across it, and one along it that is slack where the
 /// tip touched. It sticks; beyond Coulomb's limit it slides.
 struct TipContact {
-    bool touches = false;
     double stretch_y_m = 0.0;  ///< of the spring along the face, axes of T
     double stretch_z_m = 0.0;
 };

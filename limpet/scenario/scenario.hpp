@@ -42,7 +42,7 @@ struct SimulationParameters {
     double start_offset_m = 0.10;    ///< sideways, east of a wall to the north
     double start_yaw_deg = 6.0;      ///< off the wall's normal
     double start_height_m = 1.5;     ///< above the ground
-    double contact_range_m = 0.25;   ///< legs closer to the wall than this: engine contacts on
+    double contact_range_m = 0.25;   ///< legs closer to wall or ground: engine contacts on
     double touch_range_m = 0.02;     ///< lip closer than this and closing: sub-steps on
     double touch_transient_s = 0.3;  ///< sub-steps for so long after a touch or a release
     double step_s = 1e-3;            ///< plant step in free flight and while hanging

@@ -85,15 +85,18 @@ Totals drift(double step_s) {
     return after;
 }
 
+/// Semi-implicit Euler errs in proportion to the step; what twice the finer step's drift leaves of
+/// the coarser's is the bodies' own.
 TEST(ReducedPlant, ATumbleWithItsJointsInMotionKeepsEnergyAndMomentum) {
-    const Totals coarse = drift(1e-3);
-    const Totals fine = drift(2.5e-5);
-    const double angular = 0.14 * 2.0;  // what turns at the start, roughly
-    EXPECT_LT(fine.momentum_N_s.norm(), 2e-3);
-    EXPECT_LT(fine.angular_N_m_s.norm(), 5e-3 * angular);
-    EXPECT_LT(std::abs(fine.energy_J), 0.01);
-    // Of first order: what is left is the step's.
-    EXPECT_NEAR(coarse.angular_N_m_s.norm() / fine.angular_N_m_s.norm(), 40.0, 8.0);
+    const Totals coarse = drift(1e-4);
+    const Totals fine = drift(5e-5);
+    const double angular_N_m_s =
+        Vector3(0.05 * 1.5, 0.10 * 1.0, 0.14 * 2.0).norm();  // at the start
+    const double momentum_N_s = 3.2 * Vector3(1.0, 2.0, 3.0).norm();
+    EXPECT_NEAR(coarse.angular_N_m_s.norm() / fine.angular_N_m_s.norm(), 2.0, 0.02);
+    EXPECT_LT((2.0 * fine.angular_N_m_s - coarse.angular_N_m_s).norm(), 1e-6 * angular_N_m_s);
+    EXPECT_LT((2.0 * fine.momentum_N_s - coarse.momentum_N_s).norm(), 1e-6 * momentum_N_s);
+    EXPECT_LT(std::abs(2.0 * fine.energy_J - coarse.energy_J), 1e-4);
 }
 
 /// Hangs from its lip by a stiff ball joint and swings as one body would whose joints are locked:

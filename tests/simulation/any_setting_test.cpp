@@ -129,8 +129,8 @@ TEST(AnySetting, AFlightEndsAsAtAnEighthOfTheStep) {
 }
 
 /// Springs and dampers of lip, slider and joint over all that is allowed, from one end to the
-/// other: a swing into the wall gains no speed from them. A tenth is left for the law itself, whose
-/// tilt and twist are not quite of one potential: at a 25th of the step it is the same.
+/// other: a swing into the wall gains no speed from them, beyond what the law itself gives, whose
+/// tilt and twist are not quite of one potential: 1.16 times at a 25th of the step.
 TEST(AnySetting, NoSpringOrDamperIsUnstable) {
     constexpr std::uint32_t kDraws = 200;
     for (std::uint32_t run = 0; run < kDraws; ++run) {
