@@ -28,9 +28,8 @@ public:
         next_.applied.push_back({body, wrench_W, p_W_m});
         plant_.apply(body, wrench_W, p_W_m);
     }
-    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT,
-                                           const plant::StepMode& mode) override {
-        return plant_.cup_response(R_WT, mode);
+    [[nodiscard]] CupBearer* bear_cup(const plant::StepMode& mode) override {
+        return plant_.bear_cup(mode);
     }
     void step(const plant::StepMode& mode) override {
         next_.mode = mode;

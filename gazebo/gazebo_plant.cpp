@@ -70,10 +70,9 @@ void GazeboPlant::start_twin() {
     push(twin_, plant::Body::base, contacts_W(), base.p_WF_m);
 }
 
-CupResponse GazeboPlant::cup_response(const Matrix3& R_WT, const plant::StepMode& mode) {
+CupBearer* GazeboPlant::bear_cup(const plant::StepMode& mode) {
     require(model_->slider_ != nullptr, "this vehicle has a slider and a cup");
-    twin_.close(mode.step_s);
-    return twin_.response(R_WT);
+    return bearer_.ask(model_->mechanism_, mode);
 }
 
 void GazeboPlant::step(const plant::StepMode& mode) {

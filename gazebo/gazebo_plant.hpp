@@ -64,8 +64,7 @@ public:
     [[nodiscard]] static plant::PlantState state_of(const gazebo::physics::Model& vehicle);
 
     void apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
-    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT,
-                                           const plant::StepMode& mode) override;
+    [[nodiscard]] CupBearer* bear_cup(const plant::StepMode& mode) override;
     void step(const plant::StepMode& mode) override;
 
     [[nodiscard]] Kinematics kinematics(plant::Body body) const override;
@@ -89,6 +88,7 @@ private:
 
     std::shared_ptr<const GazeboModel> model_;
     plant::MechanismStep<double> twin_;  ///< of a vehicle with a cup, see MujocoPlant
+    plant::MechanismBearer bearer_{twin_};
     double slider_N_ = 0.0;
 };
 

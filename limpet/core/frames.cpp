@@ -5,6 +5,28 @@
 #include <cmath>
 
 namespace limpet {
+namespace {
+
+/// Most rotations are those of a step. Below 0.2 rad the functions of half of one are these in its
+/// square (or its tangent's), to the last bits, and cost a tenth.
+constexpr double kSmallSquared = 0.04;
+constexpr double kCosine[] = {1.0,          -1.0 / 2.0,    1.0 / 24.0,
+                              -1.0 / 720.0, 1.0 / 40320.0, -1.0 / 3628800.0};
+constexpr double kSine[] = {1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0};
+constexpr double kArcTangent[] = {1.0,         -1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0, 1.0 / 9.0,
+                                  -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0};
+
+/// c0 + x (c1 + x (c2 + ...))
+template <std::size_t kTerms>
+double series(const double (&coefficient)[kTerms], double x) {
+    double sum = coefficient[kTerms - 1];
+    for (std::size_t i = kTerms - 1; i > 0; --i) {
+        sum = sum * x + coefficient[i - 1];
+    }
+    return sum;
+}
+
+}  // namespace
 
 double wrap_pi(double angle_rad) {
     const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
@@ -24,28 +46,51 @@ Quaternion quaternion_from_euler(const Euler& angles) {
 Euler euler_from_quaternion(const Quaternion& q_WB) {
     const Matrix3 R_WB = q_WB.toRotationMatrix();
     return {.roll_rad = std::atan2(R_WB(2, 1), R_WB(2, 2)),
-            .pitch_rad = std::asin(std::clamp(-R_WB(2, 0), -1.0, 1.0)),
+            .pitch_rad = pitch_from_quaternion(q_WB),
             .yaw_rad = std::atan2(R_WB(1, 0), R_WB(0, 0))};
 }
 
+double pitch_from_quaternion(const Quaternion& q_WB) {
+    const double up = 2.0 * (q_WB.w() * q_WB.y() - q_WB.x() * q_WB.z());  // of x_B in W
+    return std::asin(std::clamp(up, -1.0, 1.0));
+}
+
 Quaternion quaternion_from_rotation_vector(const Vector3& rotation_rad) {
-    const double angle_rad = rotation_rad.norm();
-    // sin(a/2)/a by its series where the quotient would lose digits
-    const double scale = angle_rad < 1e-6 ? 0.5 - angle_rad * angle_rad / 48.0
-                                          : std::sin(0.5 * angle_rad) / angle_rad;
+    const double squared = rotation_rad.squaredNorm();
     Quaternion q;
+    if (squared < kSmallSquared) {
+        const double x = 0.25 * squared;
+        q.w() = series(kCosine, x);
+        q.vec() = 0.5 * series(kSine, x) * rotation_rad;
+        return q;
+    }
+    const double angle_rad = std::sqrt(squared);
     q.w() = std::cos(0.5 * angle_rad);
-    q.vec() = scale * rotation_rad;
+    q.vec() = std::sin(0.5 * angle_rad) / angle_rad * rotation_rad;
     return q;
 }
 
 Vector3 rotation_vector_from_quaternion(const Quaternion& q) {
+    const double squared = q.vec().squaredNorm();
+    const double small = kSmallSquared / 4.0 * q.w() * q.w();
+    if (squared < small) {
+        const double over = 1.0 / q.w();
+        return 2.0 * over * series(kArcTangent, squared * over * over) * q.vec();
+    }
     const double sign = q.w() < 0.0 ? -1.0 : 1.0;
-    const Vector3 vec = sign * q.vec();
-    const double sine = vec.norm();
-    const double cosine = sign * q.w();
-    const double scale = sine < 1e-9 ? 2.0 : 2.0 * std::atan2(sine, cosine) / sine;
-    return scale * vec;
+    const double sine = std::sqrt(squared);
+    return sign * 2.0 * std::atan2(sine, sign * q.w()) / sine * q.vec();
+}
+
+Vector3 rotation_vector_from_matrix(const Matrix3& R) {
+    const Vector3 twice_sine(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+    const double squared = twice_sine.squaredNorm();
+    const double twice_cosine = R.trace() - 1.0;
+    if (twice_cosine < 0.0 || squared > kSmallSquared / 4.0 * twice_cosine * twice_cosine) {
+        return rotation_vector_from_quaternion(Quaternion(R));
+    }
+    const double over = 1.0 / twice_cosine;
+    return over * series(kArcTangent, squared * over * over) * twice_sine;
 }
 
 Matrix3 skew(const Vector3& v) {

@@ -57,11 +57,17 @@ struct Euler {
 /// @return angles, pitch in [-pi/2, pi/2]
 [[nodiscard]] Euler euler_from_quaternion(const Quaternion& q_WB);
 
+/// The pitch of euler_from_quaternion() alone.
+[[nodiscard]] double pitch_from_quaternion(const Quaternion& q_WB);
+
 /// Rotation by the vector `rotation_rad` (axis times angle), exact at zero.
 [[nodiscard]] Quaternion quaternion_from_rotation_vector(const Vector3& rotation_rad);
 
 /// Inverse of quaternion_from_rotation_vector; the shorter way round.
 [[nodiscard]] Vector3 rotation_vector_from_quaternion(const Quaternion& q);
+
+/// The rotation vector of a rotation matrix; the shorter way round.
+[[nodiscard]] Vector3 rotation_vector_from_matrix(const Matrix3& R);
 
 /// @return the matrix [v]x with [v]x u = v x u
 [[nodiscard]] Matrix3 skew(const Vector3& v);

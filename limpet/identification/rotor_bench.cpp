@@ -23,9 +23,10 @@ vehicle::Airframe bench_of(const vehicle::RotorParameters& rotor) {
 vehicle::RotorsState spun_up(const vehicle::RotorParameters& rotor, double speed_rpm) {
     const double speed_rad_s = speed_rpm * 2.0 * kPi / 60.0;
     const double command = (speed_rad_s - rotor.speed_offset_rad_s) / rotor.speed_scale_rad_s;
+    const vehicle::RotorLag lag = make_lag(rotor, kDt_s);
     vehicle::RotorsState state;
     for (int k = 0; k < kSpinUpSteps; ++k) {
-        step(rotor, state, {.command = {command}, .armed = true}, kDt_s);
+        step(rotor, lag, state, {.command = {command}, .armed = true});
         for (std::size_t i = 1; i < kRotors; ++i) {
             state.speed_rad_s[i] = 0.0;
         }

@@ -70,7 +70,7 @@ void LevelOnCup::period() {
                              seconds(state_.tick));
     simulation::TickReport report;
     for (int k = 0; k < ticks_; ++k) {
-        step(airframe.rotor, state_.rotors, state_.command, kTick_s);
+        step(airframe.rotor, model_->rotor_lag, state_.rotors, state_.command);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
         advance(*model_, state_, plant_, report);
         ++state_.tick;

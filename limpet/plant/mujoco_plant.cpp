@@ -138,18 +138,16 @@ void MujocoPlant::start_twin() {
     push(twin_, Body::base, contacts_W_, state.p_WB_m);
 }
 
-CupResponse MujocoPlant::cup_response(const Matrix3& R_WT, const StepMode& mode) {
+CupBearer* MujocoPlant::bear_cup(const StepMode& mode) {
     require(model_->places().has_cup, "this vehicle has a slider and a cup");
-    twin_.close(mode.step_s);
-    return twin_.response(R_WT);
+    return bearer_.ask(model_->mechanism(), mode);
 }
 
 void MujocoPlant::push_joints(double step_s) {
     twin_.close(step_s);
-    const Speeds<double> change = twin_.change();
+    const MechanismChange<double>& change = twin_.change();
     for (std::size_t k = 0; k < kJoints; ++k) {
-        data_->qfrc_applied[model_->places().joint_velocity[k]] =
-            twin_.joint_force(static_cast<int>(k), change);
+        data_->qfrc_applied[model_->places().joint_velocity[k]] = twin_.joint_force(k, change);
     }
     slider_N_ = twin_.joint_force(0, change);
 }

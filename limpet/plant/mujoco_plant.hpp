@@ -33,7 +33,7 @@ public:
     ~MujocoPlant() override;
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
-    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT, const StepMode& mode) override;
+    [[nodiscard]] CupBearer* bear_cup(const StepMode& mode) override;
     void step(const StepMode& mode) override;
 
     [[nodiscard]] Kinematics kinematics(Body body) const override;
@@ -68,6 +68,7 @@ private:
     Wrench contacts_W_;               ///< of the last step, on the base about B
     double slider_N_ = 0.0;
     MechanismStep<double> twin_;  ///< of a vehicle with a cup
+    MechanismBearer bearer_{twin_};
 };
 
 }  // namespace limpet::plant

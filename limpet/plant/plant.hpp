@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "limpet/core/cup_bearer.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/core/signals/cup_response.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
 
@@ -49,14 +49,11 @@ public:
     /// @param wrench_W  force and moment about p_W, in W [N, N m]
     /// @param p_W_m     where the force acts [m]
     virtual void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) = 0;
-    /// What the cup would do in a step of this mode with the wrenches added so far, and what one on
-    /// it would change: a lip that is stiff for the step needs it. Its wrench is applied after.
-    /// @param R_WT  axes of the answer
-    /// @return zero from a plant that does not know: then a stiff lip is stable only at short steps
-    [[nodiscard]] virtual CupResponse cup_response(const Matrix3& /*R_WT*/,
-                                                   const StepMode& /*mode*/) {
-        return {};
-    }
+    /// For the lip to ask what the cup will do in a step of this mode with the wrenches added so
+    /// far. The lip's wrench is applied after; held by springs, the plant knows it already and
+    /// takes the two for one.
+    /// @return null from a plant that does not know: then a stiff lip is stable only at short steps
+    [[nodiscard]] virtual CupBearer* bear_cup(const StepMode& /*mode*/) { return nullptr; }
     /// Integrates one step of mode.step_s with the wrenches added since the last one.
     /// @throws InternalError when the engine diverges
     virtual void step(const StepMode& mode) = 0;

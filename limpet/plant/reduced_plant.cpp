@@ -50,7 +50,8 @@ std::unique_ptr<Plant> ReducedModel::make() const {
     return std::make_unique<ReducedPlant>(shared_from_this());
 }
 
-ReducedPlant::ReducedPlant(std::shared_ptr<const ReducedModel> model) : model_(std::move(model)) {
+ReducedPlant::ReducedPlant(std::shared_ptr<const ReducedModel> model)
+    : MechanismBearer(step_), model_(std::move(model)) {
     refresh();
 }
 
@@ -123,7 +124,8 @@ void ReducedPlant::find_touches(double step_s) {
             const double mobility = kTips * step_s / model_->mechanism_.mass_kg;
             for (int axis = 0; axis < 3; ++axis) {
                 const auto k = static_cast<std::size_t>(axis);
-                touch.direction[k] = at.on_base(meets_B_m, R_BT.col(axis), Vector3::Zero());
+                touch.direction[k] =
+                    Spatial<double>::wrench(meets_B_m, R_BT.col(axis), Vector3::Zero());
                 touch.spring[k] =
                     within_step<double>(-kTipStiffness_N_m * stretch_m[k], kTipStiffness_N_m,
                                         kTipDamping_N_s_m, touch.rate_m_s[axis], mobility, step_s);
@@ -136,10 +138,10 @@ void ReducedPlant::find_touches(double step_s) {
 }
 
 /// @return whether the tip's springs had to change: it lifts, or slides
-bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
+bool ReducedPlant::let_slide(Touch& touch, const MechanismChange<double>& change) const {
     const auto force_N = [&](std::size_t axis) {
         const StepForce<double>& spring = touch.spring[axis];
-        return spring.now - spring.gain * dot(touch.direction[axis], change);
+        return spring.now - spring.gain * touch.direction[axis].dot(change.base);
     };
     const double push_N = -force_N(0);
     if (push_N < 0.0) {
@@ -148,7 +150,7 @@ bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
     }
     const double y_N = force_N(1);
     const double z_N = force_N(2);
-    const double asked_N = std::hypot(y_N, z_N);
+    const double asked_N = std::sqrt(y_N * y_N + z_N * z_N);
     const double limit_N = model_->friction_ * push_N;
     // One that slides presses as it slides, not as it did while it was taken to stick.
     const bool settled =
@@ -163,10 +165,10 @@ bool ReducedPlant::let_slide(Touch& touch, const Speeds<double>& change) const {
 }
 
 /// The change of the speeds with all tips either sticking within their limits or sliding.
-Speeds<double> ReducedPlant::settle(double step_s) {
+MechanismChange<double> ReducedPlant::settle(double step_s) {
     constexpr int kPasses = 12;  // a tip lifts, another takes over and slides, harder or less
     for (int pass = 0; touching_ > 0 && pass < kPasses; ++pass) {
-        const Speeds<double> change = step_.change();
+        const MechanismChange<double> change = step_.change();
         bool changed = false;
         for (std::size_t i = 0; i < touching_; ++i) {
             changed = let_slide(touches_[i], change) || changed;
@@ -179,7 +181,7 @@ Speeds<double> ReducedPlant::settle(double step_s) {
     return step_.change();
 }
 
-void ReducedPlant::take_contacts(const Speeds<double>& change, double step_s) {
+void ReducedPlant::take_contacts(const MechanismChange<double>& change, double step_s) {
     state_.contact_force_W_N.setZero();
     for (std::size_t i = 0; i < touching_; ++i) {
         const Touch& touch = touches_[i];
@@ -187,7 +189,7 @@ void ReducedPlant::take_contacts(const Speeds<double>& change, double step_s) {
         Vector3 next_m_s;
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(axis);
-            const double more_m_s = dot(touch.direction[k], change);
+            const double more_m_s = touch.direction[k].dot(change.base);
             force_T_N[axis] = touch.spring[k].now - touch.spring[k].gain * more_m_s;
             next_m_s[axis] = touch.rate_m_s[axis] + more_m_s;
         }
@@ -206,28 +208,27 @@ void ReducedPlant::take_contacts(const Speeds<double>& change, double step_s) {
     }
 }
 
-void ReducedPlant::integrate(const Speeds<double>& change, double step_s) {
+void ReducedPlant::integrate(const MechanismChange<double>& change, double step_s) {
     MechanismState<double>& bodies = state_.bodies;
-    bodies.v_WB_W_m_s += step_.at().R_WB * Vector3(change[0], change[1], change[2]);
-    bodies.w_WB_B_rad_s += Vector3(change[3], change[4], change[5]);
+    bodies.v_WB_W_m_s += step_.at().R_WB * change.base.moving();
+    bodies.w_WB_B_rad_s += change.base.turning();
     bodies.p_WB_m += step_s * bodies.v_WB_W_m_s;
     bodies.q_WB =
         (bodies.q_WB * quaternion_from_rotation_vector(step_s * bodies.w_WB_B_rad_s)).normalized();
     for (std::size_t k = 0; k < kJoints; ++k) {
-        bodies.joint_rate[k] += change[kFirstJoint + k];
+        bodies.joint_rate[k] += change.joint[k];
         bodies.joint[k] += step_s * bodies.joint_rate[k];
     }
 }
 
-CupResponse ReducedPlant::cup_response(const Matrix3& R_WT, const StepMode& mode) {
+CupBearer* ReducedPlant::bear_cup(const StepMode& mode) {
     require(model_->mechanism_.has_cup, "this vehicle has a slider and a cup");
-    prepare(mode);
-    return step_.response(R_WT);
+    return ask(model_->mechanism_, mode);
 }
 
 void ReducedPlant::step(const StepMode& mode) {
     prepare(mode);
-    const Speeds<double> change = settle(mode.step_s);
+    const MechanismChange<double> change = settle(mode.step_s);
     state_.slider_N = model_->mechanism_.has_cup ? step_.joint_force(0, change) : 0.0;
     take_contacts(change, mode.step_s);
     integrate(change, mode.step_s);
@@ -254,7 +255,7 @@ Kinematics ReducedPlant::kinematics(Body body) const {
     v_B_m_s.x() += bodies.joint_rate[0];
     if (cup) {
         v_B_m_s += at.cup_w_B_rad_s.cross(at.lip_arm_B_m);
-        seen.q_WF = bodies.q_WB * Quaternion(at.R_BC);
+        seen.q_WF = bodies.q_WB * at.q_BC;
         seen.w_WF_F_rad_s = at.R_BC.transpose() * at.cup_w_B_rad_s;
     }
     seen.p_WF_m += at.R_WB * (cup ? at.lip_B_m : at.joint_B_m);
@@ -305,7 +306,7 @@ ReducedPlant::State ReducedPlant::read(const PlantState& saved) {
 void ReducedPlant::restore(const PlantState& saved) {
     state_ = read(saved);
     refresh();
-    step_.resume(state_.pushed);
+    step_.pushed() = state_.pushed;
 }
 
 void ReducedPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB,
@@ -329,8 +330,8 @@ void ReducedPlant::displace(std::span<const double> step) {
     bodies.v_WB_W_m_s += three(kFreedoms);
     bodies.w_WB_B_rad_s += three(kFreedoms + 3);
     for (std::size_t k = 0; k < kJoints; ++k) {
-        bodies.joint[k] += step[kFirstJoint + k];
-        bodies.joint_rate[k] += step[kFreedoms + kFirstJoint + k];
+        bodies.joint[k] += step[6 + k];
+        bodies.joint_rate[k] += step[kFreedoms + 6 + k];
     }
     refresh();
 }
@@ -347,8 +348,8 @@ void ReducedPlant::displacement_from(const PlantState& origin, std::span<double>
     put(kFreedoms, bodies.v_WB_W_m_s - from.v_WB_W_m_s);
     put(kFreedoms + 3, bodies.w_WB_B_rad_s - from.w_WB_B_rad_s);
     for (std::size_t k = 0; k < kJoints; ++k) {
-        step[kFirstJoint + k] = bodies.joint[k] - from.joint[k];
-        step[kFreedoms + kFirstJoint + k] = bodies.joint_rate[k] - from.joint_rate[k];
+        step[6 + k] = bodies.joint[k] - from.joint[k];
+        step[kFreedoms + 6 + k] = bodies.joint_rate[k] - from.joint_rate[k];
     }
 }
 

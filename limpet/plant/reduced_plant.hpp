@@ -44,7 +44,7 @@ struct TipContact {
 
 /// The reduced engine: nine generalised coordinates, semi-implicit Euler, joints and legs within
 /// the step (MechanismStep).
-class ReducedPlant final : public Plant {
+class ReducedPlant final : public Plant, private MechanismBearer {
 public:
     explicit ReducedPlant(std::shared_ptr<const ReducedModel> model);
     /// @throws InternalError when the model is another engine's
@@ -53,7 +53,7 @@ public:
     ReducedPlant& operator=(const ReducedPlant&) = delete;
 
     void apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m) override;
-    [[nodiscard]] CupResponse cup_response(const Matrix3& R_WT, const StepMode& mode) override;
+    [[nodiscard]] CupBearer* bear_cup(const StepMode& mode) override;
     void step(const StepMode& mode) override;
 
     [[nodiscard]] Kinematics kinematics(Body body) const override;
@@ -81,7 +81,7 @@ private:
     /// All on which the future depends.
     struct State {
         MechanismState<double> bodies;
-        Speeds<double> pushed{};  ///< in this step, as of save()
+        MechanismForces<double> pushed;  ///< in this step, as of save()
         std::array<std::array<TipContact, kFaces>, kTips> tips;
         double slider_N = 0.0;
         Vector3 contact_force_W_N = Vector3::Zero();
@@ -90,20 +90,20 @@ private:
     struct Touch {
         TipContact* contact = nullptr;
         TangentFrame spot;
-        std::array<Speeds<double>, 3> direction;  ///< of the tip's motion along the axes of T
+        std::array<Spatial<double>, 3> direction;  ///< of the tip's motion along the axes of T
         std::array<StepForce<double>, 3> spring;
         Vector3 rate_m_s = Vector3::Zero();
         bool slides = false;
     };
 
     void refresh();
-    void prepare(const StepMode& mode);
+    void prepare(const StepMode& mode) override;
     void find_touches(double step_s);
     void close(double step_s);
-    [[nodiscard]] Speeds<double> settle(double step_s);
-    [[nodiscard]] bool let_slide(Touch& touch, const Speeds<double>& change) const;
-    void take_contacts(const Speeds<double>& change, double step_s);
-    void integrate(const Speeds<double>& change, double step_s);
+    [[nodiscard]] MechanismChange<double> settle(double step_s);
+    [[nodiscard]] bool let_slide(Touch& touch, const MechanismChange<double>& change) const;
+    void take_contacts(const MechanismChange<double>& change, double step_s);
+    void integrate(const MechanismChange<double>& change, double step_s);
     [[nodiscard]] static State read(const PlantState& state);
 
     std::shared_ptr<const ReducedModel> model_;

@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -189,12 +190,15 @@ std::string read_yaml_text(const std::filesystem::path& path) {
     if (!file) {
         throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
     }
-    std::string text(kLargestFile_B + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    std::string text;
+    std::array<char, 16384> part;
+    while (text.size() <= kLargestFile_B && file) {
+        file.read(part.data(), part.size());
+        text.append(part.data(), static_cast<std::size_t>(file.gcount()));
+    }
     if (file.bad()) {
         throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
     }
-    text.resize(static_cast<std::size_t>(file.gcount()));
     if (text.size() > kLargestFile_B) {
         throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
     }

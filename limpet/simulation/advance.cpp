@@ -24,7 +24,6 @@ void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatu
     if (cup.phase == CupPhase::free) {
         return;
     }
-    const auto raise = [](double& peak, double value) { peak = std::fmax(peak, value); };
     raise(peaks.slider_press_N, -slider.force_N);
     raise(peaks.lip_press_N, -cup.pull_N);
     if (!suction::is_sealed(cup.phase)) {
@@ -34,8 +33,7 @@ void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatu
     raise(peaks.shear_N, cup.shear_N);
     raise(peaks.peel_N_m, cup.peel_N_m);
     if (cup.phase != CupPhase::sealing) {  // a seal that begins has nothing to spare yet
-        peaks.margin_N = std::fmin(
-            peaks.margin_N, std::min({cup.pull_margin_N, cup.shear_margin_N, cup.peel_margin_N}));
+        lower(peaks.margin_N, std::min({cup.pull_margin_N, cup.shear_margin_N, cup.peel_margin_N}));
     }
 }
 
@@ -44,13 +42,11 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
                const plant::StepMode& mode, TickReport& report, ExternalCup* external) {
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
-    const TangentFrame spot = tangent_frame(model.cup.wall, cup.p_WF_m);
-    const bool meets_wall = before != CupPhase::free || spot.gap_m <= 0.0;
     const suction::Surface& surface = surface_under_cup(model, state.cup);
     const suction::CupInput input{
         .time_s = time_s,
         .press_N = -state.truth.slider.force_N,
-        .response = meets_wall ? plant.cup_response(spot.R_WT, mode) : CupResponse{},
+        .bearer = plant.bear_cup(mode),
         .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
         .valve_open = state.guidance.setpoint.valve_open};
     const suction::CupOutput output =
@@ -63,7 +59,8 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
     if (before == CupPhase::free && state.cup.status.phase != CupPhase::free &&
         std::isnan(peaks.touch_s)) {
         peaks.touch_s = time_s;
-        peaks.touch_speed_m_s = spot.into_W().dot(cup.v_WF_W_m_s);
+        peaks.touch_speed_m_s =
+            tangent_frame(model.cup.wall, cup.p_WF_m).into_W().dot(cup.v_WF_W_m_s);
     }
     if (output.event) {
         report.events.add(*output.event);

@@ -44,16 +44,22 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     if (on_ground) {
         return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
-    if (!model.has_wall || std::abs(before_wall_m(model.cup.wall, p_WB_m)) >
-                               airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
+    if (!model.has_wall) {
         return std::nullopt;
     }
-    const Vector3 n_W = tangent_frame(model.cup.wall, p_WB_m).into_W();
-    const double along_axis = n_W.dot(truth.base.q_WF * Vector3::UnitZ());
+    const TangentFrame spot = tangent_frame(model.cup.wall, p_WB_m);
+    if (std::abs(spot.gap_m) > airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
+        return std::nullopt;
+    }
+    const Vector3 n_B = truth.base.q_WF.conjugate() * spot.into_W();
     // A disc reaches its radius times the sine of the angle between its axis and the direction.
     const double reach_m =
-        airframe.rotor.radius_m * std::sqrt(std::max(0.0, 1.0 - along_axis * along_axis));
+        airframe.rotor.radius_m * std::sqrt(std::max(0.0, 1.0 - n_B.z() * n_B.z()));
+    const bool hollow = spot.curvature_y_1_m < 0.0 || spot.curvature_z_1_m < 0.0;
     for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
+        if (!hollow && spot.gap_m - n_B.dot(p_BR_m) >= reach_m) {
+            continue;  // clear of the flat wall there, and this one bends away from it
+        }
         const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * p_BR_m;
         if (before_wall_m(model.cup.wall, p_WR_m) < reach_m &&
             tangent_frame(model.cup.wall, p_WR_m).on_wall) {

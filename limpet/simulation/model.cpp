@@ -64,6 +64,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->start = scenario.start;
     model->seed = scenario.seed;
     model->mount = scenario.mount;
+    model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),

@@ -15,6 +15,7 @@ namespace limpet::simulation {
 struct FlightModel {
     std::shared_ptr<const plant::PlantModel> plant;
     vehicle::AirframeNumbers airframe;
+    vehicle::RotorLag rotor_lag;
     sensors::SensorsModel sensors;
     autopilot::AutopilotModel autopilot;
     guidance::PerchingTask task;

@@ -38,14 +38,6 @@ std::optional<LoadPhase> load_phase(guidance::PerchingState state) {
     throw InternalError("perching state out of range");
 }
 
-/// max and min that take a first value over "none"
-void raise(double& value, double candidate) {
-    value = std::fmax(value, candidate);
-}
-void lower(double& value, double candidate) {
-    value = std::fmin(value, candidate);
-}
-
 void observe_contact(Metrics& metrics, guidance::PerchingState state, const ContactPeaks& peaks) {
     if (metrics.memory.awaits_touch && !std::isnan(peaks.touch_s)) {
         metrics.memory.awaits_touch = false;
@@ -80,9 +72,10 @@ void observe_tick(Metrics& metrics, const guidance::PerchingParameters& guidance
         metrics.time_to_land_pressure_s = truth.time_s - metrics.memory.touch_s;
     }
     if (state == guidance::PerchingState::releasing) {
-        raise(metrics.pitch_oscillation_max_deg, std::abs(pitch_deg(truth)));
-        lower(metrics.memory.waiting_pitch_min_deg, pitch_deg(truth));
-        raise(metrics.memory.waiting_pitch_max_deg, pitch_deg(truth));
+        const double now_deg = pitch_deg(truth);
+        raise(metrics.pitch_oscillation_max_deg, std::abs(now_deg));
+        lower(metrics.memory.waiting_pitch_min_deg, now_deg);
+        raise(metrics.memory.waiting_pitch_max_deg, now_deg);
         metrics.pitch_swing_deg =
             0.5 * (metrics.memory.waiting_pitch_max_deg - metrics.memory.waiting_pitch_min_deg);
         metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
@@ -147,7 +140,7 @@ void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
 }  // namespace
 
 double pitch_deg(const Truth& truth) {
-    return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
+    return degrees(pitch_from_quaternion(truth.base.q_WF));
 }
 
 void observe(Observations& seen, const FlightModel& model, const FlightState& state,

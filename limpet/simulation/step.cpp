@@ -72,7 +72,7 @@ void step(const FlightModel& model, FlightState& state, plant::Plant& plant, Tic
     if (controls) {
         state.command = control(model, state, outside.autopilot);
     }
-    vehicle::step(airframe.rotor, state.rotors, state.command, kTick_s,
+    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
                   vehicle::voltage_share(airframe.battery, state.battery.voltage_V));
     vehicle::step(airframe.battery, state.battery,
                   vehicle::mechanical_power_W(airframe.rotor, state.rotors),

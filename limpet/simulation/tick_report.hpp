@@ -1,10 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "limpet/core/frames.hpp"
 #include "limpet/guidance/perching.hpp"
 
 namespace limpet::simulation {
+
+/// Largest and least so far; a first value replaces NaN, which is none.
+inline void raise(double& most, double value) {
+    if (value > most || std::isnan(most)) {
+        most = value;
+    }
+}
+inline void lower(double& least, double value) {
+    if (value < least || std::isnan(least)) {
+        least = value;
+    }
+}
 
 /// The most that the cup bore in a tick, over all steps of the plant; NaN: it was not so.
 struct ContactPeaks {

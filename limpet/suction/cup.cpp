@@ -17,7 +17,7 @@ LipLoad load_on(const CupModel& model, CupState& state, const Surface& surface,
     if (sealed && input.held_T) {
         return held_load(lip, *input.held_T, surface.friction, vacuum_N);
     }
-    return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed, input.response);
+    return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed, input.bearer);
 }
 
 /// The rows of the table that keep the contact.
@@ -162,36 +162,35 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
         lip.load = load_on(model, state, surface, motion, input);
     }
     const LipLoad& load = lip.load;
-    Vector6 wrench_T;
-    wrench_T << load.wrench_T.force_N, load.wrench_T.moment_N_m;
-    const CupResponse& response = input.response;
-    lip.contact = {
-        .touches = touches,
-        .gap_m = motion.gap_m,
-        .tilt_rad = motion.tilt_rad(),
-        .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
-        .let_go = load.let_go,
-        .press_N = response.step_s > 0.0 ? response.press_with_N(wrench_T) : input.press_N,
-        .pull_N = load.pull_N,
-        .pull_margin_N = load.pull_margin_N,
-        .shear_margin_N = load.shear_margin_N,
-        .peel_margin_N = load.peel_margin_N};
+    lip.contact = {.touches = touches,
+                   .gap_m = motion.gap_m,
+                   .tilt_rad = motion.tilt_rad(),
+                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
+                   .let_go = load.let_go,
+                   .press_N = input.bearer != nullptr ? load.press_N : input.press_N,
+                   .pull_N = load.pull_N,
+                   .pull_margin_N = load.pull_margin_N,
+                   .shear_margin_N = load.shear_margin_N,
+                   .peel_margin_N = load.peel_margin_N};
     return lip;
 }
 
 Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
-                const Kinematics& cup, const CupInput& input, LipNow lip) {
+                const CupInput& input, LipNow& lip) {
     CupStatus& status = state.status;
     LipLoad& load = lip.load;
     if (load.let_go != LetGo::no) {
-        load = status.phase == CupPhase::free ? LipLoad{}
-                                              : load_on(model, state, surface, lip.motion, input);
+        if (status.phase != CupPhase::free) {
+            load = load_on(model, state, surface, lip.motion, input);
+        } else {
+            load = {};
+            if (input.bearer != nullptr) {
+                input.bearer->let_go();
+            }
+        }
     }
-    const Wrench wrench_W{.force_N = lip.motion.R_WT * load.wrench_T.force_N,
-                          .moment_N_m = lip.motion.R_WT * load.wrench_T.moment_N_m};
-    const Quaternion q_CW = cup.q_WF.conjugate();
-    status.wrench_C = {.force_N = q_CW * wrench_W.force_N,
-                       .moment_N_m = q_CW * wrench_W.moment_N_m};
+    status.wrench_C = {.force_N = lip.motion.R_TC.transpose() * load.wrench_T.force_N,
+                       .moment_N_m = lip.motion.R_TC.transpose() * load.wrench_T.moment_N_m};
     status.gap_m = lip.contact.gap_m;
     status.pull_N = load.pull_N;
     status.shear_N = load.shear_N;
@@ -199,7 +198,8 @@ Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
     status.pull_margin_N = load.pull_margin_N;
     status.shear_margin_N = load.shear_margin_N;
     status.peel_margin_N = load.peel_margin_N;
-    return wrench_W;
+    return {.force_N = lip.motion.R_WT * load.wrench_T.force_N,
+            .moment_N_m = lip.motion.R_WT * load.wrench_T.moment_N_m};
 }
 
 std::optional<Event> step(const CupParameters& parameters, CupState& state, const Surface& surface,
@@ -212,9 +212,9 @@ std::optional<Event> step(const CupParameters& parameters, CupState& state, cons
 CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
                const Kinematics& cup, const CupInput& input, double dt_s) {
     CupOutput output;
-    const LipNow lip = feel_lip(model, state, surface, cup, input);
+    LipNow lip = feel_lip(model, state, surface, cup, input);
     output.event = advance_contact(model.parameters, state, surface, lip.contact, input);
-    output.wrench_W = load_cup(model, state, surface, cup, input, lip);
+    output.wrench_W = load_cup(model, state, surface, input, lip);
     advance_pressure(model.parameters, state, surface, input, dt_s);
     return output;
 }

@@ -67,8 +67,8 @@ struct CupState {
 
 struct CupInput {
     double time_s = 0.0;
-    double press_N = 0.0;       ///< through the mechanism, > 0 presses the cup on the wall [N]
-    CupResponse response = {};  ///< of what hangs on the cup; it knows the press better
+    double press_N = 0.0;         ///< through the mechanism, > 0 presses the cup on the wall [N]
+    CupBearer* bearer = nullptr;  ///< what hangs on the cup; it knows the press better
     bool pump_on = false;
     bool valve_open = false;
     /// In T, about the lip's centre: what a joint, that holds the cup in the lip's place, does to
@@ -120,7 +120,7 @@ struct LipNow {
 /// load; a lip that has let go is loaded anew.
 /// @return on the cup about the lip's centre, in W
 [[nodiscard]] Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
-                              const Kinematics& cup, const CupInput& input, LipNow lip);
+                              const CupInput& input, LipNow& lip);
 
 /// Whether the vacuum acts between lip and wall.
 [[nodiscard]] bool is_sealed(CupPhase phase);

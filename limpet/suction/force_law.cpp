@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/unrolled.hpp"
 #include "limpet/core/within_step.hpp"
 
 namespace limpet::suction {
@@ -45,71 +44,49 @@ std::array<LipSpring, 6> springs_of(const LipParameters& lip, const LipMotion& m
             tilt(2)};
 }
 
+using LipForces = std::array<StepForce<double>, 6>;
+
+LipForces within_step_of(const std::array<LipSpring, 6>& springs, const CupBearer* bearer) {
+    static const Vector6 kNone = Vector6::Zero();
+    const double step_s = bearer != nullptr ? bearer->step_s() : 0.0;
+    const Vector6& mobility_1_s = bearer != nullptr ? bearer->mobility_1_s() : kNone;
+    LipForces forces;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+        const LipSpring& one = springs[i];
+        forces[i] =
+            within_step<double>(one.spring, one.stiffness, one.damping, one.rate,
+                                step_s * mobility_1_s[static_cast<Eigen::Index>(i)], step_s);
+    }
+    return forces;
+}
+
+/// Where all hold: w = now - G dv.
+Vector6 held_wrench(const LipForces& forces, const Vector6& change) {
+    Vector6 w;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+        const auto at = static_cast<Eigen::Index>(i);
+        w[at] = forces[i].now - forces[i].gain * change[at];
+    }
+    return w;
+}
+
 /// The springs' mean wrench over a step together with what hangs on the cup:
 /// w = now - G (drift + A w).
 class LipStep {
 public:
-    LipStep(const std::array<LipSpring, 6>& springs, const CupResponse& response)
-        : response_(response) {
-        for (int i = 0; i < 6; ++i) {
-            const LipSpring& one = springs[static_cast<std::size_t>(i)];
-            const StepForce<double> force =
-                within_step<double>(one.spring, one.stiffness, one.damping, one.rate,
-                                    response.mobility(i, i), response.step_s);
-            now_[i] = force.now;
-            gain_[i] = force.gain;
-        }
-    }
-    /// All hold. I + G A has only positive principal minors: no pivoting.
-    [[nodiscard]] Vector6 solve() const {
-        std::array<std::array<double, 6>, 6> matrix;
-        std::array<double, 6> w;
-        const double* const mobility = response_.mobility.data();
-        unrolled<6>([&](auto i) [[gnu::always_inline]] {
-            const double gain = gain_[i.value];
-            for (std::size_t j = 0; j < 6; ++j) {
-                matrix[i.value][j] = gain * mobility[6 * i.value + j];  // which is symmetric
-            }
-            matrix[i.value][i.value] += 1.0;
-            w[i.value] = now_[i.value] - gain * response_.drift[i.value];
-        });
-        unrolled<6>([&](auto k) [[gnu::always_inline]] {
-            constexpr int kRow = k.value;
-            const double inverse = 1.0 / matrix[kRow][kRow];
-            matrix[kRow][kRow] = inverse;
-            unrolled<5 - kRow>([&](auto below) [[gnu::always_inline]] {
-                constexpr int kBelow = kRow + 1 + below.value;
-                const double share = matrix[kBelow][kRow] * inverse;
-                unrolled<5 - kRow>([&](auto right) [[gnu::always_inline]] {
-                    constexpr int kRight = kRow + 1 + right.value;
-                    matrix[kBelow][kRight] -= share * matrix[kRow][kRight];
-                });
-                w[kBelow] -= share * w[kRow];
-            });
-        });
-        Vector6 solved;
-        unrolled<6>([&](auto up) [[gnu::always_inline]] {
-            constexpr int kRow = 5 - up.value;
-            double sum = w[kRow];
-            unrolled<up.value>([&](auto right) [[gnu::always_inline]] {
-                constexpr int kRight = kRow + 1 + right.value;
-                sum -= matrix[kRow][kRight] * w[kRight];
-            });
-            solved[kRow] = w[kRow] = sum * matrix[kRow][kRow];
-        });
-        return solved;
-    }
+    LipStep(const LipForces& forces, const CupBearer::Response& response)
+        : forces_(forces), response_(response) {}
     /// Where the others are at w, this one would be here.
     [[nodiscard]] double alone(int i, const Vector6& w) const {
+        const StepForce<double>& force = forces_[static_cast<std::size_t>(i)];
         const double off =
-            w[i] - now_[i] + gain_[i] * (response_.drift[i] + response_.mobility.row(i).dot(w));
-        return w[i] - off / (1.0 + gain_[i] * response_.mobility(i, i));
+            w[i] - force.now + force.gain * (response_.drift[i] + response_.mobility.row(i).dot(w));
+        return w[i] - off / (1.0 + force.gain * response_.mobility(i, i));
     }
 
 private:
-    const CupResponse& response_;
-    Vector6 now_;
-    Vector6 gain_;
+    const LipForces& forces_;
+    const CupBearer::Response& response_;
 };
 
 /// As std::hypot, which guards against numbers that no force has.
@@ -255,8 +232,8 @@ LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
     // Before a wall that bulges, the spot goes a shorter way than the lip.
     motion.y_rate_m_s = v_TC.y() / (1.0 + spot.curvature_y_1_m * spot.gap_m);
     motion.z_rate_m_s = v_TC.z() / (1.0 + spot.curvature_z_1_m * spot.gap_m);
-    const Matrix3 R_TC = spot.R_WT.transpose() * cup.q_WF.toRotationMatrix();
-    motion.rotation_rad = rotation_vector_from_quaternion(Quaternion(R_TC));
+    const Matrix3& R_TC = motion.R_TC = spot.R_WT.transpose() * cup.q_WF.toRotationMatrix();
+    motion.rotation_rad = rotation_vector_from_matrix(R_TC);
     motion.rate_rad_s = R_TC * cup.w_WF_F_rad_s;
     // T itself turns as its spot wanders over the bulge.
     motion.rate_rad_s.y() -= spot.curvature_z_1_m * motion.z_rate_m_s;
@@ -270,19 +247,27 @@ double vacuum_force_N(double pressure_Pa, double radius_m) {
 }
 
 LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,
-                 double vacuum_N, bool sealed, const CupResponse& response) {
-    const LipStep step(springs_of(lip, motion, anchor, sealed), response);
+                 double vacuum_N, bool sealed, CupBearer* bearer) {
+    const LipForces forces = within_step_of(springs_of(lip, motion, anchor, sealed), bearer);
     const LipLimits limits{vacuum_N, friction, lip.radius_m, sealed};
-    Vector6 w = step.solve();
+    CupBearer::Held held{.change = Vector6::Zero()};
+    if (bearer != nullptr) {
+        held = bearer->hold(motion.R_WT, forces);
+    }
+    Vector6 w = held_wrench(forces, held.change);
     LipDemand demand(w);
     if (!demand.fits(limits)) {
-        const LipDemand held = demand;
-        demand = give_way(step, limits, w);
+        const CupBearer::Response response =
+            bearer != nullptr ? bearer->response(motion.R_WT) : CupBearer::Response{};
+        const LipDemand asked = demand;
+        demand = give_way(LipStep(forces, response), limits, w);
+        held.press_N = response.press_with_N(w);
         if (sealed) {
-            demand = held;  // it lets go of what it cannot hold
+            demand = asked;  // it lets go of what it cannot hold
         }
     }
     LipLoad load;
+    load.press_N = held.press_N;
     load.wrench_T = {.force_N = w.head<3>(), .moment_N_m = w.tail<3>()};
     load.pull_N = w[0];
     load.shear_N = along(w[1], w[2]);

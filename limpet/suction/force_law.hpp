@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "limpet/core/cup_bearer.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
-#include "limpet/core/signals/cup_response.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/core/wall.hpp"
@@ -50,13 +50,14 @@ struct LipParameters {
 /// by k R^2 / 2 (0.2 mm for 40 mm on a radius of 5 m), which the rubber is taken to follow.
 struct LipMotion {
     Matrix3 R_WT = Matrix3::Identity();
+    Matrix3 R_TC = Matrix3::Identity();
     double gap_m = 0.0;  ///< lip's centre to the wall, < 0 compressed
     double gap_rate_m_s = 0.0;
     double y_m = 0.0, z_m = 0.0;  ///< lip's centre along the wall
     double y_rate_m_s = 0.0, z_rate_m_s = 0.0;
     Vector3 rotation_rad = Vector3::Zero();  ///< of C against T: x twist, y and z tilt
     Vector3 rate_rad_s = Vector3::Zero();    ///< angular velocity of C, in T
-    [[nodiscard]] double tilt_rad() const { return std::hypot(rotation_rad.y(), rotation_rad.z()); }
+    [[nodiscard]] double tilt_rad() const { return rotation_rad.tail<2>().norm(); }
     bool faces_wall = false;  ///< over the wall's area, mouth towards it
 };
 [[nodiscard]] LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup);
@@ -86,6 +87,7 @@ struct LipLoad {
     double pull_margin_N = 0.0;
     double shear_margin_N = 0.0;
     double peel_margin_N = 0.0;  ///< over the lever arm R/2
+    double press_N = 0.0;        ///< through the slider, as the bearer says
     LetGo let_go = LetGo::no;
 };
 
@@ -94,12 +96,11 @@ struct LipLoad {
 /// @param friction  Coulomb's mu
 /// @param vacuum_N  F_vac, the force with which the vacuum holds; 0 when not sealed [N]
 /// @param sealed    a sealed lip pulls and lets go beyond its limits; an open one slides and lifts
-/// @param response  of what hangs on the cup: the load is the mean over the step that comes, in
-/// which
-///                  springs and dampers act as the lip moves (core/within_step.hpp)
+/// @param bearer    what hangs on the cup: the load is the mean over the step that comes, in which
+///                  springs and dampers act as the lip moves; null: the load as it stands
 [[nodiscard]] LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor,
                                double friction, double vacuum_N, bool sealed,
-                               const CupResponse& response = {});
+                               CupBearer* bearer = nullptr);
 
 /// Load on a sealed lip that a joint holds to the wall in the law's place, against the same limits.
 /// @param wrench_T  by the joint on the cup about the lip's centre, in T

@@ -39,26 +39,30 @@ double hover_command(const AirframeNumbers& airframe) {
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 
-void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& command,
-          double dt_s, double voltage_share) {
+RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
     const auto delay = static_cast<std::size_t>(std::lround(rotor.command_delay_s / dt_s));
     require(delay < kCommandDelaySteps, "the rotors' dead time fits their delay line");
+    return {.delay = delay,
+            .keep_up = std::exp(-dt_s / rotor.time_constant_up_s),
+            .keep_down = std::exp(-dt_s / rotor.time_constant_down_s)};
+}
+
+void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
+          const RotorCommand& command, double voltage_share) {
     for (std::size_t i = 0; i < kRotors; ++i) {
         state.asked_rad_s[state.next][i] =
             command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     }
     const auto& asked_rad_s =
-        state.asked_rad_s[(state.next + kCommandDelaySteps - delay) % kCommandDelaySteps];
+        state.asked_rad_s[(state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps];
     state.next = (state.next + 1) % kCommandDelaySteps;
 
     const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
-    const double keep_up = std::exp(-dt_s / rotor.time_constant_up_s);
-    const double keep_down = std::exp(-dt_s / rotor.time_constant_down_s);
     for (std::size_t i = 0; i < kRotors; ++i) {
         const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
         const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
         state.speed_rad_s[i] =
-            target_rad_s + error_rad_s * (error_rad_s < 0.0 ? keep_up : keep_down);
+            target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
     }
 }
 

@@ -65,13 +65,22 @@ struct RotorsState {
 /// @return the command, alike on all rotors, whose thrust equals the weight in still air
 [[nodiscard]] double hover_command(const AirframeNumbers& airframe);
 
-/// Turns commands into speeds, one step of the lag by its exact solution.
-/// @param command        beyond 0..1 it is cut; disarmed rotors run down
-/// @param dt_s           > 0, the same at every call: the dead time is a whole number of steps
-/// @param voltage_share  of the battery (battery.hpp), scales the highest speed
+/// How far rotors follow within a step: the exact solution of their lag.
+struct RotorLag {
+    std::size_t delay = 0;  ///< dead time in steps
+    double keep_up = 0.0;   ///< what is left of an error after a step, while speeding up
+    double keep_down = 0.0;
+};
+/// @param dt_s  > 0
 /// @throws InternalError when the dead time is not less than kCommandDelaySteps steps
-void step(const RotorParameters& rotor, RotorsState& state, const RotorCommand& command,
-          double dt_s, double voltage_share = 1.0);
+[[nodiscard]] RotorLag make_lag(const RotorParameters& rotor, double dt_s);
+
+/// Turns commands into speeds, one step of the lag.
+/// @param lag            the same at every call
+/// @param command        beyond 0..1 it is cut; disarmed rotors run down
+/// @param voltage_share  of the battery (battery.hpp), scales the highest speed
+void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
+          const RotorCommand& command, double voltage_share = 1.0);
 
 /// Sum over the rotors.
 /// @param base         frame B

@@ -93,7 +93,7 @@ suction::CupOutput ApartLip::step(const suction::CupModel& model, suction::CupSt
                                   const suction::CupInput& input) {
     suction::CupOutput output;
     output.event = obey(state, input.time_s);
-    const suction::LipNow lip = feel_lip(model, state, surface, cup, input);
+    suction::LipNow lip = feel_lip(model, state, surface, cup, input);
     const bool lets_go = lip.contact.let_go != suction::LetGo::no;
     if (state.status.phase == CupPhase::free && lip.contact.touches) {
         begin_touch(state);
@@ -106,7 +106,7 @@ suction::CupOutput ApartLip::step(const suction::CupModel& model, suction::CupSt
             output.event = event;
         }
     }
-    output.wrench_W = load_cup(model, state, surface, cup, input, lip);
+    output.wrench_W = load_cup(model, state, surface, input, lip);
     collect(now, state.status.phase, input.time_s);
     if (lets_go) {
         barrier_ = next_;  // the number under which this will be told

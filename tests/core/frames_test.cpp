@@ -54,5 +54,29 @@ TEST(Frames, WrapsToTheHalfOpenInterval) {
     EXPECT_NEAR(wrap_pi(3.0 * kPi + 0.1), -kPi + 0.1, 1e-12);
 }
 
+/// On both sides of where series take over, to the last bits of the closed forms.
+TEST(RotationVector, GoesThereAndBackAtEverySize) {
+    for (const double angle_rad : {0.0, 1e-12, 1e-6, 1e-3, 0.05, 0.199999, 0.200001, 1.0, 3.0}) {
+        const Vector3 turn_rad = angle_rad * Vector3(0.6, -0.48, 0.64);
+        const Quaternion q = quaternion_from_rotation_vector(turn_rad);
+        EXPECT_NEAR(q.w(), std::cos(0.5 * angle_rad), 2e-16) << angle_rad;
+        EXPECT_NEAR(q.x(), std::sin(0.5 * angle_rad) * 0.6, 2e-16 + 4e-16 * q.x()) << angle_rad;
+        const double bound = 1e-15 * (1.0 + angle_rad);
+        EXPECT_LT((rotation_vector_from_quaternion(q) - turn_rad).norm(), bound) << angle_rad;
+        const Quaternion other_way(-q.w(), -q.x(), -q.y(), -q.z());
+        EXPECT_LT((rotation_vector_from_quaternion(other_way) - turn_rad).norm(), bound)
+            << angle_rad;
+        const Vector3 of_matrix = rotation_vector_from_matrix(q.toRotationMatrix());
+        EXPECT_LT((of_matrix - turn_rad).norm(), 4.0 * bound) << angle_rad;
+    }
+}
+
+TEST(RotationVector, AsksForNoUnitQuaternion) {
+    const Vector3 turn_rad(0.01, 0.02, -0.03);
+    Quaternion q = quaternion_from_rotation_vector(turn_rad);
+    q.coeffs() *= 1.1;
+    EXPECT_LT((rotation_vector_from_quaternion(q) - turn_rad).norm(), 1e-16);
+}
+
 }  // namespace
 }  // namespace limpet

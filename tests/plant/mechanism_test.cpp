@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/plant/mechanism.hpp"
-
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <utility>
+
 #include "limpet/core/random.hpp"
 #include "limpet/models/cad_model.hpp"
+#include "limpet/plant/mechanism_step.hpp"
 #include "limpet/plant/mujoco_frames.hpp"
 #include "plants.hpp"
 
@@ -42,30 +43,25 @@ MechanismState<double> any_state(RandomStream& random) {
     return state;
 }
 
-/// The speeds of ours by MuJoCo's: place's in W, else the same but for the axes.
-Eigen::Matrix<double, 9, 9> by_mujocos(const Matrix3& R_WB) {
-    const Matrix3 turn = Vector3(1.0, -1.0, -1.0).asDiagonal();
-    Eigen::Matrix<double, 9, 9> ours = Eigen::Matrix<double, 9, 9>::Identity();
-    ours.topLeftCorner<3, 3>() = R_WB.transpose() * turn;
-    ours.block<3, 3>(3, 3) = turn;
-    return ours;
-}
-
 class MechanismOf : public testing::TestWithParam<const char*> {
 protected:
     const vehicle::Airframe airframe =
         std::string(GetParam()) == "numbers" ? vehicle::Airframe{} : crooked();
 };
 
-/// MuJoCo works both out by recursion over its tree: another way to the same numbers.
-TEST_P(MechanismOf, MassesAndForcesAreMujocos) {
+/// MuJoCo's accelerations come from its mass matrix and recursion over its own tree: another way to
+/// the same numbers. Wrenches on all three bodies; springs of the joints alone, as they stand.
+TEST_P(MechanismOf, MovesAsMujocosBodies) {
     const auto compiled = test::compile(airframe);
     const mjModel& model = compiled->get();
     const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(&model), mj_deleteData);
     const MechanismModel numbers = make_mechanism(airframe);
+    constexpr double kShort_s = 1e-9;  // springs act as they stand
     RandomStream random(1, 0, Stream::test);
     for (int k = 0; k < 50; ++k) {
         const MechanismState<double> state = any_state(random);
+        MechanismStep<double> step;
+        step.start(numbers, state);
         mujoco_frames::write(state.p_WB_m, data->qpos);
         mujoco_frames::write_attitude(state.q_WB, data->qpos + 3);
         mujoco_frames::write(state.v_WB_W_m_s, data->qvel);
@@ -73,48 +69,32 @@ TEST_P(MechanismOf, MassesAndForcesAreMujocos) {
         std::copy_n(state.joint.data(), kJoints, data->qpos + 7);
         std::copy_n(state.joint_rate.data(), kJoints, data->qvel + 6);
         mj_forward(&model, data.get());
-        Eigen::Matrix<double, 9, 9, Eigen::RowMajor> theirs;
-        mj_fullM(&model, theirs.data(), data->qM);
-
-        Mechanism<double> at;
-        place_mechanism(numbers, state, at);
-        const auto to_ours = by_mujocos(at.R_WB);
-        Eigen::Matrix<double, 9, 9> mass;
-        for (int i = 0; i < kFreedoms; ++i) {
-            for (int j = 0; j <= i; ++j) {
-                mass(i, j) = mass(j, i) = at.mass(i, j);
-            }
+        std::fill_n(data->xfrc_applied, 6 * model.nbody, 0.0);
+        for (const auto& [body, name] :
+             {std::pair{Body::base, "base"}, std::pair{Body::carriage, "carriage"},
+              std::pair{Body::cup, "cup"}}) {
+            const int id = mj_name2id(&model, mjOBJ_BODY, name);
+            const Wrench wrench_W{.force_N = random.normal3(),
+                                  .moment_N_m = 0.1 * random.normal3()};
+            mujoco_frames::write(wrench_W.force_N, data->xfrc_applied + 6 * id);
+            mujoco_frames::write(wrench_W.moment_N_m, data->xfrc_applied + 6 * id + 3);
+            push(step, body, wrench_W, mujoco_frames::turn(data->xipos + 3 * id));
         }
-        const Eigen::Matrix<double, 9, 9> in_theirs = to_ours.transpose() * mass * to_ours;
-        EXPECT_LT((in_theirs - theirs).lpNorm<Eigen::Infinity>(), 1e-10);
-        const Eigen::Map<const Eigen::Matrix<double, 9, 1>> force(at.force.data());
-        const Eigen::Map<const Eigen::Matrix<double, 9, 1>> bias(data->qfrc_bias);
-        EXPECT_LT((to_ours.transpose() * force + bias).lpNorm<Eigen::Infinity>(), 1e-8);
-    }
-}
-
-TEST_P(MechanismOf, FactorsSolveIt) {
-    const MechanismModel numbers = make_mechanism(airframe);
-    RandomStream random(2, 0, Stream::test);
-    Mechanism<double> at;
-    place_mechanism(numbers, any_state(random), at);
-    SpeedFactors<double> factors;
-    factorise(at.mass, factors);
-    Speeds<double> x;
-    for (double& one : x) {
-        one = random.normal();
-    }
-    Speeds<double> image{};
-    for (int i = 0; i < kFreedoms; ++i) {
-        for (int j = 0; j < kFreedoms; ++j) {
-            image[static_cast<std::size_t>(i)] +=
-                at.mass(std::max(i, j), std::min(i, j)) * x[static_cast<std::size_t>(j)];
+        step.close(kShort_s);
+        const MechanismChange<double> change = step.change();
+        for (std::size_t joint = 0; joint < kJoints; ++joint) {
+            data->qfrc_applied[6 + joint] = step.joint_force(joint, change);
         }
-    }
-    factors.forward(image);
-    factors.backward(image);
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        EXPECT_NEAR(image[i], x[i], 1e-10);
+        mj_forward(&model, data.get());
+        const Vector3 moved_m_s2 = step.at().R_WB * change.base.moving() / kShort_s;
+        const Vector3 turned_rad_s2 = change.base.turning() / kShort_s;
+        const double most = 1e-7 * (1.0 + moved_m_s2.norm() + turned_rad_s2.norm());
+        EXPECT_LT((moved_m_s2 - mujoco_frames::turn(data->qacc)).norm(), most);
+        EXPECT_LT((turned_rad_s2 - mujoco_frames::turn(data->qacc + 3)).norm(), most);
+        for (std::size_t joint = 0; joint < kJoints; ++joint) {
+            const double theirs = data->qacc[6 + joint];
+            EXPECT_NEAR(change.joint[joint] / kShort_s, theirs, 1e-7 * (1.0 + std::abs(theirs)));
+        }
     }
 }
 

@@ -242,7 +242,7 @@ TEST(ReducedPlant, TheCupAnswersAsItSaid) {
         const StepMode mode{.step_s = 1e-5, .contacts = false};
         const Kinematics before = plant->kinematics(Body::cup);
         const Matrix3 R_WT = quaternion_from_euler({0.1, 0.2, 0.3}).toRotationMatrix();
-        const CupResponse response = plant->cup_response(R_WT, mode);
+        const CupBearer::Response response = plant->bear_cup(mode)->response(R_WT);
         Vector6 wrench_T;
         wrench_T << 3.0, -2.0, 1.0, 0.02, -0.03, 0.01;
         plant->apply(

@@ -125,7 +125,7 @@ TEST_P(State, RefusesPartsThatAPlainMultirotorHasNot) {
     const auto plant = make(test::plain_multirotor());
     EXPECT_THROW((void)plant->kinematics(Body::cup), InternalError);
     EXPECT_THROW(plant->apply(Body::carriage, {}, Vector3::Zero()), InternalError);
-    EXPECT_THROW((void)plant->cup_response(Matrix3::Identity(), {}), InternalError);
+    EXPECT_THROW((void)plant->bear_cup({}), InternalError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, State, test::each_engine(), test::engine_name);

@@ -25,15 +25,15 @@ TEST_P(GoldenHash, TheFlightIsTheSameBitForBit) {
 
 // Of Debian 12's compiler and mathematical library on x86-64 (docs/decisions/0006-determinism.md).
 INSTANTIATE_TEST_SUITE_P(Shipped, GoldenHash,
-                         testing::Values(Golden{"hover", {}, 0x056882120b6521b4},
-                                         Golden{"perch_concrete", {}, 0x903882fc98d22035},
-                                         Golden{"perch_metal_valve", {}, 0x63f8568ea91061d6},
-                                         Golden{"failed_perch", {}, 0x6fe9166ab34b8fd8},
-                                         Golden{"pendulum_concrete", {}, 0xb2037c25521dc880}),
+                         testing::Values(Golden{"hover", {}, 0x62378c716927afff},
+                                         Golden{"perch_concrete", {}, 0x090cde7409e7777e},
+                                         Golden{"perch_metal_valve", {}, 0xe98cb0e4092bb635},
+                                         Golden{"failed_perch", {}, 0x8ca503094981c758},
+                                         Golden{"pendulum_concrete", {}, 0x76a3d241235b46fb}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 INSTANTIATE_TEST_SUITE_P(OnMujoco, GoldenHash,
                          testing::Values(Golden{
-                             "perch_concrete", {"simulation.engine=mujoco"}, 0xc6c6bbe3942d0b17}),
+                             "perch_concrete", {"simulation.engine=mujoco"}, 0xe7702af90060304b}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 
 }  // namespace

@@ -48,7 +48,8 @@ TEST(Rotor, HoversAt560RadiansPerSecond) {
     const Airframe airframe;
     RotorsState state;
     for (int i = 0; i < 1000; ++i) {
-        step(airframe.rotor, state, armed(hover_command(airframe)), kDt_s);
+        step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
+             armed(hover_command(airframe)));
     }
     const Wrench wrench = rotor_wrench_B(airframe, state, {}, kNoWind);
     EXPECT_NEAR(-wrench.force_N.z(), 3.2 * kGravity_m_s2, 1e-9);
@@ -108,8 +109,8 @@ TEST(Rotor, PitchMomentPerUnitCommandIsElevenNewtonMetres) {
         const double mix = 0.7071 * command;
         RotorsState state = spinning(airframe.rotor, hover);
         for (int i = 0; i < 1000; ++i) {
-            step(airframe.rotor, state, armed(hover + mix, hover - mix, hover + mix, hover - mix),
-                 kDt_s);
+            step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
+                 armed(hover + mix, hover - mix, hover + mix, hover - mix));
         }
         return rotor_wrench_B(airframe, state, {}, kNoWind).moment_N_m.y();
     };
@@ -168,12 +169,12 @@ TEST(Rotor, LagReachesSixtyThreePercentAfterOneTimeConstant) {
     const double share = 1.0 - std::exp(-1.0);
     RotorsState rising = at_speed(100.0);
     for (int i = 0; i < 25; ++i) {  // 12.5 ms
-        step(rotor, rising, armed(1.0), 0.5e-3);
+        step(rotor, make_lag(rotor, 0.5e-3), rising, armed(1.0));
     }
     EXPECT_NEAR(rising.speed_rad_s[0], 100.0 + 700.0 * share, 1e-9);
     RotorsState falling = at_speed(800.0);
     for (int i = 0; i < 25; ++i) {  // 25 ms
-        step(rotor, falling, armed(0.0), 1e-3);
+        step(rotor, make_lag(rotor, 1e-3), falling, armed(0.0));
     }
     EXPECT_NEAR(falling.speed_rad_s[0], 800.0 - 700.0 * share, 1e-9);
 }
@@ -182,9 +183,9 @@ TEST(Rotor, LagDoesNotDependOnTheStep) {
     const RotorParameters rotor;
     RotorsState coarse;
     RotorsState fine;
-    step(rotor, coarse, armed(0.5), 8e-3);
+    step(rotor, make_lag(rotor, 8e-3), coarse, armed(0.5));
     for (int i = 0; i < 32; ++i) {
-        step(rotor, fine, armed(0.5), 0.25e-3);
+        step(rotor, make_lag(rotor, 0.25e-3), fine, armed(0.5));
     }
     EXPECT_NEAR(coarse.speed_rad_s[3], fine.speed_rad_s[3], 1e-10);
 }
@@ -195,11 +196,11 @@ TEST(Rotor, DeadTimeIsExact) {
         rotor.command_delay_s = delay * kDt_s;
         RotorsState state;
         for (int i = 0; i < 300; ++i) {  // longer than the ring
-            step(rotor, state, armed(0.0), kDt_s);
+            step(rotor, make_lag(rotor, kDt_s), state, armed(0.0));
         }
         int steps = 0;
         while (state.speed_rad_s[1] <= 100.0 && steps < 200) {
-            step(rotor, state, armed(1.0), kDt_s);
+            step(rotor, make_lag(rotor, kDt_s), state, armed(1.0));
             ++steps;
         }
         EXPECT_EQ(steps, delay + 1);
@@ -210,14 +211,14 @@ TEST(Rotor, RefusesADeadTimeBeyondItsLine) {
     RotorParameters rotor;
     rotor.command_delay_s = 0.128;
     RotorsState state;
-    EXPECT_THROW(step(rotor, state, armed(0.5), kDt_s), InternalError);
+    EXPECT_THROW(step(rotor, make_lag(rotor, kDt_s), state, armed(0.5)), InternalError);
 }
 
 TEST(Rotor, DeadTimeStartsFullOfTheSteadyCommand) {
     RotorParameters rotor;
     rotor.command_delay_s = 0.05;
     RotorsState state = spinning(rotor, 0.5);
-    step(rotor, state, armed(1.0), kDt_s);
+    step(rotor, make_lag(rotor, kDt_s), state, armed(1.0));
     EXPECT_DOUBLE_EQ(state.speed_rad_s[0], 450.0);
 }
 
@@ -225,11 +226,12 @@ TEST(Rotor, DisarmedRotorsRunDownAndArmedOnesIdle) {
     const RotorParameters rotor;
     RotorsState state = at_speed(560.0);
     for (int i = 0; i < 100; ++i) {
-        step(rotor, state, armed(0.0), kDt_s);
+        step(rotor, make_lag(rotor, kDt_s), state, armed(0.0));
     }
     EXPECT_NEAR(state.speed_rad_s[0], 100.0, 10.0);
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, state, {.command = {1.0, 1.0, 1.0, 1.0}, .armed = false}, kDt_s);
+        step(rotor, make_lag(rotor, kDt_s), state,
+             {.command = {1.0, 1.0, 1.0, 1.0}, .armed = false});
     }
     EXPECT_NEAR(state.speed_rad_s[0], 0.0, 1e-12);
 }
@@ -239,15 +241,15 @@ TEST(Rotor, SpeedEndsAtItsLimitAndSagsWithTheBattery) {
     rotor.speed_max_rad_s = 700.0;
     RotorsState state;
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, state, armed(3.0), kDt_s);  // cut to 1: 800 rad/s asked
+        step(rotor, make_lag(rotor, kDt_s), state, armed(3.0));  // cut to 1: 800 rad/s asked
     }
     EXPECT_NEAR(state.speed_rad_s[0], 700.0, 1e-9);
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, state, armed(1.0), kDt_s, 0.5);
+        step(rotor, make_lag(rotor, kDt_s), state, armed(1.0), 0.5);
     }
     EXPECT_NEAR(state.speed_rad_s[0], 350.0, 1e-9);
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, state, armed(0.2), kDt_s, 0.5);  // below the limit: as asked
+        step(rotor, make_lag(rotor, kDt_s), state, armed(0.2), 0.5);  // below the limit: as asked
     }
     EXPECT_NEAR(state.speed_rad_s[0], 240.0, 1e-9);
 }
