@@ -70,10 +70,7 @@ void bare_physics(benchmark::State& state) {
     for (auto _ : state) {
         plant.restore(tape().start);
         for (const PlantStep& step : tape().steps) {
-            for (const PlantStep::Applied& applied : step.applied) {
-                plant.apply(applied.body, applied.wrench_W, applied.p_W_m);
-            }
-            plant.step(step.mode);
+            step.play(plant);
         }
     }
     if (plant.save().values != tape().end.values) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "limpet/plant/plant.hpp"
@@ -14,22 +16,45 @@ struct PlantStep {
         Wrench wrench_W;
         Vector3 p_W_m;
     };
+    /// Springs between lip and wall.
+    struct Held {
+        Matrix3 R_WT;
+        std::array<StepForce<double>, 6> springs;
+    };
     std::vector<Applied> applied;
+    std::optional<Held> held;
     plant::StepMode mode;
+
+    void play(plant::Plant& plant) const {
+        for (const Applied& one : applied) {
+            plant.apply(one.body, one.wrench_W, one.p_W_m);
+        }
+        if (CupBearer* bearer = plant.bear_cup(mode)) {
+            if (held) {
+                (void)bearer->hold(held->R_WT, held->springs);
+            } else {
+                bearer->let_go();
+            }
+        }
+        plant.step(mode);
+    }
 };
 
 /// A plant that writes down what it is told, so that the same physics can be run again without the
 /// loop: same model, same step schedule, same forces, same contacts.
-class TapePlant final : public plant::Plant {
+class TapePlant final : public plant::Plant, private CupBearer {
 public:
     explicit TapePlant(plant::Plant& plant) : plant_(plant) {}
 
     void apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) override {
-        next_.applied.push_back({body, wrench_W, p_W_m});
+        if (body != plant::Body::cup || !next_.held) {  // the springs' is in them
+            next_.applied.push_back({body, wrench_W, p_W_m});
+        }
         plant_.apply(body, wrench_W, p_W_m);
     }
     [[nodiscard]] CupBearer* bear_cup(const plant::StepMode& mode) override {
-        return plant_.bear_cup(mode);
+        bearer_ = plant_.bear_cup(mode);
+        return bearer_ != nullptr ? this : nullptr;
     }
     void step(const plant::StepMode& mode) override {
         next_.mode = mode;
@@ -56,7 +81,24 @@ public:
     [[nodiscard]] const std::vector<PlantStep>& steps() const { return steps_; }
 
 private:
+    [[nodiscard]] double step_s() const override { return bearer_->step_s(); }
+    [[nodiscard]] const Vector6& mobility_1_s() const override { return bearer_->mobility_1_s(); }
+    [[nodiscard]] Held hold(const Matrix3& R_WT,
+                            const std::array<StepForce<double>, 6>& springs) override {
+        next_.held = {R_WT, springs};
+        return bearer_->hold(R_WT, springs);
+    }
+    [[nodiscard]] Response response(const Matrix3& R_WT) override {
+        next_.held.reset();
+        return bearer_->response(R_WT);
+    }
+    void let_go() override {
+        next_.held.reset();
+        bearer_->let_go();
+    }
+
     plant::Plant& plant_;
+    CupBearer* bearer_ = nullptr;
     PlantStep next_;
     std::vector<PlantStep> steps_;
 };
