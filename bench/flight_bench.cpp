@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/plant/lane_group.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/step.hpp"
@@ -86,6 +87,20 @@ void whole_loop(benchmark::State& state) {
     report(state, tape().simulated_s);
 }
 
+/// As a campaign flies: its runs side by side.
+constexpr std::uint32_t kSideBySide = 32;
+void in_lanes(benchmark::State& state) {
+    for (auto _ : state) {
+        std::uint32_t next = 0;
+        plant::LaneGroup::fly([&next] {
+            while (next < kSideBySide) {
+                benchmark::DoNotOptimize(fly(model(), {}, {}, next++).state_hash);
+            }
+        });
+    }
+    report(state, tape().simulated_s * kSideBySide);
+}
+
 void on_mujoco(benchmark::State& state) {
     for (auto _ : state) {
         benchmark::DoNotOptimize(fly(on_mujoco_model()).state_hash);
@@ -124,6 +139,10 @@ public:
         fmt::print("  flights a second, / on MuJoCo    {:.2f}    (goal: at least 5)\n",
                    median_["on_mujoco"] / loop);
         fmt::print("  flights a second                 {:.1f}\n", 1e3 / loop);
+        const double lane = median_["in_lanes"] / kSideBySide;
+        fmt::print("  side by side ({}), / on MuJoCo   {:.2f}\n", plant::widest_lanes().name,
+                   median_["on_mujoco"] / lane);
+        fmt::print("  side by side, flights a second   {:.1f}\n", 1e3 / lane);
         fmt::print("  with recording / whole loop      {:.3f}\n", median_["with_recording"] / loop);
         fmt::print("  whole loop, times real time      {:.0f}     (goal: at least 100)\n",
                    tape().simulated_s / (loop * 1e-3));
@@ -155,6 +174,7 @@ int main(int argc, char** argv) {
     };
     add("bare_physics", limpet::bare_physics);
     add("whole_loop", limpet::whole_loop);
+    add("in_lanes", limpet::in_lanes);
     add("on_mujoco", limpet::on_mujoco);
     add("with_recording", limpet::with_recording);
     limpet::Medians reporter;

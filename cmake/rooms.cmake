@@ -111,7 +111,7 @@ function(limpet_compile_options target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     # GCC 12 sees overlaps and overruns in its own std::string (GCC bug 105651) once that comes precompiled.
     # Of a few files as one it takes each for a header.
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage\;-Wno-restrict\;-Wno-array-bounds\;-Wno-stringop-overread\;-Wno-stringop-overflow>
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage\;-Wno-restrict\;-Wno-array-bounds\;-Wno-stringop-overread\;-Wno-stringop-overflow\;-Wno-psabi>
     $<$<BOOL:${LIMPET_WERROR}>:-Werror> -ffp-contract=off -fno-math-errno
     # What is installed names files as the repository does, not where it was built.
     -fmacro-prefix-map=${LIMPET_ROOT}/=

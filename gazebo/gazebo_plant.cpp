@@ -66,7 +66,7 @@ void GazeboPlant::start_twin() {
         state.joint[k] = joints[k]->Position(0);
         state.joint_rate[k] = joints[k]->GetVelocity(0);
     }
-    twin_.start(model_->mechanism_, state);
+    twin_.start(model_->mechanism_.numbers, state);
     push(twin_, plant::Body::base, contacts_W(), base.p_WF_m);
 }
 

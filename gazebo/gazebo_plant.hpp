@@ -88,7 +88,7 @@ private:
 
     std::shared_ptr<const GazeboModel> model_;
     plant::MechanismStep<double> twin_;  ///< of a vehicle with a cup, see MujocoPlant
-    plant::MechanismBearer bearer_{twin_};
+    plant::MechanismBearer<double> bearer_{twin_};
     double slider_N_ = 0.0;
 };
 

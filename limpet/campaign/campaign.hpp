@@ -8,7 +8,7 @@
 
 #include "limpet/campaign/sampling.hpp"
 #include "limpet/core/signals/outcome.hpp"
-#include "limpet/scenario/scenario.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::campaign {
 
@@ -26,7 +26,7 @@ struct Campaign {
     std::vector<VariedKey> keys;
     /// The scenario as YAML, one for each combination of values that are names (see variant_of());
     /// a single one where only numbers differ.
-    std::vector<std::string> scenarios;
+    std::vector<scenario::ScenarioText> scenarios;
 };
 
 /// Reads a campaign and checks all that can be checked before anything flies: the scenario is
@@ -39,7 +39,7 @@ struct Campaign {
                                      const std::filesystem::path& data = {});
 
 /// The same from what a database of results holds: nothing else is read.
-/// @param scenarios  as in Campaign
+/// @param scenarios  the texts of Campaign::scenarios
 [[nodiscard]] Campaign restore_campaign(const std::string& yaml, const std::string& name,
                                         std::vector<std::string> scenarios);
 

@@ -82,7 +82,7 @@ void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
                 options.overrides.push_back(key.key + "=" + value_text(value));
             }
         }
-        campaign.scenarios.push_back(load_scenario(path, options).yaml);
+        campaign.scenarios.emplace_back(load_scenario(path, options).yaml, campaign.scenario_name);
     }
 }
 
@@ -158,7 +158,9 @@ Campaign restore_campaign(const std::string& yaml, const std::string& name,
                           std::vector<std::string> scenarios) {
     CampaignFile file = parse_campaign(yaml, name, name);
     file.campaign.scenario_name = fs::path(file.scenario).stem().string();
-    file.campaign.scenarios = std::move(scenarios);
+    for (std::string& text : scenarios) {
+        file.campaign.scenarios.emplace_back(std::move(text), file.campaign.scenario_name);
+    }
     return std::move(file.campaign);
 }
 
@@ -184,8 +186,7 @@ scenario::Scenario scenario_of(const Campaign& campaign, const std::vector<Sampl
             options.overrides.push_back(campaign.keys[i].key + "=" + value_text(sample[i]));
         }
     }
-    return load_scenario_text(campaign.scenarios[variant_of(campaign.keys, sample)],
-                              campaign.scenario_name, options);
+    return campaign.scenarios[variant_of(campaign.keys, sample)].load(options);
 }
 
 }  // namespace limpet::campaign

@@ -103,8 +103,8 @@ std::string campaign_hash(const Campaign& campaign) {
 
 std::string scenario_hash(const Campaign& campaign) {
     std::uint64_t hash = hash_of("");
-    for (const std::string& text : campaign.scenarios) {
-        hash = hash_of(text, hash);
+    for (const scenario::ScenarioText& text : campaign.scenarios) {
+        hash = hash_of(text.yaml(), hash);
     }
     return hash_text(hash);
 }
@@ -124,7 +124,7 @@ void write_campaign(SQLite::Database& database, const Campaign& campaign) {
     insert.exec();
     SQLite::Statement scenario(database, "INSERT INTO scenarios VALUES (?, ?)");
     for (std::size_t i = 0; i < campaign.scenarios.size(); ++i) {
-        SQLite::bind(scenario, static_cast<std::int64_t>(i), campaign.scenarios[i]);
+        SQLite::bind(scenario, static_cast<std::int64_t>(i), campaign.scenarios[i].yaml());
         scenario.exec();
         scenario.reset();
     }

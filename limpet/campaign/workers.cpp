@@ -14,6 +14,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
+#include "limpet/plant/lane_group.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -122,15 +123,16 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
                       .elapsed_s = 0.0,
                       .outcomes = results.outcomes()};
     Work work(results, watch, progress);
+    const auto fly_on = [&work] { plant::LaneGroup::fly([&work] { work.fly_on(); }); };
     {
         std::vector<std::jthread> workers;
         try {
             while (workers.size() + 1 < static_cast<std::size_t>(jobs)) {
-                workers.emplace_back([&work] { work.fly_on(); });
+                workers.emplace_back(fly_on);
             }
         } catch (const std::system_error&) {  // no more threads to be had: those there are will do
         }
-        work.fly_on();
+        fly_on();
     }
     work.rethrow();
     results.finish();

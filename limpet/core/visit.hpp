@@ -48,11 +48,12 @@ void visit_leaves(T& value, Leaf&& leaf) {
     using Plain = std::remove_const_t<T>;
     constexpr bool kWrites = !std::is_const_v<T>;
     const auto each = [&leaf](auto&... members) { (visit_leaves(members, leaf), ...); };
-    if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) {
+    if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain> ||
+                  requires { typename Plain::Mask; }) {  // lanes (lanes.hpp) are a number
         leaf(value);
     } else if constexpr (requires { Plain::visit_members(value, each); }) {
         Plain::visit_members(value, each);
-    } else if constexpr (std::is_same_v<Plain, Quaternion>) {
+    } else if constexpr (requires { value.coeffs(); }) {  // a quaternion
         auto* const xyzw = value.coeffs().data();
         each(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
     } else if constexpr (requires { Plain::SizeAtCompileTime; }) {  // Eigen's vectors and matrices

@@ -29,7 +29,7 @@ struct StepForce {
 /// @param step_s       h
 template <class T>
 [[nodiscard]] StepForce<T> within_step(const T& spring_N, const T& k, const T& c, const T& rate,
-                                       const T& mobility, double step_s) {
+                                       const T& mobility, const T& step_s) {
     const T stiff = k * step_s * mobility;  // (omega h)^2
     const T lag = stiff / (4.0 + stiff);    // 0 trapezoidal, 1 implicit Euler
     const T resistance = c + lag * step_s * k;

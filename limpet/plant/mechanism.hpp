@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limpet/core/cup_bearer.hpp"
+#include "limpet/core/lanes.hpp"
 #include "limpet/plant/spatial.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
@@ -19,17 +20,28 @@ namespace limpet::plant {
 inline constexpr int kJoints = 3;  ///< slider, cup_pitch, cup_yaw
 inline constexpr int kFreedoms = 6 + kJoints;
 
+template <class T>
+struct RigidBody {
+    T mass_kg{};
+    Vec3<T> centre_m = Vec3<T>::Zero();
+    Mat3<T> inertia_kg_m2 = Mat3<T>::Zero();  ///< about its own centre
+};
+
 /// Immutable numbers of the bodies.
-struct MechanismModel {
+template <class T>
+struct MechanismNumbers {
     bool has_cup = true;
-    vehicle::BodyInertia base;      ///< in B
-    vehicle::BodyInertia carriage;  ///< in B with the slider at its outer stop
-    vehicle::BodyInertia cup;       ///< centre from the joint; joint centred
-    SpatialInertia<double> base_inertia;
-    Vector3 joint_B_m = Vector3::Zero();
-    double lip_m = 0.0;  ///< ahead of the joint
-    double mass_kg = 0.0;
-    std::array<vehicle::JointLaw, kJoints> joints;
+    T mass_kg{};  ///< of all
+    SpatialInertia<T> base;
+    RigidBody<T> carriage;  ///< in B with the slider at its outer stop
+    RigidBody<T> cup;       ///< centre from the joint; joint centred
+    Vec3<T> joint_B_m = Vec3<T>::Zero();
+    T lip_m{};  ///< ahead of the joint
+    std::array<vehicle::JointLawOf<T>, kJoints> joints{};
+};
+
+struct MechanismModel {
+    MechanismNumbers<double> numbers;
     Vector6 lip_mobility_1_s = Vector6::Zero();  ///< as CupBearer's: joint straight, slider out
 };
 [[nodiscard]] MechanismModel make_mechanism(const vehicle::Airframe& airframe);
@@ -99,20 +111,19 @@ template <class T>
 /// The mechanism at a state.
 /// @param at  is filled
 template <class T>
-void place_mechanism(const MechanismModel& model, const MechanismState<T>& state,
+void place_mechanism(const MechanismNumbers<T>& model, const MechanismState<T>& state,
                      Mechanism<T>& at) {
-    using std::cos;
-    using std::sin;
     at.R_WB = state.q_WB.toRotationMatrix();
     at.gravity_B_m_s2 = kGravity_m_s2 * at.R_WB.row(2).transpose();
     const Vec3<T>& w = state.w_WB_B_rad_s;
-    at.force.base = spinning(model.base_inertia.template cast<T>(), w);
+    at.force.base = spinning(model.base, w);
     if (!model.has_cup) {
         return;
     }
 
-    const T half_p = 0.5 * state.joint[1], half_y = 0.5 * state.joint[2];
-    const T s_p = sin(half_p), c_p = cos(half_p), s_y = sin(half_y), c_y = cos(half_y);
+    T s_p, c_p, s_y, c_y;  // of half the angles
+    sine_cosine<T>(0.5 * state.joint[1], s_p, c_p);
+    sine_cosine<T>(0.5 * state.joint[2], s_y, c_y);
     at.q_BC = {c_p * c_y, s_p * s_y, s_p * c_y, c_p * s_y};
     const T sin_p = 2.0 * s_p * c_p, cos_p = 1.0 - 2.0 * s_p * s_p;
     const T sin_y = 2.0 * s_y * c_y, cos_y = 1.0 - 2.0 * s_y * s_y;
@@ -121,22 +132,20 @@ void place_mechanism(const MechanismModel& model, const MechanismState<T>& state
         -sin_p * cos_y, sin_p * sin_y, cos_p;
     const Vec3<T> yaw_axis = at.R_BC.col(2);
     const Vec3<T> slid(state.joint[0], T(0.0), T(0.0));
-    at.joint_B_m = model.joint_B_m.template cast<T>() + slid;
+    at.joint_B_m = model.joint_B_m + slid;
     at.lip_arm_B_m = model.lip_m * at.R_BC.col(0);
     at.lip_B_m = at.joint_B_m + at.lip_arm_B_m;
     at.pitch_axis = {{T(0.0), T(1.0), T(0.0), -at.joint_B_m.z(), T(0.0), at.joint_B_m.x()}};
     at.yaw_axis = Spatial<T>::of(yaw_axis, at.joint_B_m.cross(yaw_axis));
 
-    const T carriage_kg(model.carriage.mass_kg), cup_kg(model.cup.mass_kg);
-    at.carriage =
-        SpatialInertia<T>::of_body(carriage_kg, model.carriage.centre_B_m.template cast<T>() + slid,
-                                   model.carriage.inertia_kg_m2.template cast<T>());
-    const Vec3<T> cup_arm = at.R_BC * model.cup.centre_B_m.template cast<T>();
+    const T &carriage_kg = model.carriage.mass_kg, &cup_kg = model.cup.mass_kg;
+    at.carriage = SpatialInertia<T>::of_body(carriage_kg, model.carriage.centre_m + slid,
+                                             model.carriage.inertia_kg_m2);
+    const Vec3<T> cup_arm = at.R_BC * model.cup.centre_m;
     at.cup = SpatialInertia<T>::of_body(
         cup_kg, at.joint_B_m + cup_arm,
-        turned_about<1, T>(
-            cos_p, sin_p,
-            turned_about<2, T>(cos_y, sin_y, model.cup.inertia_kg_m2.template cast<T>())));
+        turned_about<1, T>(cos_p, sin_p,
+                           turned_about<2, T>(cos_y, sin_y, model.cup.inertia_kg_m2)));
 
     // The carriage slides on what turns; the cup turns on the hinges besides.
     const T twice = 2.0 * state.joint_rate[0];

@@ -28,14 +28,14 @@ template <class T>
 class MechanismStep {
 public:
     /// @param state  from here on, under gravity alone
-    void start(const MechanismModel& model, const MechanismState<T>& state) {
+    void start(const MechanismNumbers<T>& model, const MechanismState<T>& state) {
         model_ = &model;
         state_ = state;
         place_mechanism(model, state, at_);
         pushed_ = at_.force;
         held_ = {};
         holds_ = false;
-        ready_s_ = 0.0;
+        closed_ = false;
     }
     [[nodiscard]] const Mechanism<T>& at() const { return at_; }
     [[nodiscard]] const MechanismState<T>& state() const { return state_; }
@@ -48,22 +48,23 @@ public:
     [[nodiscard]] const MechanismForces<T>& pushed() const { return pushed_; }
 
     /// The lip is held by springs along the axes of T, or no longer; to be closed anew.
-    void hold_lip(const Matrix3& R_WT, const std::array<StepForce<double>, 6>& springs) {
+    void hold_lip(const Mat3<T>& R_WT, const std::array<StepForce<T>, 6>& springs) {
         R_BT_ = at_.R_WB.transpose() * R_WT;
         held_ = springs;
         holds_ = true;
-        ready_s_ = 0.0;
+        closed_ = false;
     }
     void let_lip_go() {
-        if (holds_) {
-            holds_ = false;
-            ready_s_ = 0.0;
-        }
+        closed_ = closed_ && !holds_;
+        holds_ = false;
     }
     [[nodiscard]] bool holds_lip() const { return holds_; }
+    /// To be closed anew.
+    void reopen() { closed_ = false; }
     /// Of the lip's twist over the step, in T.
-    [[nodiscard]] Vector6 lip_change(const MechanismChange<T>& change, const Mat3<T>& R_BT) const {
-        Vector6 twist_T;
+    [[nodiscard]] Eigen::Matrix<T, 6, 1> lip_change(const MechanismChange<T>& change,
+                                                    const Mat3<T>& R_BT) const {
+        Eigen::Matrix<T, 6, 1> twist_T;
         twist_T << R_BT.transpose() *
                        (change.cup.moving_at(at_.lip_B_m) + step_s_ * at_.lip_drift_m_s2),
             R_BT.transpose() * (change.cup.turning() + step_s_ * at_.cup_drift_rad_s2);
@@ -71,11 +72,10 @@ public:
     }
     [[nodiscard]] const Mat3<T>& R_BT() const { return R_BT_; }
 
-    /// Begins a step of this length anew: bodies, joints and what
-    /// holds the lip.
-    void begin(double step_s) {
+    /// Begins a step of this length anew: bodies, joints and what holds the lip.
+    void begin(const T& step_s) {
         step_s_ = step_s;
-        base_ = model_->base_inertia.template cast<T>();
+        base_ = model_->base;
         springs_ = {};
         if (model_->has_cup) {
             hang_cup();
@@ -91,18 +91,18 @@ public:
     /// All springs are there.
     void close() {
         base_.factorise();
-        ready_s_ = step_s_;
+        closed_ = true;
         known_ = false;
     }
     /// Without other springs; does nothing when that is done already.
-    void close(double step_s) {
-        if (ready_s_ != step_s) {
+    void close(const T& step_s) {
+        if (!closed(step_s)) {
             begin(step_s);
             close();
         }
     }
-    /// Of which length, 0: not closed since start().
-    [[nodiscard]] double ready_s() const { return ready_s_; }
+    /// Whether all springs are there for steps of this length.
+    [[nodiscard]] bool closed(const T& step_s) const { return closed_ && all(step_s_ == step_s); }
 
     /// Of all speeds over the step; worked out once.
     [[nodiscard]] const MechanismChange<T>& change() {
@@ -121,12 +121,12 @@ public:
     }
 
     /// To a wrench on the cup beside all that has been pushed; nothing holds the lip.
-    [[nodiscard]] CupBearer::Response response(const Matrix3& R_WT) {
+    [[nodiscard]] CupBearer::Response response(const Mat3<T>& R_WT) {
         CupBearer::Response response;
         const Mat3<T> R_BT = at_.R_WB.transpose() * R_WT;
         const MechanismChange<T>& free = change();
-        response.drift = lip_change(free, R_BT);
-        response.press_N = joint_force(0, free);
+        response.drift = lip_change(free, R_BT).template cast<double>();
+        response.press_N = static_cast<double>(joint_force(0, free));
         const Vec3<T> none = Vec3<T>::Zero();
         for (int i = 0; i < 6; ++i) {
             MechanismForces<T> unit;
@@ -134,9 +134,11 @@ public:
                                     : Spatial<T>::of(R_BT.col(i - 3), none),
                               step_s_);
             const MechanismChange<T> by = answer(unit, {});
-            response.mobility.col(i) << R_BT.transpose() * by.cup.moving_at(at_.lip_B_m),
-                R_BT.transpose() * by.cup.turning();
-            response.press_per_wrench[i] = -joints_[0].gain * by.joint[0];
+            const Vec3<T> moved = R_BT.transpose() * by.cup.moving_at(at_.lip_B_m);
+            const Vec3<T> turned = R_BT.transpose() * by.cup.turning();
+            response.mobility.col(i) << moved.template cast<double>(),
+                turned.template cast<double>();
+            response.press_per_wrench[i] = static_cast<double>(-joints_[0].gain * by.joint[0]);
         }
         return response;
     }
@@ -159,8 +161,8 @@ private:
         const Vec3<T> drift_rad_s = step_s_ * (R_BT_.transpose() * at_.cup_drift_rad_s2);
         Vec3<T> force, moment, along, about;
         for (int i = 0; i < 3; ++i) {
-            const StepForce<double>& pulls = held_[static_cast<std::size_t>(i)];
-            const StepForce<double>& turns = held_[static_cast<std::size_t>(3 + i)];
+            const StepForce<T>& pulls = held_[static_cast<std::size_t>(i)];
+            const StepForce<T>& turns = held_[static_cast<std::size_t>(3 + i)];
             along[i] = step_s_ * pulls.gain;
             about[i] = step_s_ * turns.gain;
             force[i] = pulls.now - pulls.gain * drift_m_s[i];
@@ -190,7 +192,7 @@ private:
         const auto spring = [&](std::size_t joint, const T& inertia) [[gnu::always_inline]] {
             joints_[joint] =
                 vehicle::joint_force<T>(model_->joints[joint], state_.joint[joint],
-                                        state_.joint_rate[joint], step_s_ / inertia, step_s_);
+                                        state_.joint_rate[joint], T(step_s_ / inertia), step_s_);
             return step_s_ * joints_[joint].gain;
         };
         const auto hinge = [&](std::size_t joint, const Spatial<T>& axis, Eliminated<T>& out) {
@@ -214,13 +216,13 @@ private:
     [[nodiscard]] MechanismChange<T> answer_all() const {
         MechanismForces<T> impulse;
         scale(pushed_.base, step_s_, impulse.base);
-        impulse.base.add(T(step_s_), springs_);
+        impulse.base.add(step_s_, springs_);
         std::array<T, kJoints> joints{};
         if (model_->has_cup) {
             scale(pushed_.carriage, step_s_, impulse.carriage);
             scale(pushed_.cup, step_s_, impulse.cup);
             if (holds_) {
-                impulse.cup.add(T(step_s_), held_force_);
+                impulse.cup.add(step_s_, held_force_);
             }
             for (std::size_t k = 0; k < kJoints; ++k) {
                 joints[k] = step_s_ * joints_[k].now;
@@ -261,12 +263,12 @@ private:
         return change;
     }
 
-    const MechanismModel* model_ = nullptr;
+    const MechanismNumbers<T>* model_ = nullptr;
     MechanismState<T> state_;
     Mechanism<T> at_;
     MechanismForces<T> pushed_;
     Spatial<T> springs_;
-    std::array<StepForce<double>, 6> held_{};  ///< between lip and wall, along the axes of T
+    std::array<StepForce<T>, 6> held_{};  ///< between lip and wall, along the axes of T
     Spatial<T> held_force_;
     Mat3<T> R_BT_ = Mat3<T>::Identity();
     bool holds_ = false;
@@ -275,8 +277,8 @@ private:
     SpatialInertia<T> base_;  ///< with all that hangs on it; after close() its factors
     std::array<Eliminated<T>, kJoints> out_{};
     std::array<StepForce<T>, kJoints> joints_{};
-    double step_s_ = 0.0;
-    double ready_s_ = 0.0;
+    T step_s_{};
+    bool closed_ = false;
 };
 
 /// A wrench at a point, in W, on a body of the vehicle.
@@ -294,9 +296,10 @@ inline void push(MechanismStep<double>& step, Body body, const Wrench& wrench_W,
 }
 
 /// A mechanism that answers the lip.
+template <class T>
 class MechanismBearer : public CupBearer {
 public:
-    explicit MechanismBearer(MechanismStep<double>& step) : step_(step) {}
+    explicit MechanismBearer(MechanismStep<T>& step) : step_(step) {}
     /// @return this, for a step of this mode
     [[nodiscard]] CupBearer* ask(const MechanismModel& model, const StepMode& mode) {
         model_ = &model;
@@ -308,16 +311,20 @@ public:
     [[nodiscard]] const Vector6& mobility_1_s() const override { return model_->lip_mobility_1_s; }
     [[nodiscard]] Held hold(const Matrix3& R_WT,
                             const std::array<StepForce<double>, 6>& springs) override {
-        step_.hold_lip(R_WT, springs);
+        std::array<StepForce<T>, 6> same;
+        for (std::size_t i = 0; i < same.size(); ++i) {
+            same[i] = {springs[i].now, springs[i].gain};
+        }
+        step_.hold_lip(R_WT.cast<T>(), same);
         prepare(mode_);
-        const MechanismChange<double>& change = step_.change();
-        return {.change = step_.lip_change(change, step_.R_BT()),
-                .press_N = step_.joint_force(0, change)};
+        const MechanismChange<T>& change = step_.change();
+        return {.change = step_.lip_change(change, step_.R_BT()).template cast<double>(),
+                .press_N = static_cast<double>(step_.joint_force(0, change))};
     }
     [[nodiscard]] Response response(const Matrix3& R_WT) override {
         step_.let_lip_go();
         prepare(mode_);
-        return step_.response(R_WT);
+        return step_.response(R_WT.cast<T>());
     }
     void let_go() override { step_.let_lip_go(); }
 
@@ -326,7 +333,7 @@ protected:
     virtual void prepare(const StepMode& mode) { step_.close(mode.step_s); }
 
 private:
-    MechanismStep<double>& step_;
+    MechanismStep<T>& step_;
     const MechanismModel* model_ = nullptr;
     StepMode mode_;
 };

@@ -134,7 +134,7 @@ void MujocoPlant::start_twin() {
         state.joint[k] = data_->qpos[at.joint_position[k]];
         state.joint_rate[k] = data_->qvel[at.joint_velocity[k]];
     }
-    twin_.start(model_->mechanism(), state);
+    twin_.start(model_->mechanism().numbers, state);
     push(twin_, Body::base, contacts_W_, state.p_WB_m);
 }
 

@@ -68,7 +68,7 @@ private:
     Wrench contacts_W_;               ///< of the last step, on the base about B
     double slider_N_ = 0.0;
     MechanismStep<double> twin_;  ///< of a vehicle with a cup
-    MechanismBearer bearer_{twin_};
+    MechanismBearer<double> bearer_{twin_};
 };
 
 }  // namespace limpet::plant

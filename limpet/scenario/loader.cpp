@@ -110,9 +110,18 @@ Scenario load_scenario(const std::string& wanted, const LoadOptions& options) {
 
 Scenario load_scenario_text(const std::string& text, const std::string& name,
                             const LoadOptions& options) {
+    return ScenarioText(text, name).load(options);
+}
+
+ScenarioText::ScenarioText(std::string yaml, std::string name)
+    : yaml_(std::move(yaml)),
+      name_(std::move(name)),
+      tree_(std::make_shared<const YamlNode>(parse_yaml(yaml_, name_))) {}
+
+Scenario ScenarioText::load(const LoadOptions& options) const {
     Scenario scenario;
-    scenario.name = name;
-    return load(parse_yaml(text, name), std::move(scenario), options);
+    scenario.name = name_;
+    return scenario::load(*tree_, std::move(scenario), options);
 }
 
 }  // namespace limpet::scenario

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,24 @@ struct LoadOptions {
 /// @param name  of the scenario, and of the text in messages
 [[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,
                                           const LoadOptions& options = {});
+
+/// Such a text, read once, of which scenarios are made with many overrides.
+class ScenarioText {
+public:
+    /// @throws InputError when it is not YAML
+    ScenarioText(std::string yaml, std::string name);
+    [[nodiscard]] const std::string& yaml() const { return yaml_; }
+    friend bool operator==(const ScenarioText& a, const ScenarioText& b) {
+        return a.yaml_ == b.yaml_;
+    }
+    /// As load_scenario_text().
+    [[nodiscard]] Scenario load(const LoadOptions& options) const;
+
+private:
+    std::string yaml_;
+    std::string name_;
+    std::shared_ptr<const YamlNode> tree_;
+};
 
 /// What no single row of a table can say: values that must fit each other.
 /// @param root  the text with its overrides, for the place in the message

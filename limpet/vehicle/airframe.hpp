@@ -164,15 +164,17 @@ void require_physical(const std::string& what, double mass_kg, const Matrix3& in
 
 /// Spring, damper and two stops of a joint, see joint_law.hpp. [N/m or N m/rad, N s/m or N m s/rad,
 /// m or rad]
-struct JointLaw {
-    double stiffness = 0.0;
-    double damping = 0.0;
-    double rest = 0.0;  ///< where the spring is slack
-    double lower = 0.0;
-    double upper = 0.0;
-    double stop_stiffness = 0.0;
-    double stop_damping = 0.0;
+template <class T>
+struct JointLawOf {
+    T stiffness{};
+    T damping{};
+    T rest{};  ///< where the spring is slack
+    T lower{};
+    T upper{};
+    T stop_stiffness{};
+    T stop_damping{};
 };
+using JointLaw = JointLawOf<double>;
 /// The slider: > 0 extends, 0 at the outer stop. The rest beyond that is the pre-load.
 [[nodiscard]] JointLaw slider_law(const SliderParameters& slider);
 /// Either hinge of the cup; its end is a rubber bumper.

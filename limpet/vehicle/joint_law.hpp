@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "limpet/core/lanes.hpp"
 #include "limpet/core/within_step.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
@@ -11,24 +12,22 @@ namespace limpet::vehicle {
 /// @param position  0 at the slider's outer stop or with the joint centred [m, rad]
 /// @param mobility  change of the rate over the step by a unit of force; 0: the force as it stands
 template <class T>
-[[nodiscard]] StepForce<T> joint_force(const JointLaw& law, const T& position, const T& rate,
-                                       const T& mobility, double step_s) {
+[[nodiscard]] StepForce<T> joint_force(const JointLawOf<T>& law, const T& position, const T& rate,
+                                       const T& mobility, const T& step_s) {
     StepForce<T> force = within_step<T>(law.stiffness * (law.rest - position), law.stiffness,
                                         law.damping, rate, mobility, step_s);
-    T beyond(0.0);
-    if (position > law.upper) {
-        beyond = position - law.upper;
-    } else if (position < law.lower) {
-        beyond = position - law.lower;
-    } else {
+    const auto above = position > law.upper;
+    const auto below = position < law.lower;
+    if (!any(above || below)) {
         return force;
     }
+    const T beyond =
+        select(above, position - law.upper, select(below, position - law.lower, T(0.0)));
     const StepForce<T> stop = within_step<T>(-law.stop_stiffness * beyond, law.stop_stiffness,
                                              law.stop_damping, rate, mobility, step_s);
-    if (stop.now * beyond < 0.0) {
-        force.now += stop.now;
-        force.gain += stop.gain;
-    }
+    const auto pushes = stop.now * beyond < T(0.0);
+    force.now += select(pushes, stop.now, T(0.0));
+    force.gain += select(pushes, stop.gain, T(0.0));
     return force;
 }
 

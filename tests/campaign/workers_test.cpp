@@ -39,8 +39,25 @@ TEST(Workers, RowsDoNotDependOnTheirNumber) {
     }
     EXPECT_EQ(hashes.size(), 20U);  // every run is another flight
     // Golden, as those of tests/simulation/golden_test.cpp.
-    EXPECT_EQ(one.front().back(), "fda7b8e24f5ff0c8");
-    EXPECT_EQ(one.back().back(), "a4e368bdb6c98a4b");
+    EXPECT_EQ(one.front().back(), "7d630b9217222609");
+    EXPECT_EQ(one.back().back(), "299021d87424848c");
+}
+
+/// Side by side with whom they fly, and how many lanes the machine has, changes nothing.
+TEST(Workers, RowsAreThoseOfFlightsAlone) {
+    const Bench bench;
+    Campaign campaign = campaign_of(bench, R"(scenario: perch_concrete
+runs: 11
+parameters:
+  simulation.start_offset_m: {normal: {mean: 0.1, sigma: 0.05, from: -0.3, to: 0.3}}
+  vehicle.cup.mass_kg: {uniform: [0.07, 0.12]}
+  sensors.mocap_latency_s: {uniform: [0.0, 0.02]}
+)");
+    const auto rows = table_of(fly_all(bench, campaign, "together", 1));
+    ASSERT_EQ(rows.size(), 11U);
+    for (std::uint32_t run = 0; run < rows.size(); ++run) {
+        EXPECT_EQ(rows[run].back(), fly_run(campaign, run).state_hash) << run;
+    }
 }
 
 TEST(Workers, ARunIsTheFlightOfItsScenarioSeedAndIndex) {

@@ -55,7 +55,7 @@ TEST_P(MechanismOf, MovesAsMujocosBodies) {
     const auto compiled = test::compile(airframe);
     const mjModel& model = compiled->get();
     const std::unique_ptr<mjData, void (*)(mjData*)> data(mj_makeData(&model), mj_deleteData);
-    const MechanismModel numbers = make_mechanism(airframe);
+    const MechanismNumbers<double> numbers = make_mechanism(airframe).numbers;
     constexpr double kShort_s = 1e-9;  // springs act as they stand
     RandomStream random(1, 0, Stream::test);
     for (int k = 0; k < 50; ++k) {
