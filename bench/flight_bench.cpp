@@ -92,7 +92,7 @@ constexpr std::uint32_t kSideBySide = 32;
 void in_lanes(benchmark::State& state) {
     for (auto _ : state) {
         std::uint32_t next = 0;
-        plant::LaneGroup::fly([&next] {
+        plant::fly_side_by_side([&next] {
             while (next < kSideBySide) {
                 benchmark::DoNotOptimize(fly(model(), {}, {}, next++).state_hash);
             }

@@ -123,7 +123,7 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
                       .elapsed_s = 0.0,
                       .outcomes = results.outcomes()};
     Work work(results, watch, progress);
-    const auto fly_on = [&work] { plant::LaneGroup::fly([&work] { work.fly_on(); }); };
+    const auto fly_on = [&work] { plant::fly_side_by_side([&work] { work.fly_on(); }); };
     {
         std::vector<std::jthread> workers;
         try {

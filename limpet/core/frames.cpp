@@ -3,25 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "limpet/core/lanes.hpp"
 
 namespace limpet {
 namespace {
 
-/// Most rotations are those of a step. Below 0.2 rad the functions of half of one are these in its
+/// Most rotations are those of a step. Below 0.2 rad the functions of half of one are series in its
 /// square (or its tangent's), to the last bits, and cost a tenth.
 constexpr double kSmallSquared = 0.04;
-constexpr double kCosine[] = {1.0,          -1.0 / 2.0,    1.0 / 24.0,
-                              -1.0 / 720.0, 1.0 / 40320.0, -1.0 / 3628800.0};
-constexpr double kSine[] = {1.0, -1.0 / 6.0, 1.0 / 120.0, -1.0 / 5040.0, 1.0 / 362880.0};
 constexpr double kArcTangent[] = {1.0,         -1.0 / 3.0, 1.0 / 5.0,   -1.0 / 7.0, 1.0 / 9.0,
                                   -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0};
 
-/// c0 + x (c1 + x (c2 + ...))
-template <std::size_t kTerms>
-double series(const double (&coefficient)[kTerms], double x) {
-    double sum = coefficient[kTerms - 1];
-    for (std::size_t i = kTerms - 1; i > 0; --i) {
-        sum = sum * x + coefficient[i - 1];
+/// The angle whose tangent's square is x, over its tangent.
+double arc_tangent_over(double x) {
+    double sum = *std::rbegin(kArcTangent);
+    for (auto next = std::rbegin(kArcTangent) + 1; next != std::rend(kArcTangent); ++next) {
+        sum = sum * x + *next;
     }
     return sum;
 }
@@ -59,9 +58,9 @@ Quaternion quaternion_from_rotation_vector(const Vector3& rotation_rad) {
     const double squared = rotation_rad.squaredNorm();
     Quaternion q;
     if (squared < kSmallSquared) {
-        const double x = 0.25 * squared;
-        q.w() = series(kCosine, x);
-        q.vec() = 0.5 * series(kSine, x) * rotation_rad;
+        double sine_over = 0.0;
+        small_sine_cosine(0.25 * squared, sine_over, q.w());
+        q.vec() = 0.5 * sine_over * rotation_rad;
         return q;
     }
     const double angle_rad = std::sqrt(squared);
@@ -75,7 +74,7 @@ Vector3 rotation_vector_from_quaternion(const Quaternion& q) {
     const double small = kSmallSquared / 4.0 * q.w() * q.w();
     if (squared < small) {
         const double over = 1.0 / q.w();
-        return 2.0 * over * series(kArcTangent, squared * over * over) * q.vec();
+        return 2.0 * over * arc_tangent_over(squared * over * over) * q.vec();
     }
     const double sign = q.w() < 0.0 ? -1.0 : 1.0;
     const double sine = std::sqrt(squared);
@@ -90,7 +89,7 @@ Vector3 rotation_vector_from_matrix(const Matrix3& R) {
         return rotation_vector_from_quaternion(Quaternion(R));
     }
     const double over = 1.0 / twice_cosine;
-    return over * series(kArcTangent, squared * over * over) * twice_sine;
+    return over * arc_tangent_over(squared * over * over) * twice_sine;
 }
 
 Matrix3 skew(const Vector3& v) {

@@ -158,6 +158,18 @@ void set_lane(LaneMask<kWidth>& mask, int lane, bool yes) {
     mask.set(lane, yes);
 }
 
+/// Of an angle below 0.1 rad, to the last bits: its cosine, and its sine over it.
+/// @param x  the angle's square
+template <class T>
+[[gnu::always_inline]] inline void small_sine_cosine(const T& x, T& sine_over, T& cosine) {
+    sine_over =
+        1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0 - x * (1.0 / 362880.0))));
+    cosine =
+        1.0 -
+        x * (1.0 / 2.0 -
+             x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40320.0 - x * (1.0 / 3628800.0)))));
+}
+
 /// Sine and cosine of an angle, the same bits at every width: Cody and Waite's reduction by pi/2 in
 /// two parts, Taylor's series on an eighth of a turn either way. Error below 2 in the last place up
 /// to some 1e5 rad.

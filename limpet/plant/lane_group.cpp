@@ -217,7 +217,7 @@ private:
 
 }  // namespace
 
-void LaneGroup::fly(const std::function<void()>& missions, const LaneKind& kind) {
+void fly_side_by_side(const std::function<void()>& missions, const LaneKind& kind) {
     require(current_group == nullptr, "a thread with one group of lanes");
     if (kOneByOne) {
         missions();
@@ -226,7 +226,7 @@ void LaneGroup::fly(const std::function<void()>& missions, const LaneKind& kind)
     Group(kind).fly(missions);
 }
 
-std::unique_ptr<Plant> LaneGroup::lane(const std::shared_ptr<const ReducedModel>& model) {
+std::unique_ptr<Plant> free_lane(const std::shared_ptr<const ReducedModel>& model) {
     if (current_group == nullptr || !model->numbers().mechanism.has_cup) {
         return nullptr;
     }

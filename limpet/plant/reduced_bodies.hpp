@@ -25,7 +25,9 @@ public:
     /// After every change of numbers or state.
     void refresh() {
         step_.start(numbers.mechanism, state.bodies);
-        cup_ = motion(Body::cup);
+        if (numbers.mechanism.has_cup) {
+            cup_ = motion(Body::cup);
+        }
         news_ = true;
     }
     [[nodiscard]] MechanismStep<T>& step() { return step_; }
@@ -308,12 +310,9 @@ private:
     /// By twice a rotation vector that is small: of a step.
     [[nodiscard]] static Eigen::Quaternion<T> turned(const Eigen::Quaternion<T>& q,
                                                      const Vec3<T>& half_rad) {
-        const T x = half_rad.squaredNorm();
-        const T cosine =
-            1.0 - x * (1.0 / 2.0 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x * (1.0 / 40320.0))));
-        const T sine =
-            1.0 - x * (1.0 / 6.0 - x * (1.0 / 120.0 - x * (1.0 / 5040.0 - x * (1.0 / 362880.0))));
-        const Vec3<T> v = sine * half_rad;
+        T sine_over, cosine;
+        small_sine_cosine<T>(half_rad.squaredNorm(), sine_over, cosine);
+        const Vec3<T> v = sine_over * half_rad;
         const Eigen::Quaternion<T> next = q * Eigen::Quaternion<T>(cosine, v.x(), v.y(), v.z());
         const T over = 1.0 / sqrt(next.w() * next.w() + next.x() * next.x() + next.y() * next.y() +
                                   next.z() * next.z());

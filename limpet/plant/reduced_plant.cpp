@@ -50,7 +50,7 @@ ReducedModel::ReducedModel(const vehicle::Airframe& airframe, const models::Scen
              Face{.there = true, .geometry = ground(scene.ground_z_W_m)}} {}
 
 std::unique_ptr<Plant> ReducedModel::make() const {
-    if (auto lane = LaneGroup::lane(shared_from_this())) {
+    if (auto lane = free_lane(shared_from_this())) {
         return lane;
     }
     return std::make_unique<ReducedPlant>(shared_from_this());

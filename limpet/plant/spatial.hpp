@@ -63,12 +63,6 @@ struct SpatialInertia {
     static constexpr std::size_t place(int i, int j) {
         return static_cast<std::size_t>(i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i);
     }
-    template <class Other>
-    [[nodiscard]] SpatialInertia<Other> cast() const {
-        SpatialInertia<Other> same;
-        unrolled<21>([&](auto i) { same.lower[i.value] = Other(lower[i.value]); });
-        return same;
-    }
     T& operator()(int i, int j) { return lower[place(i, j)]; }
     const T& operator()(int i, int j) const { return lower[place(i, j)]; }
 
@@ -83,27 +77,14 @@ struct SpatialInertia {
         const Vec3<T> h = mass * c;
         const T xx = h.x() * c.x(), yy = h.y() * c.y(), zz = h.z() * c.z();
         const T none(0.0);
-        return {{own(0, 0) + yy + zz,  //
-                 own(1, 0) - h.x() * c.y(),
-                 own(1, 1) + xx + zz,  //
-                 own(2, 0) - h.x() * c.z(),
-                 own(2, 1) - h.y() * c.z(),
-                 own(2, 2) + xx + yy,  //
-                 none,
-                 h.z(),
-                 -h.y(),
-                 mass,  //
-                 -h.z(),
-                 none,
-                 h.x(),
-                 none,
-                 mass,  //
-                 h.y(),
-                 -h.x(),
-                 none,
-                 none,
-                 none,
-                 mass}};
+        // clang-format off
+        return {{own(0, 0) + yy + zz,
+                 own(1, 0) - h.x() * c.y(), own(1, 1) + xx + zz,
+                 own(2, 0) - h.x() * c.z(), own(2, 1) - h.y() * c.z(), own(2, 2) + xx + yy,
+                 none,   h.z(),  -h.y(), mass,
+                 -h.z(), none,   h.x(),  none, mass,
+                 h.y(),  -h.x(), none,   none, none, mass}};
+        // clang-format on
     }
     /// Of a rigid body: its moment of inertia about the origin, times a vector.
     [[nodiscard]] Vec3<T> turned(const Vec3<T>& w) const {
@@ -196,16 +177,7 @@ struct SpatialInertia {
 template <class T>
 struct Eliminated {
     Spatial<T> u;  ///< I S
-    T inverse{};   ///< 1 / (S' I S + resistance)
-
-    /// @param inertia     of all beyond the joint, becomes the articulated one
-    /// @param resistance  of a spring and damper in the joint that act within the step
-    [[gnu::always_inline]] void eliminate(SpatialInertia<T>& inertia, const Spatial<T>& axis,
-                                          const T& resistance) {
-        u = inertia.times(axis);
-        inverse = 1.0 / (axis.dot(u) + resistance);
-        inertia.add_square(-inverse, u);
-    }
+    T inverse{};   ///< 1 / (S' I S + what a spring in the joint resists within the step)
 };
 
 }  // namespace limpet::plant

@@ -99,7 +99,7 @@ TEST(Lanes, FlyBitForBitAsAloneOnEveryKindOfMachine) {
     for (const LaneKind* kind : kinds_here()) {
         std::vector<std::vector<double>> together(kMissions);
         std::uint32_t next = 0;
-        LaneGroup::fly(
+        fly_side_by_side(
             [&] {
                 while (next < kMissions) {
                     const std::uint32_t mine = next++;
@@ -135,13 +135,13 @@ TEST(Lanes, AMissionThatThrowsHurtsNoOther) {
         EXPECT_EQ(adventures(3), alone);
         ++ends;
     };
-    EXPECT_THAT([&] { LaneGroup::fly(fly); },
+    EXPECT_THAT([&] { fly_side_by_side(fly); },
                 testing::ThrowsMessage<InternalError>("the reduced engine diverged"));
     EXPECT_EQ(ends, widest_lanes().lanes - 1);
 }
 
 TEST(Lanes, AreForOnePlantOfAMissionAndForOurVehicleAlone) {
-    LaneGroup::fly([] {
+    fly_side_by_side([] {
         const auto first = model_of(1)->make();
         const auto second = model_of(2)->make();
         const auto plain =

@@ -261,6 +261,54 @@ TEST(ReducedPlant, TheCupAnswersAsItSaid) {
     }
 }
 
+/// Held by springs it moves as it said, too, and feels what they pulled.
+TEST(ReducedPlant, TheCupMovesAsItSaidWhenHeld) {
+    const auto plant = reduced({})->make();
+    plant->set_pose({0.0, 0.0, -2.0}, quaternion_from_euler({0.3, 0.5, -0.2}), {1.0, 0.2, 0.3},
+                    {0.5, -1.0, 0.7});
+    for (int k = 0; k < 50; ++k) {  // joints in motion
+        plant->step({});
+    }
+    const StepMode mode{.step_s = 1e-5, .contacts = false};
+    const Kinematics before = plant->kinematics(Body::cup);
+    const Matrix3 R_WT = quaternion_from_euler({0.1, 0.2, 0.3}).toRotationMatrix();
+    std::array<StepForce<double>, 6> springs;
+    for (std::size_t i = 0; i < springs.size(); ++i) {
+        const double size = i < 3 ? 50.0 : 0.5;
+        springs[i] = {.now = (i % 2 == 0 ? size : -size), .gain = 20.0 * size};
+    }
+    const auto held = plant->bear_cup(mode)->hold(R_WT, springs);
+    plant->apply(Body::cup, {.force_N = {1e3, 0.0, 0.0}}, before.p_WF_m);  // said already: no more
+    plant->step(mode);
+    const Kinematics after = plant->kinematics(Body::cup);
+    Vector6 change;
+    change << R_WT.transpose() * (after.v_WF_W_m_s - before.v_WF_W_m_s),
+        R_WT.transpose() * (after.q_WF * after.w_WF_F_rad_s - before.q_WF * before.w_WF_F_rad_s);
+    EXPECT_LT((change - held.change).norm(), 2e-3 * change.norm());
+    EXPECT_NEAR(plant->slider().force_N, held.press_N, 1e-9);
+
+    // The same wrench without springs moves it the same, but for how stiff the step takes the
+    // joints to be: behind a held lip they turn heavier bodies.
+    const auto other = reduced({})->make();
+    other->set_pose({0.0, 0.0, -2.0}, quaternion_from_euler({0.3, 0.5, -0.2}), {1.0, 0.2, 0.3},
+                    {0.5, -1.0, 0.7});
+    for (int k = 0; k < 50; ++k) {
+        other->step({});
+    }
+    Vector6 wrench_T;
+    for (int i = 0; i < 6; ++i) {
+        const StepForce<double>& spring = springs[static_cast<std::size_t>(i)];
+        wrench_T[i] = spring.now - spring.gain * held.change[i];
+    }
+    other->apply(Body::cup,
+                 {.force_N = R_WT * wrench_T.head<3>(), .moment_N_m = R_WT * wrench_T.tail<3>()},
+                 before.p_WF_m);
+    other->step(mode);
+    const Kinematics pushed = other->kinematics(Body::cup);
+    EXPECT_LT((pushed.v_WF_W_m_s - after.v_WF_W_m_s).norm(), 1e-5 * change.head<3>().norm());
+    EXPECT_LT((pushed.w_WF_F_rad_s - after.w_WF_F_rad_s).norm(), 1e-5 * change.tail<3>().norm());
+}
+
 TEST(ReducedPlant, DisplacementIsTheInverseOfDisplacing) {
     ReducedPlant plant(reduced({}));
     plant.set_pose({0.1, 0.2, 0.3}, quaternion_from_euler({0.3, 0.2, 0.1}));
