@@ -117,7 +117,7 @@ Option overrides_option(std::vector<std::string>& overrides, const char* about) 
 
 Option jobs_option(int& jobs) {
     return {"--jobs,-j N", &jobs,
-            "threads, each with several runs side by side (default: one a processor)",
+            "threads, several runs at once in each (default: one a processor)",
             [](CLI::App&, CLI::Option& option) { option.check(CLI::Range(1, 1024)); }};
 }
 
