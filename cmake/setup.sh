@@ -67,16 +67,22 @@ install_packages() {
     step "  installing ..." as_root apt-get install -y --no-install-recommends $missing
 }
 
-# fetch_node_packages: what tests/mavlink/node asks for, into build/node; without npm or network the
-# tests that want it say so and are skipped.
+# install_node: for the pages; another Node than the distribution's will do
+install_node() {
+    command -v npm >/dev/null || install_packages "$limpet_root/cmake/node_packages.txt"
+}
+
+# fetch_node_packages FROM TO: what a folder's package.json asks for; without npm or network the tests
+# that want it say so and are skipped.
 fetch_node_packages() {
-    local from=$limpet_root/tests/mavlink/node to=$limpet_root/build/node
+    local from=$limpet_root/$1 to=$limpet_root/$2
     command -v npm >/dev/null || return 0
     cmp -s "$from/package-lock.json" "$to/fetched.json" && return 0
     mkdir -p "$to"
     cp "$from/package.json" "$from/package-lock.json" "$to"
-    say "fetching the packages of tests/mavlink/node ..."
-    if (cd "$to" && timeout 120 npm ci --ignore-scripts --legacy-peer-deps --no-audit --no-fund) \
+    [ ! -f "$from/.npmrc" ] || cp "$from/.npmrc" "$to"
+    say "fetching the packages of $1 ..."
+    if (cd "$to" && timeout 300 npm ci --ignore-scripts --legacy-peer-deps --no-audit --no-fund) \
         >>"$limpet_log" 2>&1; then
         cp "$from/package-lock.json" "$to/fetched.json"
     else

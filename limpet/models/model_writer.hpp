@@ -38,5 +38,10 @@ struct Scene {
 [[nodiscard]] std::string write_sdf(const vehicle::Airframe& airframe);
 /// URDF of the vehicle; links and joints named as in the other two.
 [[nodiscard]] std::string write_urdf(const vehicle::Airframe& airframe);
+/// URDF as recordings and ROS carry it: links are the frames of the messages (base_link, carriage,
+/// cup_yoke, cup, lip, lidar_left, lidar_right), meshes are package://VEHICLE/NAME.
+[[nodiscard]] std::string write_robot_description(const vehicle::Airframe& airframe);
+/// NAME of a mesh's file there.
+[[nodiscard]] std::string mesh_name(const std::string& path);
 
 }  // namespace limpet::models

@@ -142,4 +142,22 @@ Mesh read_stl(const std::filesystem::path& file) {
                      "of triangles asks");
 }
 
+std::string stl_of(const Mesh& mesh) {
+    std::string bytes(kHeader - 4, ' ');
+    const auto append = [&bytes](const auto& value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    append(static_cast<std::uint32_t>(mesh.triangles.size()));
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto corner = [&](int i) { return mesh.points[static_cast<std::size_t>(i)]; };
+        const Vector3 normal = (corner(b) - corner(a)).cross(corner(c) - corner(a)).normalized();
+        for (const Vector3& v : {normal, corner(a), corner(b), corner(c)}) {
+            append(std::array{static_cast<float>(v.x()), static_cast<float>(v.y()),
+                              static_cast<float>(v.z())});
+        }
+        append(std::uint16_t{0});
+    }
+    return bytes;
+}
+
 }  // namespace limpet::models

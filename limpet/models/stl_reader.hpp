@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "limpet/core/frames.hpp"
@@ -19,5 +20,8 @@ struct Mesh {
 /// @throws InputError naming the file: not there, not STL, cut short, not finite, no triangle, more
 ///         than a million of them
 [[nodiscard]] Mesh read_stl(const std::filesystem::path& file);
+
+/// The same as the bytes of a binary STL.
+[[nodiscard]] std::string stl_of(const Mesh& mesh);
 
 }  // namespace limpet::models

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/links.hpp"
 #include "limpet/models/model_text.hpp"
@@ -24,7 +26,25 @@ void write_inertial(pugi::xml_node link, const Link& spec) {
         "ixz", own(0, 2), "iyz", own(1, 2));
 }
 
-void write_geometry(pugi::xml_node parent, const Part& part) {
+/// How a description calls things: as the vehicle's own file does, or as messages do.
+struct Names {
+    const vehicle::Airframe& airframe;
+    bool of_messages = false;
+
+    [[nodiscard]] std::string operator()(std::string_view part) const {
+        if (of_messages) {
+            return part == "base" ? "base_link" : std::string(part);
+        }
+        return called(airframe, part);
+    }
+    /// Nothing of this machine goes into a message.
+    [[nodiscard]] std::string mesh(const std::string& path) const {
+        return of_messages ? "package://" + airframe.name + "/" + mesh_name(path)
+                           : "file://" + path;
+    }
+};
+
+void write_geometry(pugi::xml_node parent, const Part& part, const Names& names) {
     write_origin(parent, part.p_F_m, part.q_F);
     auto geometry = add(parent, "geometry");
     switch (part.shape) {
@@ -34,14 +54,14 @@ void write_geometry(pugi::xml_node parent, const Part& part) {
             break;
         case Shape::sphere: add(geometry, "sphere", "radius", part.size_m.x()); break;
         case Shape::mesh:
-            add(geometry, "mesh", "filename", "file://" + part.mesh_file, "scale", part.size_m);
+            add(geometry, "mesh", "filename", names.mesh(part.mesh_file), "scale", part.size_m);
             break;
     }
 }
 
-void write_visual(pugi::xml_node link, const Part& part) {
+void write_visual(pugi::xml_node link, const Part& part, const Names& names) {
     auto visual = add(link, "visual", "name", part.name);
-    write_geometry(visual, part);
+    write_geometry(visual, part, names);
     if (part.rgba) {
         add(add(visual, "material", "name", part.name), "color", "rgba", *part.rgba);
     } else {
@@ -49,15 +69,15 @@ void write_visual(pugi::xml_node link, const Part& part) {
     }
 }
 
-void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const Link& link,
+void write_joint(pugi::xml_node robot, const Names& names, const Link& link,
                  const Vector3& p_parent_B_m) {
     // The format wants limits of effort and speed; these bind nothing that this vehicle does.
     constexpr double kUnlimited = 1e4;
     const Joint& spec = *link.joint;
-    auto joint = add(robot, "joint", "name", called(airframe, spec.name), "type",
+    auto joint = add(robot, "joint", "name", names(spec.name), "type",
                      spec.kind == Joint::Kind::prismatic ? "prismatic" : "revolute");
-    add(joint, "parent", "link", called(airframe, link.parent));
-    add(joint, "child", "link", called(airframe, link.name));
+    add(joint, "parent", "link", names(link.parent));
+    add(joint, "child", "link", names(link.name));
     write_origin(joint, link.p_BF_m - p_parent_B_m);
     add(joint, "axis", "xyz", flu(spec.axis));
     add(joint, "limit", "lower", spec.law.lower, "upper", spec.law.upper, "effort", kUnlimited,
@@ -65,10 +85,18 @@ void write_joint(pugi::xml_node robot, const vehicle::Airframe& airframe, const 
     add(joint, "dynamics", "damping", spec.law.damping, "friction", "0");
 }
 
-}  // namespace
+/// A place on a link, with nothing there.
+void write_frame(pugi::xml_node robot, std::string_view name, std::string_view parent,
+                 const Vector3& p_m) {
+    add(robot, "link", "name", name);
+    auto joint = add(robot, "joint", "name", std::string(name) + "_mount", "type", "fixed");
+    add(joint, "parent", "link", parent);
+    add(joint, "child", "link", name);
+    write_origin(joint, p_m);
+}
 
-std::string write_urdf(const vehicle::Airframe& airframe) {
-    pugi::xml_document document;
+pugi::xml_node write_robot(pugi::xml_document& document, const Names& names) {
+    const vehicle::Airframe& airframe = names.airframe;
     auto robot = add(document, "robot", "name", airframe.name);
     for (const PaintLook& paint : paint_looks()) {
         add(add(robot, "material", "name", paint.name), "color", "rgba", paint.rgba);
@@ -76,23 +104,50 @@ std::string write_urdf(const vehicle::Airframe& airframe) {
     const auto parts = draw(airframe);
     Vector3 p_parent_B_m = Vector3::Zero();
     for (const Link& spec : make_links(airframe)) {
-        auto link = add(robot, "link", "name", called(airframe, spec.name));
+        auto link = add(robot, "link", "name", names(spec.name));
         write_inertial(link, spec);
         for (const Part& part : parts) {
             if (part.body == spec.name) {
-                write_visual(link, part);
+                write_visual(link, part, names);
             }
         }
         if (spec.name == "base") {
             for (const Part& tip : leg_tips(airframe)) {
-                write_visual(link, tip);
-                write_geometry(add(link, "collision", "name", tip.name), tip);
+                write_visual(link, tip, names);
+                write_geometry(add(link, "collision", "name", tip.name), tip, names);
             }
         }
         if (spec.joint) {
-            write_joint(robot, airframe, spec, p_parent_B_m);
+            write_joint(robot, names, spec, p_parent_B_m);
         }
         p_parent_B_m = spec.p_BF_m;
+    }
+    return robot;
+}
+
+}  // namespace
+
+std::string mesh_name(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+std::string write_urdf(const vehicle::Airframe& airframe) {
+    pugi::xml_document document;
+    write_robot(document, {.airframe = airframe});
+    return to_string(document);
+}
+
+std::string write_robot_description(const vehicle::Airframe& airframe) {
+    pugi::xml_document document;
+    const auto robot = write_robot(document, {.airframe = airframe, .of_messages = true});
+    if (airframe.has_cup) {
+        const double side_m = 0.5 * airframe.lidar_separation_m;
+        const auto mount = [&](double y_m) {
+            return Vector3(airframe.lidar_x_m, y_m, airframe.lidar_z_m);
+        };
+        write_frame(robot, "lidar_left", "base_link", mount(-side_m));
+        write_frame(robot, "lidar_right", "base_link", mount(side_m));
+        write_frame(robot, "lip", "cup", Vector3(airframe.cup.lip_offset_m, 0.0, 0.0));
     }
     return to_string(document);
 }

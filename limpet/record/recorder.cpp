@@ -1,67 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/record/recorder.hpp"
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
+#include <limits>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <type_traits>
-
-#include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/record/cdr.hpp"
 #include "limpet/record/message_definitions.hpp"
 #include "limpet/record/ros_frames.hpp"
 
 namespace limpet::record {
 namespace {
 
-using eprosima::fastcdr::Cdr;
 using ros::flu_from_frd;
-
-/// @throws InternalError for a time before 0: a sample that never came is not recorded
-std::int64_t nanoseconds(double time_s) {
-    require(time_s >= 0.0 && time_s < 1e9, "recorded times are 0 or later, and finite");
-    return std::llround(time_s * 1e9);
-}
-
-// A field of a message. Texts are names and reasons.
-
-template <class Number>
-requires std::is_arithmetic_v<Number>
-void put(Cdr& cdr, Number number) {
-    if constexpr (std::is_same_v<Number, bool>) {
-        cdr << static_cast<std::uint8_t>(number);
-    } else {
-        cdr << number;
-    }
-}
-
-void put(Cdr& cdr, std::string_view text) {
-    constexpr std::size_t kMaxText = 256;
-    require(text.size() <= kMaxText, "a recorded text has at most 256 characters");
-    cdr << static_cast<std::uint32_t>(text.size() + 1);
-    cdr.serializeArray(text.data(), text.size());
-    cdr << '\0';
-}
-
-void put(Cdr& cdr, std::span<const double> numbers) {
-    cdr.serializeArray(numbers.data(), numbers.size());
-}
-
-void put(Cdr& cdr, const Vector3& v) {
-    cdr.serializeArray(v.data(), 3);
-}
-
-/// ROS puts w last, as Eigen does.
-void put(Cdr& cdr, const Quaternion& q) {
-    cdr.serializeArray(q.coeffs().data(), 4);
-}
-
-void put(Cdr& cdr, const Euler& angles) {
-    cdr << angles.roll_rad << angles.pitch_rad << angles.yaw_rad;
-}
 
 /// An array of any length: how many, then each.
 template <class Element>
@@ -72,9 +22,12 @@ void put(Cdr& cdr, std::span<const EventValue> values, Element EventValue::*elem
     }
 }
 
-void put(Cdr& cdr, std::span<const EventValue> values) {
-    put(cdr, values, &EventValue::name);
-    put(cdr, values, &EventValue::value);
+struct EventValues {
+    std::span<const EventValue> all;
+};
+void put(Cdr& cdr, EventValues values) {
+    put(cdr, values.all, &EventValue::name);
+    put(cdr, values.all, &EventValue::value);
 }
 
 /// Mode and numbers of a Setpoint message.
@@ -119,66 +72,36 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
         about["seed"] = std::to_string(*info.seed);
     }
     about["version"] = info.version;
-    writer_.add_metadata({"limpet", about});
+    writer_.file().add_metadata({"limpet", about});
     for (const mcap::Attachment& attachment : info.attachments) {
-        writer_.add_attachment(attachment);
+        writer_.file().add_attachment(attachment);
     }
-    add_channels(info.columns);
-}
-
-void Recorder::add_channels(const std::vector<ColumnChannel>& columns) {
-    std::map<std::string_view, std::uint16_t> schemas;
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
-        const auto& [name, type] = kTopics[i];
-        if (schemas.count(type) == 0) {
-            schemas[type] = writer_.add_schema(type, "ros2msg", ros2msg_schema(type));
-        }
-        channels_[i] = add_channel(name, schemas[type]);
+        channels_[i] = writer_.add_channel(kTopics[i].name, kTopics[i].type);
     }
-    for (const ColumnChannel& own : columns) {
-        const std::string schema = column_schema(own.columns);
+    for (const ColumnChannel& own : info.columns) {
         columns_.push_back(
-            {.channel = add_channel(own.topic, writer_.add_schema(own.type, "ros2msg", schema))});
+            {.channel = writer_.add_channel(own.topic, own.type, column_schema(own.columns))});
     }
-}
-
-std::uint16_t Recorder::add_channel(std::string_view topic, std::uint16_t schema) {
-    // The profile "ros2" wants the key; empty means the player's default.
-    return writer_.add_channel(schema, topic, "cdr", {{"offered_qos_profiles", ""}});
-}
-
-template <class... Fields>
-void Recorder::write(std::uint16_t channel, double time_s, const Fields&... fields) {
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
-    const std::int64_t time_ns = nanoseconds(time_s);
-    // Fast-CDR skips the bytes that align the next value; they must not carry the last message.
-    std::fill_n(buffer_.begin(), used_, '\0');
-    eprosima::fastcdr::FastBuffer stream(buffer_.data(), buffer_.size());
-    Cdr cdr(stream, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
-    cdr.serialize_encapsulation();
-    put(cdr, static_cast<std::int32_t>(time_ns / kSecond_ns));
-    put(cdr, static_cast<std::uint32_t>(time_ns % kSecond_ns));
-    (put(cdr, fields), ...);
-    used_ = cdr.getSerializedDataLength();
-    writer_.write(channel, static_cast<std::uint64_t>(time_ns),
-                  {reinterpret_cast<const std::uint8_t*>(buffer_.data()), used_});
-    last_time_ns_ = std::max(last_time_ns_, time_ns);
+    if (info.scene) {
+        scene_.emplace(writer_, *info.scene);
+    }
 }
 
 template <class... Fields>
 void Recorder::write(Topic topic, double time_s, const Fields&... fields) {
-    write(channels_[static_cast<std::size_t>(topic)], time_s, fields...);
+    writer_.write_stamped(channels_[static_cast<std::size_t>(topic)], time_s, fields...);
 }
 
 void Recorder::write_columns(Columns& to, double time_s, std::span<const double> numbers) {
-    write(to.channel, time_s, numbers);
+    writer_.write_stamped(to.channel, time_s, numbers);
     to.last_s = time_s;
 }
 
 void Recorder::imu(const Sample<ImuReading>& sample) {
     constexpr std::array<double, 9> kNotMeasured = {-1.0};  // a covariance, as the message says
     constexpr std::array<double, 9> kUnknown = {};
-    write(Topic::imu, sample.time_s, "base_link", Quaternion::Identity(), kNotMeasured,
+    write(Topic::imu, sample.time_s, kBaseFrame, Quaternion::Identity(), kNotMeasured,
           flu_from_frd(sample.value.rate_B_rad_s), kUnknown,
           flu_from_frd(sample.value.specific_force_B_m_s2), kUnknown);
 }
@@ -195,15 +118,15 @@ void Recorder::range(Topic topic, std::string_view frame, const Sample<RangeRead
 }
 
 void Recorder::range_left(const Sample<RangeReading>& sample) {
-    range(Topic::range_left, "lidar_left", sample);
+    range(Topic::range_left, kLidarFrames[0], sample);
 }
 
 void Recorder::range_right(const Sample<RangeReading>& sample) {
-    range(Topic::range_right, "lidar_right", sample);
+    range(Topic::range_right, kLidarFrames[1], sample);
 }
 
 void Recorder::force(const Sample<ForceReading>& sample) {
-    wrench(Topic::force, sample.time_s, "carriage", {{sample.value.axial_N, 0.0, 0.0}});
+    wrench(Topic::force, sample.time_s, kCarriageFrame, {{sample.value.axial_N, 0.0, 0.0}});
 }
 
 void Recorder::pressure(Topic topic, double time_s, std::string_view frame, double pressure_Pa) {
@@ -212,7 +135,7 @@ void Recorder::pressure(Topic topic, double time_s, std::string_view frame, doub
 }
 
 void Recorder::cup_pressure(const Sample<PressureReading>& sample) {
-    pressure(Topic::cup_pressure, sample.time_s, "cup", sample.value.pressure_Pa);
+    pressure(Topic::cup_pressure, sample.time_s, kLipFrame, sample.value.pressure_Pa);
 }
 
 void Recorder::motion_capture(const Sample<PoseReading>& sample) {
@@ -220,7 +143,7 @@ void Recorder::motion_capture(const Sample<PoseReading>& sample) {
 }
 
 void Recorder::barometer(const Sample<BarometerReading>& sample) {
-    pressure(Topic::barometer, sample.time_s, "base_link", sample.value.pressure_Pa);
+    pressure(Topic::barometer, sample.time_s, kBaseFrame, sample.value.pressure_Pa);
 }
 
 void Recorder::battery(const Sample<BatteryReading>& sample) {
@@ -230,7 +153,7 @@ void Recorder::battery(const Sample<BatteryReading>& sample) {
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     constexpr std::string_view kLocation, kSerialNumber;
     const BatteryReading& reading = sample.value;
-    write(Topic::battery, sample.time_s, "base_link", static_cast<float>(reading.voltage_V),
+    write(Topic::battery, sample.time_s, kBaseFrame, static_cast<float>(reading.voltage_V),
           kUnknown, static_cast<float>(-reading.current_A), kUnknown, kUnknown, kUnknown,
           static_cast<float>(reading.remaining), kDischarging, kHealthUnknown, kLithiumPolymer,
           kPresent, kNoCells, kNoCells, kLocation, kSerialNumber);
@@ -254,12 +177,12 @@ void Recorder::new_readings(const Readings& readings, Readings& last) {
 }
 
 void Recorder::pose(Topic topic, double time_s, const Vector3& p_WB_m, const Quaternion& q_WB) {
-    write(topic, time_s, "map", ros::enu_from_ned(p_WB_m), ros::enu_flu_from_ned_frd(q_WB));
+    write(topic, time_s, kMapFrame, ros::enu_from_ned(p_WB_m), ros::enu_flu_from_ned_frd(q_WB));
 }
 
 void Recorder::twist(Topic topic, double time_s, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
                      const Vector3& w_WB_B_rad_s) {
-    write(topic, time_s, "base_link", flu_from_frd(q_WB.conjugate() * v_WB_W_m_s),
+    write(topic, time_s, kBaseFrame, flu_from_frd(q_WB.conjugate() * v_WB_W_m_s),
           flu_from_frd(w_WB_B_rad_s));
 }
 
@@ -275,20 +198,26 @@ void Recorder::truth(const Truth& truth) {
 
     const SliderStatus& slider = truth.slider;
     const BatteryStatus& power = truth.battery;
-    // The cup's joint turns about y, then about the turned z.
-    const Vector3 mouth_B = q_WB.conjugate() * truth.cup.q_WF * Vector3::UnitX();
-    const double cup_pitch_rad = std::atan2(-mouth_B.z(), mouth_B.x());
-    const double cup_yaw_rad = std::asin(std::clamp(mouth_B.y(), -1.0, 1.0));
+    const CupAngles cup_joint = cup_angles(truth);
     write(Topic::truth_vehicle, t, euler_from_quaternion(q_WB), v_W_m_s, w_B_rad_s,
-          slider.position_m, slider.velocity_m_s, slider.force_N, cup_pitch_rad, cup_yaw_rad,
-          truth.legs_force_W_N, truth.rotor_speed_rad_s, truth.thrust_N, power.voltage_V,
-          power.current_A, power.energy_used_J, power.remaining);
+          slider.position_m, slider.velocity_m_s, slider.force_N, cup_joint.pitch_rad,
+          cup_joint.yaw_rad, truth.legs_force_W_N, truth.rotor_speed_rad_s, truth.thrust_N,
+          power.voltage_V, power.current_A, power.energy_used_J, power.remaining);
 
     const CupStatus& cup = truth.cup_status;
     write(Topic::cup, t, static_cast<std::uint8_t>(cup.phase), cup.pump_running, cup.valve_open,
           cup.pressure_Pa, cup.pull_N, cup.shear_N, cup.peel_N_m, cup.gap_m, cup.pull_margin_N,
           cup.shear_margin_N, cup.peel_margin_N, cup.seal_threshold_N);
-    wrench(Topic::truth_cup_wrench, t, "cup", cup.wrench_C);
+    wrench(Topic::truth_cup_wrench, t, kLipFrame, cup.wrench_C);
+    if (scene_) {
+        scene_->move(truth);
+    }
+}
+
+void Recorder::scene(const Truth& truth, const Readings& readings, const Setpoint& setpoint) {
+    if (scene_) {
+        scene_->mark(truth, readings, setpoint);
+    }
 }
 
 void Recorder::estimate(const Estimate& estimate) {
@@ -313,15 +242,16 @@ void Recorder::rotor_command(double time_s, const RotorCommand& command) {
 
 void Recorder::event(const Event& event) {
     write(Topic::events, event.time_s, event.station, to_string(event.name), event.reason,
-          std::span(event.values).first(event.value_count));
+          EventValues{std::span(event.values).first(event.value_count)});
 }
 
 void Recorder::finish(const std::string& summary_json) {
-    writer_.add_attachment({.name = "summary.json",
-                            .media_type = "application/json",
-                            .text = summary_json,
-                            .log_time_ns = static_cast<std::uint64_t>(last_time_ns_)});
-    writer_.close();
+    writer_.file().add_attachment(
+        {.name = "summary.json",
+         .media_type = "application/json",
+         .text = summary_json,
+         .log_time_ns = static_cast<std::uint64_t>(writer_.last_time_ns())});
+    writer_.file().close();
 }
 
 }  // namespace limpet::record

@@ -17,7 +17,8 @@
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/core/signals/truth.hpp"
-#include "limpet/mcap/writer.hpp"
+#include "limpet/record/message_writer.hpp"
+#include "limpet/record/scene.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {
@@ -46,6 +47,7 @@ struct RecordingInfo {
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
     RangeSensor range_sensor;
     std::vector<ColumnChannel> columns = {};
+    std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from
@@ -83,8 +85,10 @@ public:
         }
     }
 
-    /// Five messages: pose, twist, vehicle, cup, wrench of the cup.
+    /// Five messages: pose, twist, vehicle, cup, wrench of the cup; and where the bodies are.
     void truth(const Truth& truth);
+    /// Arrows, beams and path, if there is a scene.
+    void scene(const Truth& truth, const Readings& readings, const Setpoint& setpoint);
     void estimate(const Estimate& estimate);
     void setpoint(double time_s, const Setpoint& setpoint);
     void guidance(double time_s, std::string_view state, int attempt);
@@ -95,20 +99,16 @@ public:
     /// @throws InputError if the disk does not take it
     void finish(const std::string& summary_json);
 
-    [[nodiscard]] const std::filesystem::path& path() const { return writer_.path(); }
+    [[nodiscard]] const std::filesystem::path& path() const { return writer_.file().path(); }
 
 private:
-    void add_channels(const std::vector<ColumnChannel>& columns);
     struct Columns {
         std::uint16_t channel = 0;
         double last_s = -std::numeric_limits<double>::infinity();
     };
-    std::uint16_t add_channel(std::string_view topic, std::uint16_t schema);
     void write_columns(Columns& to, double time_s, std::span<const double> numbers);
 
     // A message is a stamp and fields, in the order of their definition.
-    template <class... Fields>
-    void write(std::uint16_t channel, double time_s, const Fields&... fields);
     template <class... Fields>
     void write(Topic topic, double time_s, const Fields&... fields);
     void range(Topic topic, std::string_view frame, const Sample<RangeReading>& sample);
@@ -121,13 +121,11 @@ private:
     /// @param wrench  in a forward-right-down frame called `frame` when turned to forward-left-up
     void wrench(Topic topic, double time_s, std::string_view frame, const Wrench& wrench);
 
-    mcap::Writer writer_;
+    MessageWriter writer_;
     RangeSensor range_sensor_;
-    std::array<char, 4096> buffer_{};  ///< room for the longest message
-    std::size_t used_ = 0;             ///< of it, by the last one
     std::array<std::uint16_t, kTopics.size()> channels_{};
     std::vector<Columns> columns_;
-    std::int64_t last_time_ns_ = 0;
+    std::optional<SceneWriter> scene_;
 };
 
 }  // namespace limpet::record

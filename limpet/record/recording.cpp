@@ -8,6 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/mcap/reader.hpp"
+#include "limpet/record/scene.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {
@@ -94,7 +95,7 @@ Recording read_recording(const std::filesystem::path& path) {
             TopicReader& topic = at->second;
             const mcap::Channel& channel = so_far.channels.at(message.channel_id);
             try {
-                if (is_new) {
+                if (is_new && !is_of_scene(channel.topic)) {
                     open(so_far, channel, topic);
                 }
             } catch (const InputError& problem) {

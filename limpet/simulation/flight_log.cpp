@@ -3,11 +3,50 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/version.hpp"
+#include "limpet/models/drawing.hpp"
+#include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
 
 namespace limpet::simulation {
 namespace {
+
+/// The meshes that the description names.
+void attach_meshes(const vehicle::Airframe& airframe, std::vector<mcap::Attachment>& all) {
+    for (const models::Part& part : models::draw(airframe)) {
+        if (part.shape != models::Shape::mesh) {
+            continue;
+        }
+        const std::string name = models::mesh_name(part.mesh_file);
+        if (find_named(all, name) == nullptr) {
+            all.push_back(
+                {.name = name, .media_type = "model/stl", .text = models::stl_of(*part.mesh)});
+        }
+    }
+}
+
+record::Scene scene_of_recording(const FlightModel& model) {
+    const scenario::Scenario& scenario = *model.scenario;
+    const vehicle::Airframe& airframe = scenario.airframe;
+    record::Scene scene{.robot_description = models::write_robot_description(airframe),
+                        .has_cup = airframe.has_cup,
+                        .lidar_p_B_m = model.sensors.mounts.lidar_p_B_m,
+                        .joint_B_m = {airframe.cup.joint_x_m, 0.0, airframe.cup.joint_z_m},
+                        .lip_m = airframe.cup.lip_offset_m,
+                        .rotor_p_B_m = airframe.rotor_p_B_m,
+                        .thrust_N_s2 = airframe.rotor.motor_constant_kg_m};
+    if (scenario.wall.present) {
+        const models::FinishLook& finish =
+            models::look(models::finish_of(scenario.wall.surface.name));
+        scene.wall = scenario.wall.geometry;
+        scene.surface = finish.name;
+        std::copy_n(finish.rgb, 3, scene.wall_colour.begin());
+    }
+    return scene;
+}
 
 record::RecordingInfo describe(const FlightModel& model) {
     const scenario::Scenario& scenario = *model.scenario;
@@ -32,6 +71,8 @@ record::RecordingInfo describe(const FlightModel& model) {
     info.attachments.push_back({.name = "model.xml",
                                 .media_type = "application/xml",
                                 .text = write_mjcf(scenario.airframe, scene_of(scenario))});
+    attach_meshes(scenario.airframe, info.attachments);
+    info.scene = scene_of_recording(model);
     info.range_sensor.minimum_m = scenario.sensors.lidar_range_min_m;
     info.range_sensor.maximum_m = scenario.sensors.lidar_range_max_m;
     return info;
@@ -56,9 +97,19 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
             recorder_.columns(channel++, heard, Sensor::numbers(heard.value));
         }
     });
-    if (due(state.tick, model.record_rate_Hz)) {
-        const double time_s = seconds(state.tick);
+    const bool regular = due(state.tick, model.record_rate_Hz);
+    // Around a touch the truth is as dense as what is measured of it.
+    const bool touch = state.tick < state.fine_until &&
+                       sensors::sampled(state.tick, model.sensors.parameters.force_rate_Hz);
+    if (regular || touch) {
         recorder_.truth(state.truth);
+    }
+    constexpr int kMarks_Hz = 25;
+    if (due(state.tick, kMarks_Hz)) {
+        recorder_.scene(state.truth, state.sensors.readings, state.guidance.setpoint);
+    }
+    if (regular) {
+        const double time_s = seconds(state.tick);
         recorder_.estimate(state.autopilot.estimate);
         recorder_.setpoint(time_s, state.guidance.setpoint);
         recorder_.guidance(time_s, to_string(state.guidance.state), state.guidance.attempt);

@@ -158,6 +158,18 @@ TEST(ModelWriter, LinksAndJointsAreNamedAlike) {
     EXPECT_STREQ(sdf.child("sdf").attribute("version").value(), "1.6");
 }
 
+TEST(ModelWriter, ARobotDescriptionHasTheFramesOfMessagesAndNothingOfThisMachine) {
+    pugi::xml_document urdf;
+    ASSERT_TRUE(urdf.load_string(write_robot_description(vehicle::Airframe{}).c_str()));
+    std::vector<std::string> links;
+    for (const auto link : urdf.child("robot").children("link")) {
+        links.emplace_back(link.attribute("name").value());
+    }
+    EXPECT_THAT(links, UnorderedElementsAre("base_link", "carriage", "cup_yoke", "cup", "lip",
+                                            "lidar_left", "lidar_right"));
+    EXPECT_EQ(mesh_name("/home/somebody/arm.stl"), "arm.stl");
+}
+
 TEST(ModelWriter, TurnsRightAndDownIntoLeftAndUp) {
     const vehicle::Airframe airframe = skewed();
     pugi::xml_document sdf;

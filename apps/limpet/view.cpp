@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/report/view.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "output.hpp"
+
+namespace limpet::app {
+namespace {
+
+struct ViewOptions {
+    std::vector<std::string> recordings;
+    std::string out;
+    bool open = false;
+};
+
+/// By the desktop's own means; a machine without a desktop has been told where the page is.
+void open_in_browser(const std::filesystem::path& page) {
+    if (::fork() == 0) {
+        ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
+        fmt::print(stderr, "limpet: no xdg-open here: open {} in a browser\n", page.string());
+        std::_Exit(0);
+    }
+}
+
+void view(const ViewOptions& options) {
+    const std::vector<std::filesystem::path> recordings(options.recordings.begin(),
+                                                        options.recordings.end());
+    const std::string html = report::view_html(recordings);
+    const std::filesystem::path page =
+        folder_or_beside(options.out, options.recordings.front()) / "view.html";
+    write_file(page, html);
+    print_files({page});
+    if (options.open) {
+        open_in_browser(page);
+    }
+}
+
+OptionList options_of(ViewOptions& options) {
+    constexpr int kMost = 20;  // a page that a browser still opens
+    return {{"recording RECORDING", &options.recordings,
+             "flight.mcap of a flight; further ones fly beside it as ghosts", values(1, kMost)},
+            {"--out DIR", &options.out, "folder (default: that of the first recording)"},
+            {"--open", &options.open, "open the page in a browser"}};
+}
+
+}  // namespace
+
+Verb view_verb() {
+    return verb<ViewOptions>(
+        "view", "Show flights in a browser, in three dimensions, with charts", options_of, view,
+        "Writes view.html, one file that needs no network and can be sent: time line, events,\n"
+        "charts with one cursor, cameras. It also opens recordings that are dropped on it.\n");
+}
+
+}  // namespace limpet::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/record/message_writer.hpp"
+
+#include "limpet/record/message_definitions.hpp"
+
+namespace limpet::record {
+
+std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_view type) {
+    return add_channel(topic, type, ros2msg_schema(type));
+}
+
+std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_view type,
+                                         std::string_view schema) {
+    auto known = schemas_.find(type);
+    if (known == schemas_.end()) {
+        known = schemas_.emplace(type, file_.add_schema(type, "ros2msg", schema)).first;
+    }
+    // The profile "ros2" wants the key; empty means the player's default.
+    return file_.add_channel(known->second, topic, "cdr", {{"offered_qos_profiles", ""}});
+}
+
+}  // namespace limpet::record

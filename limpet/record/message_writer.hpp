@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/mcap/writer.hpp"
+
+namespace limpet::record {
+
+/// A recording's channels. Log times are simulated nanoseconds from 0. write() allocates nothing.
+class MessageWriter {
+public:
+    /// @throws InputError if the file cannot be written
+    explicit MessageWriter(const std::filesystem::path& path) : file_(path) {}
+
+    [[nodiscard]] mcap::Writer& file() { return file_; }
+    [[nodiscard]] const mcap::Writer& file() const { return file_; }
+    /// Of the latest message, 0 without any.
+    [[nodiscard]] std::int64_t last_time_ns() const { return last_time_ns_; }
+
+    /// @param type  one of message_definitions()
+    std::uint16_t add_channel(std::string_view topic, std::string_view type);
+    std::uint16_t add_channel(std::string_view topic, std::string_view type,
+                              std::string_view schema);
+    /// Room for messages of so many bytes.
+    void make_room(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
+
+    // Defined in cdr.hpp, for those who write messages.
+    template <class... Fields>
+    void write(std::uint16_t channel, double time_s, const Fields&... fields);
+    /// A message that begins with its stamp.
+    template <class... Fields>
+    void write_stamped(std::uint16_t channel, double time_s, const Fields&... fields);
+
+private:
+    mcap::Writer file_;
+    std::map<std::string, std::uint16_t, std::less<>> schemas_;  ///< by type
+    std::vector<char> buffer_ = std::vector<char>(4096);
+    std::size_t used_ = 0;  ///< of it, by the last message
+    std::int64_t last_time_ns_ = 0;
+};
+
+}  // namespace limpet::record

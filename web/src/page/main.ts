@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Chart, saveCanvas } from "../charts/chart";
+import { kColumns, kPanels } from "../charts/panels";
+import { type Recording, readRecording } from "../recording/recording";
+import { FlightView } from "../scene/flight";
+import { kViews, Stage } from "../scene/stage";
+import { Player } from "./player";
+import { Timeline } from "./timeline";
+
+function by<T extends HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (found === null) {
+    throw new Error(`no #${id} in the page`);
+  }
+  return found as T;
+}
+
+/** Recordings that the page brought along, as base64 in script elements. */
+async function embedded(): Promise<Recording[]> {
+  const found = [...document.querySelectorAll<HTMLScriptElement>("script[data-recording]")];
+  return Promise.all(
+    found.map(async (script) => {
+      const answer = await fetch(
+        `data:application/octet-stream;base64,${script.textContent?.trim()}`,
+      );
+      const bytes = new Uint8Array(await answer.arrayBuffer());
+      script.remove();
+      return readRecording(script.dataset.recording ?? "recording", bytes, kColumns);
+    }),
+  );
+}
+
+class Page {
+  private readonly stage = new Stage(by<HTMLCanvasElement>("picture"));
+  private readonly player = new Player(() => this.show());
+  private readonly timeline = new Timeline(by("timeline"), by("events"), (t) => this.seek(t));
+  private readonly charts = kPanels.map(
+    (panel) =>
+      new Chart(panel, {
+        seek: (t) => this.seek(t),
+        zoomed: (from, to) => {
+          for (const chart of this.charts) {
+            chart.range(from, to, this.player.end);
+          }
+        },
+      }),
+  );
+  private recordings: Recording[] = [];
+  private shown = Number.NaN;
+  private dirty = true;
+
+  constructor() {
+    by("charts").append(...this.charts.map((chart) => chart.element));
+    this.viewButtons();
+    by("play").addEventListener("click", () => this.player.toggle());
+    by<HTMLSelectElement>("speed").addEventListener("change", (event) => {
+      this.player.speed = Number((event.target as HTMLSelectElement).value);
+    });
+    by("save").addEventListener("click", () =>
+      saveCanvas(this.stage.renderer.domElement, "flight.png"),
+    );
+    by<HTMLInputElement>("file").addEventListener("change", (event) => {
+      void this.open([...((event.target as HTMLInputElement).files ?? [])]);
+    });
+    document.addEventListener("keydown", (event) => this.key(event));
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      void this.open([...(event.dataTransfer?.files ?? [])]);
+    });
+    by("picture").addEventListener("pointermove", () => this.redraw());
+    by("picture").addEventListener("wheel", () => this.redraw(), { passive: true });
+    new ResizeObserver(() => this.resize()).observe(by("charts"));
+    new ResizeObserver(() => this.redraw()).observe(by("picture"));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
+    this.theme();
+  }
+
+  /** The first is the flight, others are its ghosts. */
+  load(recordings: Recording[]): void {
+    this.recordings = recordings;
+    const first = recordings[0];
+    const there = first !== undefined;
+    document.body.classList.toggle("empty", !there);
+    if (!there) {
+      return;
+    }
+    by("title").textContent = [first.scenario || first.name, first.outcome]
+      .filter((part) => part !== "")
+      .join(": ");
+    document.title = `Limpet · ${first.scenario || first.name}`;
+    by("names").textContent =
+      recordings.length > 1 ? recordings.map((one) => one.name).join(", ") : "";
+    this.player.end = first.duration;
+    this.player.seek(0);
+    const flights = recordings.map(
+      (recording, k) => new FlightView(recording, k > 0, this.stage.cut),
+    );
+    flights.forEach((flight) => {
+      flight.show(0);
+    });
+    this.stage.setFlights(flights);
+    this.stage.setFloor(Math.min(-0.5, (first.frames.get("base_link")?.at(0)[2] ?? 0) - 1.2));
+    this.timeline.load(first);
+    this.loadCharts();
+    this.view(this.stage.currentView);
+    this.redraw();
+  }
+  seek(t: number): void {
+    this.player.seek(t);
+    this.player.playing = false;
+    this.redraw();
+  }
+  async open(files: File[]): Promise<void> {
+    try {
+      const recordings: Recording[] = [];
+      for (const file of files) {
+        recordings.push(
+          await readRecording(file.name, new Uint8Array(await file.arrayBuffer()), kColumns),
+        );
+      }
+      if (recordings.length > 0) {
+        this.load(recordings);
+        this.say("");
+      }
+    } catch (problem) {
+      this.say(problem instanceof Error ? problem.message : String(problem));
+    }
+  }
+  say(text: string): void {
+    by("problem").textContent = text;
+    by("problem").hidden = text === "";
+  }
+  /** For those who look at the page from outside: what it shows. */
+  state(): Record<string, unknown> {
+    return {
+      time: this.player.time,
+      end: this.player.end,
+      recordings: this.recordings.length,
+      vehicle: this.stage.vehicleInPicture(),
+      charts: this.charts.filter((chart) => !chart.element.hidden).length,
+      geometries: this.stage.renderer.info.memory.geometries,
+      pictures: this.stage.renderer.info.render.frame,
+    };
+  }
+
+  private show(): void {
+    by("play").textContent = this.player.playing ? "Pause" : "Play";
+    if (this.recordings.length === 0 || (this.player.time === this.shown && !this.dirty)) {
+      return;
+    }
+    this.dirty = false;
+    this.shown = this.player.time;
+    by("time").textContent = `${this.shown.toFixed(2)} s`;
+    this.stage.draw(this.recordings.map((recording) => Math.min(this.shown, recording.duration)));
+    this.timeline.show(this.shown);
+    for (const chart of this.charts) {
+      if (!chart.element.hidden) {
+        chart.show(this.shown);
+      }
+    }
+  }
+  private redraw(): void {
+    this.dirty = true;
+  }
+  private view(name: (typeof kViews)[number][0]): void {
+    this.stage.draw(
+      this.recordings.map((recording) => Math.min(this.player.time, recording.duration)),
+    );
+    this.stage.look(name);
+    for (const button of by("views").querySelectorAll("button")) {
+      button.setAttribute("aria-pressed", String(button.dataset.view === name));
+    }
+    this.redraw();
+  }
+  private viewButtons(): void {
+    by("views").append(
+      ...kViews.map(([name, label], k) => {
+        const button = document.createElement("button");
+        button.type = "button";
+        button.textContent = label;
+        button.dataset.view = name;
+        button.title = `Camera: ${label} (key ${k + 1})`;
+        button.addEventListener("click", () => this.view(name));
+        return button;
+      }),
+    );
+  }
+  private key(event: KeyboardEvent): void {
+    const inControl =
+      event.target instanceof HTMLSelectElement || event.target instanceof HTMLInputElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || (inControl && event.key !== " ")) {
+      return;
+    }
+    const kStep_s = event.shiftKey ? 1 : 0.05;
+    const chosen = kViews[Number(event.key) - 1];
+    if (event.key === " " && !(event.target instanceof HTMLButtonElement)) {
+      this.player.toggle();
+    } else if (event.key === "ArrowRight") {
+      this.seek(this.player.time + kStep_s);
+    } else if (event.key === "ArrowLeft") {
+      this.seek(this.player.time - kStep_s);
+    } else if (event.key === "Home") {
+      this.seek(0);
+    } else if (event.key === "End") {
+      this.seek(this.player.end);
+    } else if (chosen !== undefined) {
+      this.view(chosen[0]);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+  private theme(): void {
+    this.stage.setDark(matchMedia("(prefers-color-scheme: dark)").matches);
+    this.loadCharts();
+    this.redraw();
+  }
+  private loadCharts(): void {
+    const style = getComputedStyle(document.body);
+    const colours = {
+      text: style.getPropertyValue("--text"),
+      grid: style.getPropertyValue("--line"),
+    };
+    const width = by("charts").clientWidth - 16;
+    for (const chart of this.charts) {
+      if (chart.load(this.recordings, colours, Math.max(200, width))) {
+        chart.range(Number.NaN, Number.NaN, this.player.end);
+      }
+    }
+  }
+  private resize(): void {
+    for (const chart of this.charts) {
+      chart.resize(Math.max(200, by("charts").clientWidth - 16));
+    }
+    this.redraw();
+  }
+}
+
+const page = new Page();
+Object.assign(window, { limpet: page });
+embedded()
+  .then((recordings) => page.load(recordings))
+  .catch((problem: unknown) =>
+    page.say(problem instanceof Error ? problem.message : String(problem)),
+  );

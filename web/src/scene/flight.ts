@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording in the scene: frames, the vehicle's links in them, marks.
+import { Group, Object3D, type Plane } from "three";
+import type { Mark, Recording } from "../recording/recording";
+import { indexAt, type Table, valueAt } from "../recording/series";
+import { dispose, markShape } from "./marks";
+import { buildRobot, type Robot } from "./robot";
+
+const kTurning_rad_s = 30;
+
+export class FlightView {
+  readonly root = new Group();
+  private readonly frames = new Map<string, Object3D>();
+  private readonly robot: Robot;
+  private readonly shown = new Map<string, { mark: Mark; shape: Object3D }>();
+  private readonly vehicle: Table | undefined;
+  private readonly cup: Table | undefined;
+
+  /**
+   * @param ghost  beside another flight: the vehicle alone, seen through
+   * @param cut    of the wall, for the camera
+   */
+  constructor(
+    readonly recording: Recording,
+    private readonly ghost: boolean,
+    private readonly cut: Plane,
+  ) {
+    const kGhost = 0.35;
+    this.robot = buildRobot(recording.urdf, recording.meshes, ghost ? kGhost : 1);
+    this.vehicle = recording.tables.get("/truth/vehicle");
+    this.cup = recording.tables.get("/cup");
+    this.frames.set("map", this.root);
+    for (const child of recording.frames.keys()) {
+      this.frames.set(child, this.robot.links.get(child) ?? new Object3D());
+    }
+    for (const [child, track] of recording.frames) {
+      this.frames.get(track.parent)?.add(this.frames.get(child) as Object3D);
+    }
+  }
+
+  /** Everything as it was at `t` [s]. */
+  show(t: number): void {
+    for (const [child, track] of this.recording.frames) {
+      const frame = this.frames.get(child) as Object3D;
+      const [x, y, z, qx, qy, qz, qw] = track.at(t);
+      frame.position.set(x, y, z);
+      frame.quaternion.set(qx, qy, qz, qw);
+    }
+    this.turnRotors(t);
+    this.pressCup(t);
+    this.showMarks(t);
+  }
+  /** Where the vehicle is, in the scene. */
+  position(): Object3D | undefined {
+    return this.frames.get("base_link");
+  }
+  lip(): Object3D | undefined {
+    return this.frames.get("lip");
+  }
+
+  private turnRotors(t: number): void {
+    const speed = this.vehicle?.columns.get("rotor_speed_rad_s[0]");
+    const turning =
+      this.vehicle !== undefined &&
+      speed !== undefined &&
+      (valueAt(this.vehicle.time, speed, t) ?? 0) > kTurning_rad_s;
+    for (const disc of this.robot.discs) {
+      disc.visible = turning;
+    }
+    for (const blade of this.robot.blades) {
+      blade.visible = !turning;
+    }
+  }
+  /** The lip is pressed together by as much as it is inside the wall. */
+  private pressCup(t: number): void {
+    const gap = this.cup?.columns.get("gap_m");
+    const depth =
+      gap === undefined ? 0 : -Math.min(0, valueAt((this.cup as Table).time, gap, t) ?? 0);
+    const length = this.recording.frames.get("lip")?.at(0)[0] ?? 0.04;
+    this.robot.soft.scale.x = Math.max(0.3, 1 - depth / length);
+  }
+  private showMarks(t: number): void {
+    for (const [key, track] of this.recording.marks) {
+      const at = indexAt(track.time, t);
+      const mark = at < 0 ? null : (track.marks[at] as Mark | null);
+      const before = this.shown.get(key);
+      const wanted = mark !== null && (!this.ghost || mark.name === "path") ? mark : null;
+      if (before?.mark === wanted || (before === undefined && wanted === null)) {
+        continue;
+      }
+      if (before !== undefined) {
+        before.shape.removeFromParent();
+        dispose(before.shape);
+        this.shown.delete(key);
+      }
+      const shape = wanted === null ? undefined : markShape(wanted, this.cut);
+      if (wanted !== null && shape !== undefined) {
+        (this.frames.get(wanted.frame) ?? this.root).add(shape);
+        this.shown.set(key, { mark: wanted, shape });
+      }
+    }
+  }
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page in a real browser, with a real flight: LIMPET_VIEW is a page that `limpet view` wrote,
+// LIMPET_RECORDING the recording in it. LIMPET_PICTURES: a folder for what it looked like.
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import puppeteer, { type Browser, type ElementHandle, type Page } from "puppeteer-core";
+
+const page_file = process.env.LIMPET_VIEW ?? "";
+const recording_file = process.env.LIMPET_RECORDING ?? "";
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
+  existsSync(path),
+);
+const skip = page_file === "" ? "no LIMPET_VIEW" : chromium === undefined ? "no Chromium" : false;
+
+interface State {
+  time: number;
+  end: number;
+  recordings: number;
+  vehicle: { x: number; y: number; seen: boolean };
+  charts: number;
+  geometries: number;
+  pictures: number;
+}
+interface Shown {
+  limpet: { state(): State; seek(t: number): void };
+}
+
+let browser: Browser;
+let page: Page;
+const said: string[] = [];
+
+before(async () => {
+  if (skip !== false) {
+    return;
+  }
+  browser = await puppeteer.launch({
+    executablePath: chromium as string,
+    args: [
+      "--no-sandbox",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+    ],
+  });
+  page = await browser.newPage();
+  page.on("console", (message) => {
+    // The software renderer talks about its own speed.
+    if (!/GPU stall|swiftshader|WebGL/i.test(message.text())) {
+      said.push(message.text());
+    }
+  });
+  page.on("pageerror", (problem) => said.push(String(problem)));
+  page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) {
+      said.push(`asks for ${request.url()}`);
+    }
+  });
+  await page.setOfflineMode(true);
+  await page.setViewport({ width: 1200, height: 800 });
+  await page.goto(`file://${page_file}`);
+  await loaded(1);
+});
+after(async () => {
+  await browser?.close();
+});
+
+const state = (): Promise<State> =>
+  page.evaluate(() => (window as unknown as Shown).limpet.state());
+async function loaded(count: number): Promise<void> {
+  await page.waitForFunction(
+    (n) => (window as unknown as Shown).limpet?.state().recordings === n,
+    { timeout: 60000 },
+    count,
+  );
+}
+async function seek(t: number): Promise<void> {
+  const pictures = (await state()).pictures;
+  await page.evaluate((to) => (window as unknown as Shown).limpet.seek(to), t);
+  await page.waitForFunction(
+    (n) => (window as unknown as Shown).limpet.state().pictures > n,
+    {},
+    pictures,
+  );
+}
+/** How many colours the picture has, roughly: an empty scene has a few. */
+const colours = (): Promise<number> =>
+  page.evaluate(() => {
+    const canvas = document.querySelector("#picture") as HTMLCanvasElement;
+    const copy = document.createElement("canvas");
+    copy.width = copy.height = 96;
+    const context = copy.getContext("2d") as CanvasRenderingContext2D;
+    context.drawImage(canvas, 0, 0, 96, 96);
+    const { data } = context.getImageData(0, 0, 96, 96);
+    const seen = new Set<number>();
+    for (let i = 0; i < data.length; i += 4) {
+      seen.add(
+        (((data[i] as number) >> 4) << 8) |
+          (((data[i + 1] as number) >> 4) << 4) |
+          ((data[i + 2] as number) >> 4),
+      );
+    }
+    return seen.size;
+  });
+async function photograph(name: string): Promise<void> {
+  if (process.env.LIMPET_PICTURES !== undefined) {
+    await page.screenshot({ path: join(process.env.LIMPET_PICTURES, name) });
+  }
+}
+async function drop(name: string, bytes: Uint8Array): Promise<void> {
+  await page.evaluate(
+    async (file, base64) => {
+      const answer = await fetch(`data:application/octet-stream;base64,${base64}`);
+      const data = new DataTransfer();
+      data.items.add(new File([await answer.blob()], file));
+      document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, cancelable: true }));
+    },
+    name,
+    Buffer.from(bytes).toString("base64"),
+  );
+}
+
+test("the vehicle is in every camera's picture, at every phase", { skip }, async () => {
+  const { end, charts } = await state();
+  assert.ok(end > 10);
+  assert.ok(charts >= 6, `${charts} charts`);
+  for (const view of ["side", "cup", "chase", "overview"]) {
+    await page.click(`[data-view=${view}]`);
+    for (const share of [0, 0.17, 0.5, 0.9]) {
+      await seek(share * end);
+      const { vehicle } = await state();
+      assert.ok(vehicle.seen || view === "cup", `${view} at ${share}: ${JSON.stringify(vehicle)}`);
+      assert.ok((await colours()) > 15, `${view} at ${share}`);
+    }
+    await photograph(`${view}.png`);
+  }
+});
+
+test("plays, pauses, steps and jumps by keys", { skip }, async () => {
+  await page.click("[data-view=side]");
+  await page.focus("#picture");
+  await page.keyboard.press("Home");
+  assert.equal((await state()).time, 0);
+  await page.keyboard.press("Space");
+  await page.waitForFunction(() => (window as unknown as Shown).limpet.state().time > 0.2);
+  await page.keyboard.press("Space");
+  const { time } = await state();
+  await new Promise((resolve) => setTimeout(resolve, 200));
+  assert.equal((await state()).time, time);
+  await page.keyboard.press("ArrowRight");
+  assert.ok(Math.abs((await state()).time - time - 0.05) < 1e-9);
+  await page.keyboard.press("End");
+  assert.equal((await state()).time, (await state()).end);
+});
+
+test("an event and a chart lead to their time", { skip }, async () => {
+  const items = await page.$$("#events li button");
+  assert.ok(items.length > 5);
+  const wanted = await page.$$eval("#events li time", (all) =>
+    Number.parseFloat(all[2]?.textContent ?? ""),
+  );
+  await (items[2] as ElementHandle<HTMLButtonElement>).click();
+  assert.ok(Math.abs((await state()).time - wanted) < 1e-3);
+  const chart = await page.$(".chart .u-over");
+  const box = await chart?.boundingBox();
+  assert.ok(box);
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  const { time, end } = await state();
+  assert.ok(Math.abs(time / end - 0.5) < 0.02, `${time} of ${end}`);
+});
+
+test("recordings dropped on it fly, rubbish is told in one line", { skip }, async () => {
+  const bytes = readFileSync(recording_file);
+  await drop("rubbish.mcap", new TextEncoder().encode("no recording"));
+  await page.waitForFunction(() => !(document.querySelector("#problem") as HTMLElement).hidden);
+  assert.match(
+    await page.$eval("#problem", (one) => one.textContent ?? ""),
+    /rubbish\.mcap is not an MCAP/,
+  );
+  assert.equal((await state()).recordings, 1);
+  // one that a run left behind, cut in the middle
+  await drop("cut.mcap.part", bytes.subarray(0, Math.floor(0.6 * bytes.length)));
+  await page.waitForFunction(() => (document.querySelector("#problem") as HTMLElement).hidden);
+  assert.ok((await state()).end > 1);
+  await drop("whole.mcap", bytes);
+  await page.waitForFunction(
+    (end) => (window as unknown as Shown).limpet.state().end > end,
+    {},
+    (await state()).end,
+  );
+});
+
+test("a phone shows all of it, in the dark too", { skip }, async () => {
+  await page.setViewport({ width: 375, height: 700 });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  await seek(6);
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(wider <= 0, `${wider} px wider than the phone`);
+  assert.ok((await colours()) > 15);
+  await photograph("phone.png");
+  await page.emulateMediaFeatures([]);
+  await page.setViewport({ width: 1200, height: 800 });
+});
+
+test("accessible, as far as a machine can tell", { skip }, async () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  const found = await page.evaluate(async (source) => {
+    new Function(source)();
+    const run = (
+      window as unknown as {
+        axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+      }
+    ).axe;
+    return (await run.run()).violations.map(
+      (one) => `${one.id}: ${one.nodes.map((node) => node.html).join(" ")}`,
+    );
+  }, axe);
+  assert.deepEqual(found, []);
+});
+
+test("shapes do not pile up while it plays", { skip }, async () => {
+  const { end } = await state();
+  const sweep = async (): Promise<number> => {
+    for (let t = 0; t <= end; t += end / 40) {
+      await seek(t);
+    }
+    await seek(end / 2);
+    return (await state()).geometries;
+  };
+  const first = await sweep();
+  assert.ok((await sweep()) <= first, `${first} shapes, then more`);
+});
+
+test("it said nothing and asked nobody", { skip }, () => {
+  assert.deepEqual(said, []);
+});
