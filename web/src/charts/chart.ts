@@ -83,7 +83,7 @@ export class Chart {
       scales: { x: { time: false } },
       axes: [
         { ...axis, size: 24 },
-        { ...axis, size: 46, space: 22 },
+        { ...axis, size: 54, space: 22 },
       ],
       series: [{}, ...series],
       hooks: {

@@ -71,12 +71,12 @@ export class Stage {
     this.scene.add(...flights.map((flight) => flight.root));
   }
   setDark(dark: boolean): void {
-    this.scene.background = new Color(dark ? 0x15181c : 0xeef1f4);
+    this.scene.background = new Color(dark ? 0x3b424a : 0xeef1f4);
     if (this.grid !== undefined) {
       this.scene.remove(this.grid);
       this.grid.dispose();
     }
-    this.grid = new GridHelper(20, 20, dark ? 0x444a52 : 0xb0b8c0, dark ? 0x2a2f36 : 0xd4dae0);
+    this.grid = new GridHelper(20, 20, dark ? 0x5a626b : 0xb0b8c0, dark ? 0x4a525b : 0xd4dae0);
     this.grid.rotation.x = Math.PI / 2;
     this.grid.position.z = this.floor;
     this.scene.add(this.grid);
@@ -126,7 +126,7 @@ export class Stage {
           .copy(target)
           .addScaledVector(ahead, -2.6)
           .addScaledVector(right, 4.2)
-          .add(new Vector3(0, 0, 1.8));
+          .add(new Vector3(0, 0, 1.4));
         break;
     }
     this.camera.position.copy(from);
