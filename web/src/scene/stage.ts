@@ -124,8 +124,8 @@ export class Stage {
       case "overview":
         from
           .copy(target)
-          .addScaledVector(ahead, -2.6)
-          .addScaledVector(right, 4.2)
+          .addScaledVector(ahead, -2.0)
+          .addScaledVector(right, 3.2)
           .add(new Vector3(0, 0, 1.4));
         break;
     }
