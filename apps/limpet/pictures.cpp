@@ -10,6 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
+#include "limpet/record/ulog.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "output.hpp"
@@ -73,6 +74,14 @@ draw::Pictures write_tables(const record::Recording& recording,
     return written;
 }
 
+/// Beside the recording, or in a folder, under its name.
+draw::Pictures write_px4_log(const record::Recording& recording,
+                             const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / (recording.path.stem().string() + ".ulg");
+    record::write_ulog(recording, file);
+    return {.files = {file}, .missing = {}};
+}
+
 }  // namespace
 
 Verb plot_verb() {
@@ -89,6 +98,11 @@ Verb csv_verb() {
     return picture_verb("csv",
                         "Write a recording as CSV, a file a topic, and the files attached to it",
                         write_tables);
+}
+
+Verb ulog_verb() {
+    return picture_verb("ulog", "Write a recording as a PX4 log, for Flight Review and PlotJuggler",
+                        write_px4_log);
 }
 
 }  // namespace limpet::app
