@@ -26,7 +26,9 @@ test(
         const row = message.value as { timestamp: bigint };
         assert.ok(row.timestamp >= last, `${name} goes back in time`);
         last = row.timestamp;
-        rows.set(name, [...(rows.get(name) ?? []), row]);
+        const all = rows.get(name) ?? [];
+      all.push(row);
+      rows.set(name, all);
       } else if (message.type === MessageType.Log) {
         texts.push(message.message);
       }
