@@ -27,8 +27,8 @@ test(
         assert.ok(row.timestamp >= last, `${name} goes back in time`);
         last = row.timestamp;
         const all = rows.get(name) ?? [];
-      all.push(row);
-      rows.set(name, all);
+        all.push(row);
+        rows.set(name, all);
       } else if (message.type === MessageType.Log) {
         texts.push(message.message);
       }
