@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -7,9 +7,12 @@
 #include <string>
 
 #include "command_line.hpp"
+#include "launch.hpp"
 #include "limpet/campaign/folder_lock.hpp"
+#include "limpet/campaign/ranks.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
+#include "limpet/core/errors.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -26,6 +29,7 @@ struct CampaignOptions {
     std::string file;
     int jobs = default_jobs();
     std::string out;
+    std::string shard;
     bool resume = false;
     bool quiet = false;
 };
@@ -34,6 +38,7 @@ OptionList options_of(CampaignOptions& options) {
     return {{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
             jobs_option(options.jobs),
             {"--out DIR", &options.out, "folder (default: out/NAME)"},
+            {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},
             {"--resume", &options.resume, "go on with the results in the folder, if any"},
             {"--quiet,-q", &options.quiet, "print nothing but errors"}};
 }
@@ -49,6 +54,9 @@ std::string progress_text(const campaign::Progress& progress) {
     std::string text =
         fmt::format("{} of {} runs, {:.1f} a second, {} left", progress.finished, progress.runs,
                     progress.rate_1_s(), time_text(progress.left_s()));
+    if (!progress.by_rank.empty()) {
+        text = fmt::format("{} ranks: {}", progress.by_rank.size(), text);
+    }
     for (const auto& [outcome, count] : progress.outcomes) {
         text += fmt::format(", {} {}", count, outcome);
     }
@@ -79,12 +87,17 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     if (progress.finished < progress.runs) {
         fmt::print(stderr,
                    "limpet: stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
-                   "--out {} --resume\n",
-                   progress.finished, progress.runs, options.file, folder.string());
+                   "--out {}{} --resume\n",
+                   progress.finished, progress.runs, options.file, folder.string(),
+                   options.shard.empty() ? "" : " --shard " + options.shard);
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
                               progress.elapsed_s, progress.rate_1_s()));
+    if (!progress.by_rank.empty()) {
+        terminal.line(
+            fmt::format("of them by rank 0 and on: {}", fmt::join(progress.by_rank, " ")));
+    }
     terminal.line("");
     terminal.line(summary_text(summarise(results)));
     const std::string file = (folder / campaign::Results::kFileName).string();
@@ -100,22 +113,83 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     return ExitCode::ok;
 }
 
-ExitCode fly_campaign(const CampaignOptions& options) {
-    const campaign::Campaign campaign = campaign::load_campaign(options.file);
-    const fs::path folder =
-        make_folder(options.out.empty() ? fs::path("out") / campaign.name : fs::path(options.out));
-    const campaign::FolderLock lock(folder);
-    campaign::Results results = begin_results(campaign, folder, options.resume);
-    Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
-    const std::uint32_t there = results.finished();
+std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
+    const auto threads = fmt::format("{} thread{}", jobs, jobs == 1 ? "" : "s");
+    return ranks > 1                ? fmt::format("on {} ranks, {} on the first", ranks, threads)
+           : !options.shard.empty() ? fmt::format("shard {}, on {}", options.shard, threads)
+                                    : "on " + threads;
+}
+
+/// Where the results are, nobody else's meanwhile.
+struct Place {
+    Place(const campaign::Campaign& campaign, const CampaignOptions& options,
+          const campaign::Shard& shard)
+        : folder(make_folder(options.out.empty() ? fs::path("out") / campaign.name
+                                                 : fs::path(options.out))),
+          lock(folder),
+          results(begin_results(campaign, folder, options.resume, shard)) {}
+
+    fs::path folder;
+    campaign::FolderLock lock;
+    campaign::Results results;
+};
+
+/// Flies what is missing.
+/// @param link  to the other ranks; null: there are none
+ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
+                     campaign::RankLink* link) {
+    const campaign::Campaign& campaign = place.results.campaign();
+    Terminal terminal(options.quiet     ? Terminal::Voice::quiet
+                      : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
+                                        : Terminal::Voice::normal);
+    const std::uint32_t there = place.results.finished();
     terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
-    terminal.line(fmt::format("{} runs of {}, seed {}, on {} thread{}{}", campaign.runs,
-                              campaign.scenario_name, campaign.seed, options.jobs,
-                              options.jobs == 1 ? "" : "s",
+    terminal.line(fmt::format("{} runs of {}, seed {}, {}{}", campaign.runs, campaign.scenario_name,
+                              campaign.seed,
+                              crew_text(options, jobs, link != nullptr ? link->ranks() : 1),
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
-    const campaign::Progress progress =
-        run_campaign(results, options.jobs, campaign_watch(terminal));
-    return conclude(progress, results, options, folder, terminal);
+    const campaign::CampaignWatch watch = campaign_watch(terminal);
+    const campaign::Progress progress = link != nullptr
+                                            ? run_among_ranks(place.results, jobs, watch, *link)
+                                            : run_campaign(place.results, jobs, watch);
+    return conclude(progress, place.results, options, place.folder, terminal);
+}
+
+/// One of several ranks. Where one cannot fly the campaign, none does, and the first says why.
+ExitCode fly_as_rank(const CampaignOptions& options, int jobs, campaign::RankLink& link) {
+    std::optional<campaign::Campaign> campaign;
+    std::string why_not;
+    try {
+        campaign = campaign::load_campaign(options.file);
+    } catch (const InputError& error) {
+        why_not = error.what();
+    }
+    const campaign::Campaign* loaded = campaign ? &*campaign : nullptr;
+    if (link.rank() > 0) {
+        serve_rank_0(link, loaded, why_not, jobs, stop_on_signals());
+        return ExitCode::ok;  // rank 0 says how it ended
+    }
+    std::optional<Place> place;
+    try {
+        muster_ranks(link, loaded, why_not);
+        place.emplace(*campaign, options, campaign::Shard{});
+    } catch (const InputError&) {
+        dismiss_ranks(link);
+        throw;
+    }
+    return fly_missing(*place, options, jobs, &link);
+}
+
+ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
+    if (options.shard.empty()) {
+        if (const auto link = ranks_started()) {
+            return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
+        }
+    }
+    const auto shard =
+        options.shard.empty() ? campaign::Shard{} : campaign::parse_shard(options.shard);
+    Place place(campaign::load_campaign(options.file), options, shard);
+    return fly_missing(place, options, options.jobs, nullptr);
 }
 
 }  // namespace
@@ -127,7 +201,10 @@ Verb campaign_verb() {
         "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
         "Killed "
         "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly "
-        "(130).\n");
+        "(130).\n\n"
+        "On several machines `mpirun -n 8 limpet campaign X`, or srun, shares the runs out: one "
+        "file,\nthe same rows; --jobs is then each rank's. Without MPI: --shard, then limpet "
+        "merge.\n");
 }
 
 }  // namespace limpet::app

@@ -20,7 +20,8 @@ Terminal::Terminal(Voice voice)
     : out_(voice == Voice::quiet     ? nullptr
            : voice == Voice::machine ? stderr
                                      : stdout) {
-    live_ = out_ != nullptr && isatty(fileno(out_)) != 0 && std::getenv("NO_COLOR") == nullptr;
+    live_ = out_ != nullptr && voice != Voice::relayed && isatty(fileno(out_)) != 0 &&
+            std::getenv("NO_COLOR") == nullptr;
 }
 
 Terminal::~Terminal() {

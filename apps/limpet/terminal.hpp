@@ -16,6 +16,7 @@ public:
     enum class Voice {
         normal,   ///< standard output
         machine,  ///< standard error: standard output carries JSON
+        relayed,  ///< standard output, plain lines: who relays it hides whether a person watches
         quiet,    ///< nowhere
     };
     explicit Terminal(Voice voice);

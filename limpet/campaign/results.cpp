@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "limpet/campaign/columns.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/version.hpp"
@@ -18,35 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kApplication = 0x4C4D5054;  ///< "LMPT", in the header of our databases
 constexpr std::int64_t kSchema = 1;
-
-/// Calls each(name, type, value) for the columns of the table `runs`, in their order.
-/// @param row  with a sample as wide as the campaign's keys
-template <class Row, class Each>
-void for_each_column(const Campaign& campaign, Row&& row, const Each& each) {
-    each("run", "INTEGER PRIMARY KEY", row.run);
-    each("seed", "INTEGER", row.seed);
-    for (std::size_t i = 0; i < campaign.keys.size(); ++i) {
-        const VariedKey& key = campaign.keys[i];
-        each(key.key, is_named(key) ? "TEXT" : "REAL", row.sample[i]);
-    }
-    each("outcome", "TEXT", row.outcome);
-    each("reason", "TEXT", row.reason);
-    each("attempts", "INTEGER", row.attempts);
-    for (const simulation::MetricInfo& metric : simulation::metric_table()) {
-        each(metric.name, "REAL", row.metrics.*metric.field);
-    }
-    each("simulated_s", "REAL", row.simulated_s);
-    each("physics_steps", "INTEGER", row.physics_steps);
-    each("state_hash", "TEXT", row.state_hash);
-}
-
-RunRow empty_row(const Campaign& campaign) {
-    RunRow row;
-    for (const VariedKey& key : campaign.keys) {
-        row.sample.push_back(is_named(key) ? SampledValue(std::string()) : SampledValue(0.0));
-    }
-    return row;
-}
 
 std::string create_sql(const Campaign& campaign) {
     std::vector<std::string> columns;
@@ -109,7 +81,7 @@ std::string scenario_hash(const Campaign& campaign) {
     return hash_text(hash);
 }
 
-void write_campaign(SQLite::Database& database, const Campaign& campaign) {
+void write_campaign(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
     SQLite::Transaction transaction(database);
     database.exec(
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};"
@@ -127,6 +99,12 @@ void write_campaign(SQLite::Database& database, const Campaign& campaign) {
         SQLite::bind(scenario, static_cast<std::int64_t>(i), campaign.scenarios[i].yaml());
         scenario.exec();
         scenario.reset();
+    }
+    if (!shard.whole()) {
+        database.exec(
+            fmt::format("CREATE TABLE shard (part INTEGER, parts INTEGER);"
+                        "INSERT INTO shard VALUES ({}, {})",
+                        shard.part, shard.parts));
     }
     transaction.commit();
 }
@@ -185,6 +163,23 @@ void require_values(SQLite::Database& database, const Campaign& campaign) {
     }
 }
 
+Shard read_shard(SQLite::Database& database) {
+    if (!database.tableExists("shard")) {
+        return {};
+    }
+    return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
+}
+
+/// Runs of another campaign, or of another part of this.
+void require_runs(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
+    if (integer(database,
+                fmt::format("SELECT count(*) FROM runs WHERE run < {} OR run >= {} OR seed <> {}",
+                            shard.begin(campaign.runs), shard.end(campaign.runs), campaign.seed)) >
+        0) {
+        refuse(database, "is damaged: it holds runs that its campaign does not have");
+    }
+}
+
 Campaign read_campaign(SQLite::Database& database) {
     std::vector<std::string> scenarios;
     SQLite::Statement scenario(database, "SELECT yaml FROM scenarios ORDER BY variant");
@@ -201,18 +196,31 @@ std::string hash_text(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
 }
 
+Identity identity_of(const Campaign& campaign) {
+    return {.campaign = campaign_hash(campaign),
+            .scenarios = scenario_hash(campaign),
+            .version = std::string(kVersion)};
+}
+
+const char* difference(const Identity& one, const Identity& other) {
+    return one.campaign != other.campaign     ? "the campaign's file"
+           : one.scenarios != other.scenarios ? "the scenario, its vehicle or a surface"
+           : one.version != other.version     ? "Limpet itself"
+                                              : nullptr;
+}
+
 fs::path Results::file_of(const fs::path& wanted) {
     std::error_code ignored;
     return fs::is_directory(wanted, ignored) ? wanted / kFileName : wanted;
 }
 
-void Results::create(const fs::path& path, const Campaign& campaign) {
+void Results::create(const fs::path& path, const Campaign& campaign, const Shard& shard) {
     const fs::path part = path.string() + ".part";
     std::error_code error;
     fs::remove(part, error);
     {
         SQLite::Database database = open_database(part, Access::create);
-        asking(database, [&] { write_campaign(database, campaign); });
+        asking(database, [&] { write_campaign(database, campaign, shard); });
     }
     fs::rename(part, path, error);
     if (error) {
@@ -236,25 +244,30 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
             refuse(database_,
                    "is damaged: campaign or scenarios are not those that it was begun with");
         }
+        shard_ = read_shard(database_);
+        require_runs(database_, campaign_, shard_);
         require_values(database_, campaign_);
     });
 }
 
-void Results::require_same(const Campaign& campaign) const {
-    const char* what = nullptr;
-    if (campaign_.yaml != campaign.yaml) {
-        what = "the campaign's file";
-    } else if (campaign_.scenarios != campaign.scenarios) {
-        what = "the scenario, its vehicle or a surface";
-    } else if (version_ != kVersion) {
-        what = "Limpet itself";
-    }
-    if (what != nullptr) {
+void Results::require_same(const Campaign& campaign, const Shard& shard) const {
+    if (const char* what = difference(identity(), identity_of(campaign))) {
         refuse(database_,
                "{} has changed since these results were begun; finish them with what they were "
                "begun with, or give another --out",
                what);
     }
+    if (shard_ != shard) {
+        refuse(database_, "{} was begun here: go on {}, or give another --out",
+               shard_.whole() ? "the whole campaign" : "shard " + shard_text(shard_),
+               shard_.whole() ? "without --shard" : "with --shard " + shard_text(shard_));
+    }
+}
+
+Identity Results::identity() const {
+    return {.campaign = campaign_hash(campaign_),
+            .scenarios = scenario_hash(campaign_),
+            .version = version_};
 }
 
 /// Not before there is something to write: whoever is refused leaves the file as it was.
@@ -333,7 +346,8 @@ RunRow Results::row(std::uint32_t run) {
     });
 }
 
-Results begin_results(const Campaign& campaign, const fs::path& folder, bool resume) {
+Results begin_results(const Campaign& campaign, const fs::path& folder, bool resume,
+                      const Shard& shard) {
     const fs::path path = folder / Results::kFileName;
     std::error_code ignored;
     const bool there = fs::exists(path, ignored);
@@ -343,10 +357,10 @@ Results begin_results(const Campaign& campaign, const fs::path& folder, bool res
                          "elsewhere");
     }
     if (!there) {
-        Results::create(path, campaign);
+        Results::create(path, campaign, shard);
     }
     Results results(path, Access::write);
-    results.require_same(campaign);
+    results.require_same(campaign, shard);
     return results;
 }
 

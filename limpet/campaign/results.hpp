@@ -10,6 +10,7 @@
 
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/database.hpp"
+#include "limpet/campaign/shard.hpp"
 #include "limpet/simulation/metrics.hpp"
 
 namespace limpet::campaign {
@@ -30,6 +31,17 @@ struct RunRow {
 };
 inline constexpr const char* kFault = "fault";
 
+/// By what two are known to fly the same: digests of the campaign's file and of the scenarios
+/// spelled out, and Limpet's version.
+struct Identity {
+    std::string campaign;
+    std::string scenarios;
+    std::string version;
+};
+[[nodiscard]] Identity identity_of(const Campaign& campaign);
+/// @return what differs first, as in "the campaign's file"; null: nothing
+[[nodiscard]] const char* difference(const Identity& one, const Identity& other);
+
 /// The results of a campaign: one file of SQLite that stands for itself.
 ///
 ///   campaign   one row: name, the file's text, version of Limpet, hashes of file and scenarios
@@ -37,6 +49,7 @@ inline constexpr const char* kFault = "fault";
 ///   runs       a row a run: run, seed, a column for each varied key (named like it: `"guidance.
 ///              dock_speed_m_s"`), outcome, reason, attempts, metrics, simulated_s, physics_steps,
 ///              state_hash
+///   shard      where the file holds a part of the campaign: part, parts
 ///
 /// Every committed transaction outlives the death of the process (write-ahead log); when a campaign
 /// ends the log is folded in and one plain file is left.
@@ -47,7 +60,8 @@ public:
     /// @param wanted  the file itself or the folder that holds it
     [[nodiscard]] static std::filesystem::path file_of(const std::filesystem::path& wanted);
     /// Starts a new file: whole, or not at all.
-    static void create(const std::filesystem::path& path, const Campaign& campaign);
+    static void create(const std::filesystem::path& path, const Campaign& campaign,
+                       const Shard& shard = {});
     /// @throws InputError when there is none, when it is not one of ours, of another schema or
     ///         another version's columns, or damaged
     Results(const std::filesystem::path& path, Access access);
@@ -55,8 +69,11 @@ public:
     /// The campaign as it was begun.
     [[nodiscard]] const Campaign& campaign() const { return campaign_; }
     [[nodiscard]] const std::string& version() const { return version_; }
-    /// @throws InputError when `campaign` would not fly what was begun here
-    void require_same(const Campaign& campaign) const;
+    [[nodiscard]] Identity identity() const;
+    /// What these results are to hold in the end.
+    [[nodiscard]] const Shard& shard() const { return shard_; }
+    /// @throws InputError when `campaign` would not fly what was begun here, or not this part of it
+    void require_same(const Campaign& campaign, const Shard& shard = {}) const;
 
     /// Rows in one transaction: all are kept or none.
     void add(const std::vector<RunRow>& rows);
@@ -78,13 +95,14 @@ private:
     SQLite::Database database_;
     Campaign campaign_;
     std::string version_;
+    Shard shard_;
     std::optional<SQLite::Statement> insert_;
 };
 
 /// The results in a folder: new ones, or, when asked to resume, those that are there.
 /// @throws InputError when there are some and nobody asked to resume, or `campaign` is not theirs
 [[nodiscard]] Results begin_results(const Campaign& campaign, const std::filesystem::path& folder,
-                                    bool resume);
+                                    bool resume, const Shard& shard = {});
 
 /// @return 16 hexadecimal digits
 [[nodiscard]] std::string hash_text(std::uint64_t hash);

@@ -4,83 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
-#include <mutex>
-#include <optional>
 #include <system_error>
-#include <thread>
-#include <vector>
 
+#include "limpet/campaign/dealer.hpp"
+#include "limpet/campaign/ledger.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/plant/lane_group.hpp"
 
 namespace limpet::campaign {
 namespace {
-
-/// Flies what is missing from the results, the same in every thread. Who has landed writes its row
-/// before it goes on: a slow disk slows the flights down, memory does not grow, and a kill costs no
-/// more than the flights in the air.
-class Work {
-public:
-    Work(Results& results, const CampaignWatch& watch, Progress& progress)
-        : results_(results),
-          watch_(watch),
-          progress_(progress),
-          finished_(results.finished_runs()) {}
-
-    void fly_on() noexcept {
-        try {
-            while (const auto run = next()) {
-                land(fly_run(results_.campaign(), *run));
-            }
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            failed_ = failed_ ? failed_ : std::current_exception();
-        }
-    }
-
-    /// Once nobody flies any more.
-    void rethrow() const {
-        if (failed_) {
-            std::rethrow_exception(failed_);
-        }
-    }
-
-private:
-    /// The next run that is missing; none when all have begun or it is time to stop.
-    [[nodiscard]] std::optional<std::uint32_t> next() {
-        const std::lock_guard lock(mutex_);
-        while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
-            ++next_;
-        }
-        const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
-        return stop || next_ >= progress_.runs ? std::nullopt : std::optional(next_++);
-    }
-
-    void land(const RunRow& row) {
-        const std::lock_guard lock(mutex_);
-        results_.add({row});
-        ++progress_.outcomes[row.outcome];
-        ++progress_.finished;
-        ++progress_.flown;
-        progress_.elapsed_s =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-        if (watch_.on_progress) {
-            watch_.on_progress(progress_);
-        }
-    }
-
-    Results& results_;
-    const CampaignWatch& watch_;
-    Progress& progress_;
-    const std::vector<std::uint32_t> finished_;
-    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::mutex mutex_;
-    std::uint32_t next_ = 0;
-    std::exception_ptr failed_ = nullptr;  ///< the first: it stops the others
-};
 
 /// @throws InputError naming the run
 std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign,
@@ -92,16 +26,99 @@ std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign
     }
 }
 
+void fly_lane(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) noexcept {
+    try {
+        while (const auto run = dealer.next()) {
+            const RunRow row = fly_run(campaign, *run, stop);
+            if (stop != nullptr && *stop) {
+                return;
+            }
+            dealer.land(row);
+        }
+    } catch (...) {
+        dealer.fail(std::current_exception());
+    }
+}
+
 }  // namespace
 
-RunRow fly_run(const Campaign& campaign, std::uint32_t run) {
+Ledger::Ledger(Results& results, const CampaignWatch& watch, int ranks)
+    : results_(results),
+      watch_(watch),
+      finished_(results.finished_runs()),
+      end_(results.shard().end(results.campaign().runs)),
+      next_(results.shard().begin(results.campaign().runs)) {
+    progress_.runs = end_ - next_;
+    progress_.finished = static_cast<std::uint32_t>(finished_.size());
+    progress_.outcomes = results.outcomes();
+    progress_.by_rank.resize(static_cast<std::size_t>(ranks));
+}
+
+std::optional<std::uint32_t> Ledger::next() {
+    const std::lock_guard lock(mutex_);
+    while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
+        ++next_;
+    }
+    const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
+    return stop || next_ >= end_ ? std::nullopt : std::optional(next_++);
+}
+
+void Ledger::land(const RunRow& row, int rank) {
+    const std::lock_guard lock(mutex_);
+    results_.add({row});
+    ++progress_.outcomes[row.outcome];
+    ++progress_.finished;
+    ++progress_.flown;
+    if (!progress_.by_rank.empty()) {
+        ++progress_.by_rank.at(static_cast<std::size_t>(rank));
+    }
+    progress_.elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (watch_.on_progress) {
+        watch_.on_progress(progress_);
+    }
+}
+
+void Ledger::fail(std::exception_ptr why) noexcept {
+    const std::lock_guard lock(mutex_);
+    failed_ = failed_ ? failed_ : why;
+}
+
+Progress Ledger::conclude() {
+    const std::lock_guard lock(mutex_);
+    if (failed_) {
+        std::rethrow_exception(failed_);
+    }
+    results_.finish();
+    return progress_;
+}
+
+void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
+    plant::fly_side_by_side([&] { fly_lane(campaign, dealer, stop); });
+}
+
+Fliers::Fliers(int jobs, const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
+    try {
+        while (threads_.size() < static_cast<std::size_t>(jobs)) {
+            ++flying_;
+            threads_.emplace_back([this, &campaign, &dealer, stop] {
+                fly_dealt(campaign, dealer, stop);
+                --flying_;
+            });
+        }
+    } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        --flying_;
+    }
+}
+
+RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bool>* stop) {
     RunRow row;
     row.run = run;
     row.seed = campaign.seed;
     row.sample = draw(campaign.keys, campaign.seed, run);
     const auto model = model_of(campaign, row);
     try {
-        const simulation::FlightResult result = fly(model, {}, {}, run);
+        const simulation::FlightResult result = fly(model, {}, {}, run, {.stop = stop});
         row.outcome = to_string(result.outcome);
         row.reason = result.reason;
         row.attempts = result.attempts;
@@ -117,26 +134,12 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run) {
 }
 
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
-    Progress progress{.runs = results.campaign().runs,
-                      .finished = results.finished(),
-                      .flown = 0,
-                      .elapsed_s = 0.0,
-                      .outcomes = results.outcomes()};
-    Work work(results, watch, progress);
-    const auto fly_on = [&work] { plant::fly_side_by_side([&work] { work.fly_on(); }); };
+    Ledger ledger(results, watch);
     {
-        std::vector<std::jthread> workers;
-        try {
-            while (workers.size() + 1 < static_cast<std::size_t>(jobs)) {
-                workers.emplace_back(fly_on);
-            }
-        } catch (const std::system_error&) {  // no more threads to be had: those there are will do
-        }
-        fly_on();
+        const Fliers others(jobs - 1, results.campaign(), ledger, nullptr);
+        fly_dealt(results.campaign(), ledger, nullptr);
     }
-    work.rethrow();
-    results.finish();
-    return progress;
+    return ledger.conclude();
 }
 
 simulation::FlightResult replay_run(Results& results, std::uint32_t run,

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "limpet/campaign/results.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -20,6 +21,7 @@ struct Progress {
     std::uint32_t flown = 0;     ///< now
     double elapsed_s = 0.0;
     std::map<std::string, std::uint32_t> outcomes;
+    std::vector<std::uint32_t> by_rank;  ///< flown now by each rank; empty: there is one process
 
     [[nodiscard]] double rate_1_s() const { return elapsed_s > 0.0 ? flown / elapsed_s : 0.0; }
     [[nodiscard]] double left_s() const { return flown > 0 ? (runs - finished) / rate_1_s() : 0.0; }
@@ -39,7 +41,9 @@ struct CampaignWatch {
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {});
 
 /// Flies one run. A fault of ours during the flight becomes a row with the outcome `fault`.
-[[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run);
+/// @param stop  breaks it off; its row is then good for nothing
+[[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run,
+                             const std::atomic<bool>* stop = nullptr);
 
 /// Flies a row again, recorded.
 /// @param recording  file to write

@@ -12,8 +12,10 @@
 
 namespace limpet::campaign {
 
-Running::Running(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
-    std::vector<std::string> words = {LIMPET_PROGRAM};
+Running::Running(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& launcher) {
+    std::vector<std::string> words = launcher;
+    words.emplace_back(LIMPET_PROGRAM);
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) {
@@ -27,7 +29,8 @@ Running::Running(const std::filesystem::path& folder, const std::vector<std::str
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    if (posix_spawn(&child_, LIMPET_PROGRAM, &actions, nullptr, argv.data(), environ) != 0) {
+    if (posix_spawnp(&child_, words.front().c_str(), &actions, nullptr, argv.data(), environ) !=
+        0) {
         child_ = 0;
     }
     posix_spawn_file_actions_destroy(&actions);

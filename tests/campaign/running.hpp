@@ -13,7 +13,9 @@ namespace limpet::campaign {
 /// The program at work in the background, until it is killed or waited for.
 class Running {
 public:
-    Running(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+    /// @param launcher  words before the program's own, as of mpirun
+    Running(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+            const std::vector<std::string>& launcher = {});
     ~Running();
     Running(const Running&) = delete;
     Running& operator=(const Running&) = delete;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launch.hpp"
+
+#include <dlfcn.h>
+#include <fmt/core.h>
+
+#include <cstdlib>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::app {
+namespace {
+
+constexpr const char* kModule = "limpet_mpi.so";
+
+/// What each launcher tells its processes of their number. Open MPI's first: its mpirun may itself
+/// have been started by one of the others, which then speak of its helpers.
+constexpr std::pair<const char*, const char*> kLaunchers[] = {
+    {"OMPI_COMM_WORLD_SIZE", "mpirun"},
+    {"PMI_SIZE", "mpiexec"},
+    {"SLURM_STEP_NUM_TASKS", "srun"},
+};
+
+struct Launch {
+    int ranks = 1;
+    const char* by = "";
+};
+
+Launch launch() {
+    for (const auto& [variable, by] : kLaunchers) {
+        if (const char* told = std::getenv(variable)) {
+            return {.ranks = std::atoi(told), .by = by};
+        }
+    }
+    return {};
+}
+
+/// The module outlives all that comes of it: it stays loaded.
+campaign::OpenRankLink* module_of_mpi(const Launch& launch) {
+    void* module = dlopen(kModule, RTLD_NOW | RTLD_GLOBAL);
+    void* open = module != nullptr ? dlsym(module, campaign::kOpenRankLink) : nullptr;
+    if (open == nullptr) {
+        throw InputError(fmt::format(
+            "{} started {} of these, but MPI is not there to tie them together ({}): install Open "
+            "MPI and build anew, or fly a --shard each",
+            launch.by, launch.ranks, dlerror()));
+    }
+    return reinterpret_cast<campaign::OpenRankLink*>(open);
+}
+
+}  // namespace
+
+std::unique_ptr<campaign::RankLink> ranks_started() {
+    const Launch started = launch();
+    if (started.ranks < 2) {
+        return nullptr;
+    }
+    std::unique_ptr<campaign::RankLink> link(module_of_mpi(started)());
+    if (link->ranks() < 2) {
+        link->leave();
+        throw InputError(fmt::format(
+            "{} started {} of these, but Open MPI knows of one: use its own mpirun, srun "
+            "--mpi=pmix, or fly a --shard each",
+            started.by, started.ranks));
+    }
+    return link;
+}
+
+}  // namespace limpet::app

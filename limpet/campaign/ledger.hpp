@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <mutex>
+
+#include "limpet/campaign/dealer.hpp"
+#include "limpet/campaign/workers.hpp"
+
+namespace limpet::campaign {
+
+/// Deals what is missing from the results. Who has landed writes its row before it goes on: a slow
+/// disk slows the flights down, memory does not grow, and a kill costs no more than the flights in
+/// the air.
+class Ledger final : public Dealer {
+public:
+    /// @param ranks  number of processes; 0: one, of which nothing is counted
+    Ledger(Results& results, const CampaignWatch& watch, int ranks = 0);
+
+    [[nodiscard]] std::optional<std::uint32_t> next() override;
+    void land(const RunRow& row) override { land(row, 0); }
+    void land(const RunRow& row, int rank);
+    void fail(std::exception_ptr why) noexcept override;
+
+    /// Once nobody flies any more: what was thrown first, or how far it has come.
+    [[nodiscard]] Progress conclude();
+
+private:
+    Results& results_;
+    const CampaignWatch& watch_;
+    Progress progress_;
+    const std::vector<std::uint32_t> finished_;
+    const std::uint32_t end_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    std::mutex mutex_;
+    std::uint32_t next_;
+    std::exception_ptr failed_ = nullptr;  ///< the first: it stops the others
+};
+
+}  // namespace limpet::campaign
