@@ -49,7 +49,7 @@ std::optional<Outcome> expected_outcome(const std::string& name) {
     if (!name.empty() && !outcome) {
         throw InputError("--expect " + name +
                          ": no such outcome; there are perched, released, failed_to_seal, "
-                         "release_aborted, crashed, timed_out");
+                         "release_aborted, aborted, crashed, timed_out");
     }
     return outcome;
 }

@@ -32,7 +32,7 @@ OptionList options_of(FlyOptions& options) {
           {"--out DIR", &options.out, "folder for recording and figures (default out/NAME)"},
           {"--expect OUTCOME", &options.expect,
            "exit with 1 unless the flight ends so: perched, released,\n"
-           "failed_to_seal, release_aborted, crashed, timed_out"},
+           "failed_to_seal, release_aborted, aborted, crashed, timed_out"},
           {"--autopilot NAME", &options.autopilot,
            "builtin, or px4: a real one in the loop (docs/px4.md)", one_of({"builtin", "px4"})}},
          options_of(options.px4, true),

@@ -91,7 +91,8 @@ Place place_of(const guidance::PerchingMemory& memory) {
         case guidance::PerchingState::holding:
         case guidance::PerchingState::deciding: return Place::pressed;
         case guidance::PerchingState::retreating:
-        case guidance::PerchingState::backing_off: return Place::leaving;
+        case guidance::PerchingState::backing_off:
+        case guidance::PerchingState::braking: return Place::leaving;
         case guidance::PerchingState::pitching_up:
         case guidance::PerchingState::unloading:
         case guidance::PerchingState::spinning_up:

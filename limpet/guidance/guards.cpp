@@ -12,11 +12,21 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
+/// Who has waited long in gusts asks for less.
+double patience(const Scene& s) {
+    constexpr double kLong_s = 4.0;
+    return std::max(1.0, s.elapsed_s() / kLong_s);
+}
+
 bool stands_at_pre_position(const Scene& s) {
+    // PX4's anti-windup leaves an error of up to 50 mm per m/s^2 that it leans against.
+    constexpr double kOff_s2 = 0.05;
+    const double leans_m_s2 =
+        std::max(0.0, lean_W_m_s2(s.estimate.q_WB).norm() - calm_m_s2(s.parameters));
     return s.memory.wall.ever &&
            (s.estimate.p_WB_m - pre_position_W(s.parameters, s.memory)).norm() <
-               s.parameters.pre_tolerance_m &&
-           s.estimate.v_WB_m_s.norm() < s.parameters.pre_speed_m_s;
+               patience(s) * s.parameters.pre_tolerance_m + kOff_s2 * leans_m_s2 &&
+           s.estimate.v_WB_m_s.norm() < patience(s) * s.parameters.pre_speed_m_s;
 }
 
 bool sees_wall(const Scene& s) {
@@ -25,7 +35,8 @@ bool sees_wall(const Scene& s) {
 
 bool faces_wall(const Scene& s) {
     // Half of the limit: the other half is for the noise of the two LiDARs.
-    return std::abs(s.misalignment_rad()) < 0.5 * radians(s.parameters.align_limit_deg) &&
+    return std::abs(s.misalignment_rad()) <
+               0.5 * std::min(patience(s), 2.0) * radians(s.parameters.align_limit_deg) &&
            stands_at_pre_position(s);
 }
 
@@ -34,10 +45,68 @@ bool rests_on_legs(const Scene& s) {
            std::abs(s.estimate.w_WB_B_rad_s.y()) < radians(s.parameters.rest_rate_deg_s);
 }
 
+bool stands_before_wall(const Scene& s) {
+    const double closing_m_s = s.memory.wall.into_wall_W().dot(s.estimate.v_WB_m_s);
+    return s.distance_m() > 0.5 * s.parameters.pre_distance_m &&
+           std::abs(closing_m_s) < 2.0 * s.parameters.pre_speed_m_s;
+}
+
 bool is_level(const Scene& s) {
     return s.elapsed_s() > s.parameters.level_pitch_s &&
-           std::abs(s.pitch_rad()) < radians(s.parameters.level_limit_deg) &&
+           std::abs(s.pitch_rad() - level_pitch_rad(s.parameters, s.memory)) <
+               radians(s.parameters.level_limit_deg) &&
            s.estimate.w_WB_B_rad_s.norm() < radians(s.parameters.level_rate_deg_s);
+}
+
+// --- what each sense says of the cup ------------------------------------------------------------
+
+enum class Vote {
+    unknown,
+    free,
+    held
+};
+
+/// The joint stays where the cup gripped, whatever the pitch. An uncertain position must not tear
+/// a cup off that holds: five sigma are allowed on top.
+Vote vote_of_pose(const Scene& s) {
+    if (!s.estimate.valid) {
+        return Vote::unknown;
+    }
+    double variance_m2 = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        variance_m2 = std::max(variance_m2, s.estimate.variance[axis]);
+    }
+    const double moved_m = (joint_W(s.parameters, s.estimate) - s.memory.grip_W_m).norm();
+    return moved_m > s.parameters.slip_limit_m + 5.0 * std::sqrt(variance_m2) ? Vote::free
+                                                                              : Vote::held;
+}
+
+Vote vote_of_pressure(const Scene& s) {
+    if (!s.pressure_known()) {
+        return Vote::unknown;
+    }
+    return s.pressure_Pa() < s.parameters.detach_pressure_Pa ? Vote::held : Vote::free;
+}
+
+/// Whatever hangs on the cup pulls or presses there; level, a cup that holds may bear nothing.
+Vote vote_of_force(const Scene& s) {
+    constexpr double kHangs_deg = 20.0;
+    if (force_lost(s)) {
+        return Vote::unknown;
+    }
+    if (std::abs(s.readings.force.value.axial_N) > 0.5 * s.parameters.impact_force_N) {
+        return Vote::held;
+    }
+    return std::abs(s.pitch_rad()) > radians(kHangs_deg) ? Vote::free : Vote::unknown;
+}
+
+/// Only a cup that holds is pulled at.
+bool pulls(const Scene& s) {
+    return !force_lost(s) && s.readings.force.value.axial_N > 0.5 * s.parameters.impact_force_N;
+}
+
+bool may_hold(const Scene& s) {
+    return vote_of_pressure(s) != Vote::free || pulls(s);
 }
 
 }  // namespace
@@ -53,6 +122,7 @@ bool settling(const Scene& s) {
         case PerchingState::retreating:
         case PerchingState::backing_off: return stands_at_pre_position(s);
         case PerchingState::aligning: return faces_wall(s);
+        case PerchingState::braking: return stands_before_wall(s);
         case PerchingState::unloading: return rests_on_legs(s);
         case PerchingState::pitching_down: return is_level(s);
         case PerchingState::hovering:
@@ -92,6 +162,15 @@ bool battery_low(const Scene& s) {
 bool wall_lost(const Scene& s) {
     return !sees_wall(s);
 }
+bool too_windy(const Scene& s) {
+    // Across, it can lean only while the cup holds it off the wall: at 20 deg the legs miss it.
+    constexpr double kAcross = 0.66;
+    const double limit_m_s2 = kGravity_m_s2 * std::tan(radians(s.parameters.lean_limit_deg));
+    const Vector3& trim_W_m_s2 = s.memory.wind.trim_W_m_s2;
+    const double across_m_s2 = s.memory.wall.into_wall_W().cross(trim_W_m_s2).norm();
+    return s.elapsed_s() > s.parameters.settle_s &&
+           (trim_W_m_s2.norm() > limit_m_s2 || across_m_s2 > kAcross * limit_m_s2);
+}
 bool force_lost(const Scene& s) {
     return !s.readings.force.fresh(s.time_s, s.parameters.sensor_limit_s);
 }
@@ -130,21 +209,41 @@ bool retreat_too_long(const Scene& s) {
 bool estimate_lost(const Scene& s) {
     return !s.estimate.valid;
 }
-bool came_off(const Scene& s) {
-    // An uncertain position must not tear a cup off that holds: five sigma are allowed on top.
-    double variance_m2 = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        variance_m2 = std::max(variance_m2, s.estimate.variance[axis]);
+bool estimate_back(const Scene& s) {
+    return s.estimate.valid;
+}
+bool estimate_back_perched(const Scene& s) {
+    return s.memory.has_perched && estimate_back(s);
+}
+bool looks_off(const Scene& s) {
+    const Vote pose = vote_of_pose(s);
+    const Vote pressure = vote_of_pressure(s);
+    const Vote force = vote_of_force(s);
+    if (pose == Vote::held || force == Vote::held) {
+        return false;
     }
-    return s.estimate.valid && (joint_W(s.parameters, s.estimate) - s.memory.grip_W_m).norm() >
-                                   s.parameters.slip_limit_m + 5.0 * std::sqrt(variance_m2);
+    // A pressure sensor may be stuck: two that see the cup off are believed against it.
+    return pose == Vote::free ? pressure != Vote::held || force == Vote::free
+                              : pressure == Vote::free && force == Vote::free;
+}
+bool came_off(const Scene& s) {
+    return s.memory.off_since_s >= 0.0 &&
+           s.time_s - s.memory.off_since_s >= s.parameters.debounce_s;
+}
+bool seems_sealed(const Scene& s) {
+    return vote_of_pressure(s) == Vote::held;
 }
 bool held_back(const Scene& s) {
-    return retreat_too_long(s) && s.distance_m() < 0.5 * s.parameters.pre_distance_m;
+    return retreat_too_long(s) && s.distance_m() < 0.5 * s.parameters.pre_distance_m && may_hold(s);
 }
-bool held_by_vacuum(const Scene& s) {
-    return held_back(s) &&
-           (!s.pressure_known() || s.pressure_Pa() < s.parameters.detach_pressure_Pa);
+bool brakes_held(const Scene& s) {
+    return retreat_too_long(s) && (vote_of_pressure(s) == Vote::held || pulls(s));
+}
+bool settled_released(const Scene& s) {
+    return s.settled() && s.memory.cup.lets_go;
+}
+bool too_long_released(const Scene& s) {
+    return retreat_too_long(s) && s.memory.cup.lets_go;
 }
 bool attempts_used_up(const Scene& s) {
     return s.settled() && s.memory.attempt >= s.parameters.attempts;
@@ -190,7 +289,8 @@ bool pressure_safe(const Scene& s) {
     return s.pressure_known() && s.pressure_Pa() > s.parameters.detach_pressure_Pa;
 }
 bool swings(const Scene& s) {
-    return std::max(std::abs(s.pitch_rad()), std::abs(s.roll_rad())) >
+    return std::max(std::abs(s.pitch_rad() - level_pitch_rad(s.parameters, s.memory)),
+                    std::abs(s.roll_rad() - level_roll_rad(s.parameters, s.memory))) >
            radians(s.parameters.oscillation_limit_deg);
 }
 bool release_too_long(const Scene& s) {

@@ -32,7 +32,8 @@ struct Scene {
         return wrap_pi(memory.wall.heading_rad - euler_from_quaternion(estimate.q_WB).yaw_rad);
     }
     [[nodiscard]] bool pressure_known() const {
-        return readings.cup_pressure.fresh(time_s, parameters.sensor_limit_s);
+        return !memory.cup.pressure_doubted &&
+               readings.cup_pressure.fresh(time_s, parameters.sensor_limit_s);
     }
     [[nodiscard]] double pressure_Pa() const { return readings.cup_pressure.value.pressure_Pa; }
 };
@@ -49,6 +50,8 @@ struct Scene {
 [[nodiscard]] bool waited_too_long(const Scene& s);
 [[nodiscard]] bool battery_low(const Scene& s);
 [[nodiscard]] bool wall_lost(const Scene& s);
+/// Leans farther against the wind than the wall can be left with.
+[[nodiscard]] bool too_windy(const Scene& s);
 [[nodiscard]] bool force_lost(const Scene& s);
 /// A free cup is at atmospheric pressure: a sensor that says otherwise, or nothing, is broken.
 [[nodiscard]] bool pressure_implausible(const Scene& s);
@@ -64,11 +67,22 @@ struct Scene {
 [[nodiscard]] bool landing_too_long(const Scene& s);
 [[nodiscard]] bool retreat_too_long(const Scene& s);
 [[nodiscard]] bool estimate_lost(const Scene& s);
-/// The joint is not where the cup gripped any more.
+[[nodiscard]] bool estimate_back(const Scene& s);
+[[nodiscard]] bool estimate_back_perched(const Scene& s);
+/// Pose, pressure and force vote, as far as each is known: none that can tell says that it holds,
+/// or two of three that it does not. At this instant.
+[[nodiscard]] bool looks_off(const Scene& s);
+/// And for debounce_s.
 [[nodiscard]] bool came_off(const Scene& s);
-/// Still at the wall when the retreat should be over.
+/// As far as the pressure tells.
+[[nodiscard]] bool seems_sealed(const Scene& s);
+/// Still at the wall when the retreat should be over, and nothing says that wind does it.
 [[nodiscard]] bool held_back(const Scene& s);
-[[nodiscard]] bool held_by_vacuum(const Scene& s);
+/// The same without a position.
+[[nodiscard]] bool brakes_held(const Scene& s);
+/// The pump was switched off to leave, and not since switched on again.
+[[nodiscard]] bool settled_released(const Scene& s);
+[[nodiscard]] bool too_long_released(const Scene& s);
 [[nodiscard]] bool attempts_used_up(const Scene& s);
 [[nodiscard]] bool rest_over(const Scene& s);
 [[nodiscard]] bool rest_over_given_up(const Scene& s);

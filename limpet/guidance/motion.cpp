@@ -22,6 +22,17 @@ PositionSetpoint stand(const PerchingParameters& parameters, const PerchingMemor
     return {.p_W_m = pre_position_W(parameters, memory), .yaw_rad = memory.wall.heading_rad};
 }
 
+Vector3 right_of(const PerchingMemory& memory) {
+    const Vector3 ahead_W = memory.wall.into_wall_W();
+    return {-ahead_W.y(), ahead_W.x(), 0.0};
+}
+
+/// What an autopilot that was disarmed on the wall does not know any more.
+Vector3 wind_trim_W_m_s2(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    return memory.has_perched && windy(parameters, memory) ? memory.wind.trim_W_m_s2
+                                                           : Vector3(Vector3::Zero());
+}
+
 /// Along the wall's normal at the reference, back to the docking line across it.
 VelocitySetpoint run(const PerchingParameters& parameters, const PerchingMemory& memory,
                      const Estimate& estimate, const RunReference& reference, double direction) {
@@ -33,7 +44,8 @@ VelocitySetpoint run(const PerchingParameters& parameters, const PerchingMemory&
     return {
         .v_W_m_s = direction * reference.speed_m_s * n_W + parameters.line_gain_1_s * across_W_m,
         .yaw_rad = memory.wall.heading_rad,
-        .feedforward_a_W_m_s2 = direction * feedforward_m_s2 * n_W};
+        .feedforward_a_W_m_s2 =
+            direction * feedforward_m_s2 * n_W + wind_trim_W_m_s2(parameters, memory)};
 }
 
 /// Back to the pre-position: a run, then the position loop once braking must begin.
@@ -47,6 +59,14 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
     // one.
     if (left_m < std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, 0.1))) {
         setpoint.motion = stand(parameters, memory);
+        const Vector3 trim_W_m_s2 = wind_trim_W_m_s2(parameters, memory);
+        if (!trim_W_m_s2.isZero()) {  // a position set-point carries none
+            setpoint.motion =
+                VelocitySetpoint{.v_W_m_s = parameters.line_gain_1_s *
+                                            (pre_position_W(parameters, memory) - estimate.p_WB_m),
+                                 .yaw_rad = memory.wall.heading_rad,
+                                 .feedforward_a_W_m_s2 = trim_W_m_s2};
+        }
     } else {
         setpoint.motion =
             run(parameters, memory, estimate,
@@ -56,7 +76,42 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
     }
 }
 
-/// States that fly: positions and velocities.
+/// The attitude that makes an acceleration, heading for the wall.
+/// @param a_W_m_s2  the weight is carried on top of it
+AttitudeSetpoint leaning(const PerchingParameters& parameters, const PerchingMemory& memory,
+                         const Vector3& a_W_m_s2) {
+    const Vector3 ahead_W = memory.wall.into_wall_W();
+    const Vector3 right_W = right_of(memory);
+    const Vector3 f_W = a_W_m_s2 - Vector3(0.0, 0.0, kGravity_m_s2);
+    const double size_m_s2 = std::max(f_W.norm(), 1e-6);
+    return {.q_WB = quaternion_from_euler({.roll_rad = std::asin(f_W.dot(right_W) / size_m_s2),
+                                           .pitch_rad = std::atan2(-f_W.dot(ahead_W), -f_W.z()),
+                                           .yaw_rad = memory.wall.heading_rad}),
+            .thrust = thrust_command(parameters, size_m_s2 / kGravity_m_s2)};
+}
+
+/// Without a position: to a stand before the wall by what LiDARs and IMU say, on attitude alone.
+/// The wall is kept in the same drifting W as the estimate, so that their difference is the
+/// LiDARs'.
+AttitudeSetpoint brake(const PerchingParameters& parameters, const PerchingMemory& memory,
+                       const Estimate& estimate) {
+    constexpr double kGain_1_s = 2.0;
+    constexpr double kLargest_m_s2 = 4.0;  // 22 deg
+    const Vector3 n_W = memory.wall.into_wall_W();
+    const double too_far_m =
+        memory.wall.distance_m(parameters, estimate.p_WB_m) - parameters.pre_distance_m;
+    const double speed_m_s =
+        std::clamp(parameters.line_gain_1_s * too_far_m, -parameters.retreat_speed_m_s, 0.0);
+    const double sink_m_s =
+        parameters.altitude_gain_1_s * (memory.entry_p_W_m.z() - estimate.p_WB_m.z());
+    Vector3 a_W_m_s2 = kGain_1_s * (speed_m_s * n_W - estimate.v_WB_m_s);
+    a_W_m_s2.z() = parameters.climb_rate_gain_1_s * (sink_m_s - estimate.v_WB_m_s.z());
+    a_W_m_s2 *= std::min(1.0, kLargest_m_s2 / std::max(a_W_m_s2.norm(), 1e-6));
+    return leaning(parameters, memory,
+                   a_W_m_s2 + parameters.drag_1_s * speed_m_s * n_W + memory.wind.trim_W_m_s2);
+}
+
+/// States that fly: positions and velocities; attitudes where nobody knows the position.
 Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& memory,
                     const Estimate& estimate, double elapsed_s) {
     Setpoint setpoint{.armed = true};
@@ -77,30 +132,66 @@ Setpoint in_the_air(const PerchingParameters& parameters, const PerchingMemory& 
             run_reference(elapsed_s, parameters.dock_speed_m_s, parameters.dock_acceleration_m_s2,
                           parameters.dock_ramp_s);
         setpoint.motion = run(parameters, memory, estimate, reference, 1.0);
-    } else if (memory.state == PerchingState::retreating) {
+    } else if (memory.state == PerchingState::retreating ||
+               memory.state == PerchingState::backing_off) {
+        setpoint.pump_on = memory.cup.pump_stays;
+        setpoint.valve_open = parameters.valve_fitted && !memory.cup.pump_stays;
         retreat(parameters, memory, estimate, elapsed_s, setpoint);
-    } else if (memory.state == PerchingState::backing_off) {
-        setpoint.valve_open = parameters.valve_fitted;
-        retreat(parameters, memory, estimate, elapsed_s, setpoint);
+    } else if (memory.state == PerchingState::braking) {
+        setpoint.pump_on = memory.cup.pump_stays;
+        setpoint.valve_open = parameters.valve_fitted && !memory.cup.pump_stays;
+        setpoint.motion = brake(parameters, memory, estimate);
     } else {
         setpoint.motion = stand(parameters, memory);
     }
     return setpoint;
 }
 
-/// Thrust while level on the cup: the weight; with altitude_hold it also keeps the joint's height.
-/// The vehicle pivots about the cup, so that damping the height of its centre of mass damps its
-/// pitch.
-double level_thrust(const PerchingParameters& parameters, const PerchingMemory& memory,
-                    const Estimate& estimate) {
-    if (!parameters.altitude_hold || !estimate.valid) {
-        return thrust_command(parameters, 1.0);
+/// Share of the weight while level on the cup: all of it; with altitude_hold and in wind it also
+/// keeps the joint's height. The vehicle pivots about the cup, so that damping the height of its
+/// centre of mass damps its pitch.
+double level_share(const PerchingParameters& parameters, const PerchingMemory& memory,
+                   const Estimate& estimate) {
+    if (!(parameters.altitude_hold || windy(parameters, memory)) ||
+        !sits_on_grip(parameters, memory, estimate)) {
+        return 1.0;
     }
+    const double pitch_rad = level_pitch_rad(parameters, memory);
+    const double joint_m =
+        parameters.joint_z_m * std::cos(pitch_rad) - parameters.joint_x_m * std::sin(pitch_rad);
     const double height_error_m =
-        memory.grip_W_m.z() - parameters.joint_z_m - estimate.p_WB_m.z();  // > 0: too high
+        memory.grip_W_m.z() - joint_m - estimate.p_WB_m.z();  // > 0: too high
     const double sink_m_s = parameters.altitude_gain_1_s * height_error_m;
     const double sink_m_s2 = parameters.climb_rate_gain_1_s * (sink_m_s - estimate.v_WB_m_s.z());
-    return thrust_command(parameters, 1.0 - sink_m_s2 / kGravity_m_s2);
+    return 1.0 - sink_m_s2 / kGravity_m_s2;
+}
+
+/// On the cup: an attitude, and a roll that keeps the vehicle beside neither side of the cup. Near
+/// the wall it stops leaning: both legs shall meet it, and they hold the side then.
+/// @param share  of the weight along the thrust axis as long as it does not roll
+AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const PerchingMemory& memory,
+                            const Estimate& estimate, double pitch_rad, double share) {
+    constexpr double kSteepest = 0.6;  // of the thrust, 31 deg
+    constexpr double kFade_deg = 1.0;
+    double side_m_s2 = 0.0;
+    if (share > 0.0 && sits_on_grip(parameters, memory, estimate)) {
+        const Vector3 right_W = right_of(memory);
+        const double v_m_s = right_W.dot(estimate.v_WB_m_s);
+        const double asked_m_s = -parameters.side_gain_1_s * side_error_m(memory, estimate);
+        const double known_m_s2 = windy(parameters, memory)
+                                      ? right_W.dot(memory.wind.trim_W_m_s2) * std::sqrt(share)
+                                      : 0.0;
+        const double near =
+            smoothstep((radians(parameters.perched_pitch_deg) - pitch_rad) / radians(kFade_deg));
+        side_m_s2 = near * (known_m_s2 + memory.wind.side_m_s2 +
+                            parameters.sway_gain_1_s * (asked_m_s - v_m_s));
+    }
+    const double along_m_s2 = kGravity_m_s2 * std::max(share, 0.0);
+    side_m_s2 = std::clamp(side_m_s2, -kSteepest * along_m_s2, kSteepest * along_m_s2);
+    const double roll_rad = along_m_s2 > 0.0 ? std::atan(side_m_s2 / along_m_s2) : 0.0;
+    return {.q_WB = quaternion_from_euler(
+                {.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
+            .thrust = thrust_command(parameters, share / std::cos(roll_rad))};
 }
 
 /// States in which the cup holds: attitude and thrust, since a position loop would pry at it.
@@ -112,9 +203,10 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
         return memory.entry_pitch_rad +
                (to_rad - memory.entry_pitch_rad) * smoothstep(elapsed_s / duration_s);
     };
-    const auto carried = [&](double pitch_rad) {  // the share of the weight that rotors carry
-        return thrust_command(parameters, std::cos(pitch_rad));
+    const auto hangs = [&](double pitch_rad, double part) {  // rotors carry what the pitch leaves
+        return on_the_cup(parameters, memory, estimate, pitch_rad, part * std::cos(pitch_rad));
     };
+    const double level_rad = level_pitch_rad(parameters, memory);
     Setpoint setpoint{.armed = true, .pump_on = true};
     if (memory.state == PerchingState::holding || memory.state == PerchingState::deciding) {
         setpoint.hold_integrators = true;
@@ -123,31 +215,68 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
             .yaw_rad = memory.wall.heading_rad};
     } else if (memory.state == PerchingState::pitching_up) {
         const double pitch_rad = pitch_between(perched_rad, parameters.land_pitch_s);
-        setpoint.motion = attitude(memory, pitch_rad, carried(pitch_rad));
+        setpoint.motion = hangs(pitch_rad, 1.0);
     } else if (memory.state == PerchingState::unloading) {
         setpoint.hold_integrators = true;
         const double left = std::max(0.0, 1.0 - elapsed_s / parameters.land_thrust_s);
-        setpoint.motion = attitude(memory, perched_rad, left * carried(perched_rad));
+        setpoint.motion = hangs(perched_rad, left);
     } else if (memory.state == PerchingState::standing || memory.state == PerchingState::resting) {
         setpoint.armed = false;
     } else if (memory.state == PerchingState::spinning_up) {
         setpoint.hold_integrators = true;
         const double share = std::clamp(elapsed_s / parameters.spin_up_s, 0.0, 1.0);
-        setpoint.motion =
-            attitude(memory, memory.entry_pitch_rad, share * carried(memory.entry_pitch_rad));
+        setpoint.motion = hangs(memory.entry_pitch_rad, share);
     } else if (memory.state == PerchingState::pitching_down) {
-        const double pitch_rad = pitch_between(0.0, parameters.level_pitch_s);
-        setpoint.motion = attitude(memory, pitch_rad, carried(pitch_rad));
+        const double pitch_rad = pitch_between(level_rad, parameters.level_pitch_s);
+        setpoint.motion = hangs(pitch_rad, 1.0);
     } else {  // levelled, releasing, resealing
         const bool releases = memory.state == PerchingState::releasing;
         setpoint.pump_on = !releases;
         setpoint.valve_open = releases && parameters.valve_fitted;
-        setpoint.motion = attitude(memory, 0.0, level_thrust(parameters, memory, estimate));
+        setpoint.motion = on_the_cup(parameters, memory, estimate, level_rad,
+                                     level_share(parameters, memory, estimate));
     }
     return setpoint;
 }
 
 }  // namespace
+
+Vector3 lean_W_m_s2(const Quaternion& q_WB) {
+    const Vector3 up_B_W = q_WB * -Vector3::UnitZ();
+    const double up = std::max(-up_B_W.z(), 0.1);
+    return Vector3(up_B_W.x(), up_B_W.y(), 0.0) * (kGravity_m_s2 / up);
+}
+
+double calm_m_s2(const PerchingParameters& parameters) {
+    return kGravity_m_s2 * std::tan(radians(parameters.calm_lean_deg));
+}
+
+bool windy(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    return memory.wind.most_m_s2 > calm_m_s2(parameters);
+}
+
+double level_pitch_rad(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    return windy(parameters, memory)
+               ? std::atan2(-memory.wall.into_wall_W().dot(memory.wind.trim_W_m_s2), kGravity_m_s2)
+               : 0.0;
+}
+
+double level_roll_rad(const PerchingParameters& parameters, const PerchingMemory& memory) {
+    return windy(parameters, memory)
+               ? std::atan2(right_of(memory).dot(memory.wind.trim_W_m_s2), kGravity_m_s2)
+               : 0.0;
+}
+
+bool sits_on_grip(const PerchingParameters& parameters, const PerchingMemory& memory,
+                  const Estimate& estimate) {
+    const Vector3 joint_W_m =
+        estimate.p_WB_m + estimate.q_WB * Vector3(parameters.joint_x_m, 0.0, parameters.joint_z_m);
+    return estimate.valid && (joint_W_m - memory.grip_W_m).norm() < parameters.slip_limit_m;
+}
+
+double side_error_m(const PerchingMemory& memory, const Estimate& estimate) {
+    return right_of(memory).dot(estimate.p_WB_m - memory.grip_W_m);
+}
 
 RunReference run_reference(double time_s, double speed_m_s, double acceleration_m_s2,
                            double ramp_s) {
@@ -202,6 +331,7 @@ Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memo
         case PerchingState::approaching:
         case PerchingState::retreating:
         case PerchingState::backing_off:
+        case PerchingState::braking:
         case PerchingState::finished: return in_the_air(parameters, memory, estimate, elapsed_s);
         case PerchingState::holding:
         case PerchingState::deciding:

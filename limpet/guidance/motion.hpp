@@ -24,6 +24,29 @@ struct RunReference {
 /// speed, the speed goes linearly with the command.
 [[nodiscard]] double thrust_command(const PerchingParameters& parameters, double share);
 
+/// The acceleration by which an attitude leans, carrying the weight.
+[[nodiscard]] Vector3 lean_W_m_s2(const Quaternion& q_WB);
+
+/// Leaning for less counts as calm.
+[[nodiscard]] double calm_m_s2(const PerchingParameters& parameters);
+
+/// Whether wind was felt before the wall: then the vehicle leans on the cup as it leant there.
+[[nodiscard]] bool windy(const PerchingParameters& parameters, const PerchingMemory& memory);
+
+/// Attitude in which the vehicle hangs on the cup, level but for its lean against the wind.
+[[nodiscard]] double level_pitch_rad(const PerchingParameters& parameters,
+                                     const PerchingMemory& memory);
+[[nodiscard]] double level_roll_rad(const PerchingParameters& parameters,
+                                    const PerchingMemory& memory);
+
+/// Whether the estimate has the cup's joint where the cup gripped. Guidance that stays on the cup
+/// all the same believes the cup, and steers by no such estimate.
+[[nodiscard]] bool sits_on_grip(const PerchingParameters& parameters, const PerchingMemory& memory,
+                                const Estimate& estimate);
+
+/// Right of the place before the cup where the vehicle belongs [m].
+[[nodiscard]] double side_error_m(const PerchingMemory& memory, const Estimate& estimate);
+
 /// What the vehicle shall do in the memory's state at this time.
 [[nodiscard]] Setpoint motion(const PerchingParameters& parameters, const PerchingMemory& memory,
                               const Estimate& estimate, double time_s);

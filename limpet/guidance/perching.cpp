@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/guidance/perching.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
@@ -43,23 +44,22 @@ constexpr Transition done(PerchingState from, bool (*guard)(const guards::Scene&
 constexpr std::array kTable = {
     done(S::hovering, hover_over, "hovered as asked", Outcome::released),
 
-    ends(S::pre_positioning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    ends(S::pre_positioning, battery_low, "battery low", Outcome::failed_to_seal),
+    ends(S::pre_positioning, estimate_lost, "position estimate lost", Outcome::aborted),
+    ends(S::pre_positioning, battery_low, "battery low", Outcome::aborted),
     ends(S::pre_positioning, waited_too_long, "no pre-position before the wall in time",
-         Outcome::failed_to_seal),
+         Outcome::aborted),
     Transition{S::pre_positioning, settled, S::aligning, "stands at the pre-position",
                E::pre_positioned},
 
-    ends(S::aligning, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
-    ends(S::aligning, pressure_implausible, "pressure sensor stuck or silent",
-         Outcome::failed_to_seal),
-    ends(S::aligning, waited_too_long, "not perpendicular to the wall in time",
-         Outcome::failed_to_seal),
+    ends(S::aligning, estimate_lost, "position estimate lost", Outcome::aborted),
+    ends(S::aligning, pressure_implausible, "pressure sensor stuck or silent", Outcome::aborted),
+    ends(S::aligning, waited_too_long, "not perpendicular to the wall in time", Outcome::aborted),
+    ends(S::aligning, too_windy, "too much wind: leans too far", Outcome::aborted),
     Transition{S::aligning, wall_lost, S::pre_positioning, "LiDAR lost"},
     Transition{S::aligning, settled, S::approaching, "perpendicular to the wall",
                E::approach_started},
 
-    ends(S::approaching, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    Transition{S::approaching, estimate_lost, S::braking, "position estimate lost", E::aborted},
     Transition{S::approaching, wall_hit, S::holding, "pressed on the wall", E::impact},
     Transition{S::approaching, wall_lost, S::retreating, "LiDAR lost", E::aborted},
     Transition{S::approaching, force_lost, S::retreating, "force sensor silent", E::aborted},
@@ -69,12 +69,20 @@ constexpr std::array kTable = {
     Transition{S::deciding, sealed, S::pitching_up, "pressure below P_land", E::landing_started},
     Transition{S::deciding, always, S::retreating, "no seal", E::retreat_started},
 
-    ends(S::retreating, estimate_lost, "position estimate lost", Outcome::failed_to_seal),
+    Transition{S::retreating, estimate_lost, S::braking, "position estimate lost", E::aborted},
     done(S::retreating, attempts_used_up, "no landing in any attempt", Outcome::failed_to_seal),
     Transition{S::retreating, settled, S::pre_positioning, "tries again"},
-    ends(S::retreating, held_back, "the cup does not come off", Outcome::failed_to_seal),
+    Transition{S::retreating, held_back, S::resealing, "the cup does not come off", E::aborted},
     ends(S::retreating, retreat_too_long, "does not get back to the pre-position",
-         Outcome::failed_to_seal),
+         Outcome::aborted),
+
+    Transition{S::braking, estimate_back_perched, S::backing_off, "position estimate is back"},
+    Transition{S::braking, estimate_back, S::retreating, "position estimate is back"},
+    done(S::braking, settled_released, "off the wall, position estimate lost", Outcome::released),
+    done(S::braking, settled, "stands before the wall, position estimate lost", Outcome::aborted),
+    Transition{S::braking, brakes_held, S::resealing, "the cup does not come off", E::aborted},
+    ends(S::braking, retreat_too_long, "position estimate lost, does not come to a stand",
+         Outcome::aborted),
 
     Transition{S::pitching_up, came_off, S::retreating, "came off the wall", E::aborted},
     Transition{S::pitching_up, vacuum_lost, S::retreating, "vacuum lost", E::aborted},
@@ -122,14 +130,18 @@ constexpr std::array kTable = {
     Transition{S::resealing, reseals_blind, S::pitching_up,
                "pressure unknown: rests with the pump on", E::landing_started},
 
-    ends(S::backing_off, estimate_lost, "off the wall, position estimate lost", Outcome::released),
+    Transition{S::backing_off, estimate_lost, S::braking, "position estimate lost", E::aborted},
     done(S::backing_off, back_unperched, "back without having perched", Outcome::failed_to_seal,
          E::backed_off),
-    done(S::backing_off, settled, "back at the pre-position", Outcome::released, E::backed_off),
-    Transition{S::backing_off, held_by_vacuum, S::resealing, "the cup does not come off",
-               E::aborted},
-    ends(S::backing_off, retreat_too_long, "off the wall, not back at the pre-position in time",
+    done(S::backing_off, settled_released, "back at the pre-position", Outcome::released,
+         E::backed_off),
+    done(S::backing_off, settled, "came off the wall, back at the pre-position", Outcome::aborted,
+         E::backed_off),
+    Transition{S::backing_off, held_back, S::resealing, "the cup does not come off", E::aborted},
+    ends(S::backing_off, too_long_released, "off the wall, not back at the pre-position in time",
          Outcome::released),
+    ends(S::backing_off, retreat_too_long,
+         "came off the wall, not back at the pre-position in time", Outcome::aborted),
 };
 
 const Transition* due_row(const Scene& scene) {
@@ -158,14 +170,32 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     if (row.from == S::retreating && row.to == S::pre_positioning) {
         ++memory.attempt;
     }
+    const bool leaves = row.to == S::retreating || row.to == S::backing_off;
     memory.has_perched = memory.has_perched || row.to == S::standing;
     memory.release_given_up = memory.release_given_up || row.to == S::resealing;
+    memory.cup.lets_go = row.to == S::releasing || (memory.cup.lets_go && row.to != S::resealing);
+    memory.cup.pump_stays = row.to == S::braking
+                                ? memory.cup.pump_stays
+                                : leaves && row.guard == came_off && seems_sealed(s);
+    // What pulls at a wall for so long is held, whatever the sensor says.
+    memory.cup.pressure_doubted =
+        memory.cup.pressure_doubted ||
+        (row.to == S::resealing && (row.guard == held_back || row.guard == brakes_held) &&
+         s.pressure_known() && (!seems_sealed(s) || pressure_stuck(s)));
     if (row.outcome) {
         memory.ending = Ending{.outcome = *row.outcome, .reason = row.reason};
     }
     memory.state = row.to;
-    if (row.from == S::deciding && row.to == S::pitching_up) {
+    const bool held_in_retreat = row.from == S::retreating || row.from == S::braking;
+    if (row.to == S::deciding || (held_in_retreat && row.to == S::resealing)) {
         memory.grip_W_m = joint_W(s.parameters, estimate);
+        memory.off_since_s = -1.0;
+    }
+    if (row.to == S::aligning) {
+        memory.wind.trim_W_m_s2 = lean_W_m_s2(estimate.q_WB);
+    }
+    if (row.to == S::spinning_up || row.from == S::deciding) {
+        memory.wind.side_m_s2 = 0.0;
     }
     memory.since_s = s.time_s;
     memory.settled_since_s = -1.0;
@@ -175,9 +205,37 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     memory.entry_yaw_rad = attitude.yaw_rad;
 }
 
+/// Standing before the wall it learns the wind; on the cup, what more keeps its side.
+void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
+               const Estimate& estimate, double time_s) {
+    constexpr double kFilter_s = 1.0;
+    constexpr double kMost_m_s2 = 3.0;
+    constexpr double kLongest_s = 0.1;
+    const double dt_s = std::clamp(time_s - memory.wind.updated_s, 0.0, kLongest_s);
+    memory.wind.updated_s = time_s;
+    if (!estimate.valid) {
+        return;
+    }
+    if (memory.state == S::aligning) {
+        const Vector3 lean = lean_W_m_s2(estimate.q_WB);
+        memory.wind.trim_W_m_s2 += dt_s / (kFilter_s + dt_s) * (lean - memory.wind.trim_W_m_s2);
+        memory.wind.most_m_s2 = std::max(memory.wind.most_m_s2, lean.norm());
+    } else if (!sits_on_grip(parameters, memory, estimate)) {
+        return;
+    } else if (memory.state == S::pitching_up || memory.state == S::pitching_down ||
+               memory.state == S::levelled || memory.state == S::releasing ||
+               memory.state == S::resealing) {
+        memory.wind.side_m_s2 =
+            std::clamp(memory.wind.side_m_s2 -
+                           dt_s * parameters.side_integral_1_s3 * side_error_m(memory, estimate),
+                       -kMost_m_s2, kMost_m_s2);
+    }
+}
+
 /// The wall is looked at until the docking run, then kept: a beam that pitches away lies.
 bool looks_at_wall(PerchingState state) {
-    return state == S::pre_positioning || state == S::aligning || state == S::approaching;
+    return state == S::pre_positioning || state == S::aligning || state == S::approaching ||
+           state == S::braking;
 }
 
 }  // namespace
@@ -223,17 +281,14 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
     if (looks_at_wall(memory.state)) {
         see_wall(parameters, memory.wall, readings, estimate);
     }
+    feel_wind(parameters, memory, estimate, time_s);
     const Scene scene{parameters, task, memory, readings, estimate, time_s};
-    if (!guards::settling(scene)) {
-        memory.settled_since_s = -1.0;
-    } else if (memory.settled_since_s < 0.0) {
-        memory.settled_since_s = time_s;
-    }
-    if (!scene.pressure_known() || !guards::weak(scene)) {
-        memory.weak_since_s = -1.0;
-    } else if (memory.weak_since_s < 0.0) {
-        memory.weak_since_s = time_s;
-    }
+    const auto since = [time_s](double& since_s, bool holds) {
+        since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;
+    };
+    since(memory.settled_since_s, guards::settling(scene));
+    since(memory.weak_since_s, scene.pressure_known() && guards::weak(scene));
+    since(memory.off_since_s, guards::looks_off(scene));
     while (const Transition* row = due_row(scene)) {
         if (row->event) {
             events.add(report(scene, *row, *row->event));

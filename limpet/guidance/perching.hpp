@@ -70,6 +70,7 @@ enum class PerchingState {
     releasing,
     resealing,
     backing_off,
+    braking,
     finished,
 };
 [[nodiscard]] inline std::string_view to_string(PerchingState state) {
@@ -88,6 +89,20 @@ struct Ending {
     ShortText reason;
 };
 
+/// What it takes to stand in the wind.
+struct WindFelt {
+    Vector3 trim_W_m_s2 = Vector3::Zero();  ///< level; leant so before the wall, low-passed
+    double most_m_s2 = 0.0;                 ///< the most that was needed there
+    double side_m_s2 = 0.0;                 ///< what more it takes to keep its side on the cup
+    double updated_s = 0.0;                 ///< when this was last looked at
+};
+
+struct CupBelief {
+    bool lets_go = false;           ///< the pump went off so that the cup comes off, and stayed off
+    bool pump_stays = false;        ///< leaves, though the pressure says that the cup holds
+    bool pressure_doubted = false;  ///< the cup held when the sensor said that it could not
+};
+
 /// Everything that guidance remembers; copyable.
 struct PerchingMemory {
     PerchingState state = PerchingState::pre_positioning;
@@ -97,11 +112,14 @@ struct PerchingMemory {
     int attempt = 1;
     bool release_given_up = false;
     bool has_perched = false;
+    CupBelief cup;
     double weak_since_s = -1.0;  ///< since when the vacuum is too weak to land; < 0: it is not
+    double off_since_s = -1.0;   ///< since when the cup looks off the wall; < 0: it does not
     WallSeen wall;
     Vector3 line_W_m = Vector3::Zero();     ///< a point of the docking line
     Vector3 entry_p_W_m = Vector3::Zero();  ///< where the state began
     Vector3 grip_W_m = Vector3::Zero();     ///< the cup's joint when the cup had gripped
+    WindFelt wind;
     double entry_pitch_rad = 0.0;
     double entry_pressure_Pa = 0.0;
     double entry_yaw_rad = 0.0;

@@ -212,8 +212,9 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
              hectopascals(flight.result.metrics.pressure_at_release_end_Pa));
     take.set("seal_margin_N",
              flight.result.metrics.impact_force_N - take.last("attached")["seal_threshold_N"]);
-    for (const Outcome outcome : {Outcome::perched, Outcome::released, Outcome::failed_to_seal,
-                                  Outcome::release_aborted, Outcome::crashed, Outcome::timed_out}) {
+    for (const Outcome outcome :
+         {Outcome::perched, Outcome::released, Outcome::failed_to_seal, Outcome::release_aborted,
+          Outcome::aborted, Outcome::crashed, Outcome::timed_out}) {
         take.set("is_" + std::string(to_string(outcome)),
                  flight.result.outcome == outcome ? 1.0 : 0.0);
     }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,44 @@
 #include "limpet/simulation/step.hpp"
 
 namespace limpet::simulation {
+
+namespace {
+
+/// Guidance ends a mission by what it believes; where the truth is another, the outcome says so.
+guidance::Ending as_it_was(const guidance::Ending& told, const FlightModel& model,
+                           const FlightState& state, const Metrics& metrics) {
+    if (model.mount != vehicle::Mount::free || !model.task.perch) {
+        return told;
+    }
+    const bool sealed = suction::is_sealed(state.cup.status.phase);
+    const auto aborted = [](std::string_view reason) {
+        return guidance::Ending{.outcome = Outcome::aborted, .reason = reason};
+    };
+    switch (told.outcome) {
+        case Outcome::released:
+            if (sealed || std::isnan(metrics.release_s)) {
+                return aborted("believed itself released: the cup did not let go");
+            }
+            break;
+        case Outcome::failed_to_seal:
+            if (sealed) {
+                return aborted("believed itself without a seal: the cup holds");
+            }
+            break;
+        case Outcome::perched:
+        case Outcome::release_aborted:
+            if (!sealed) {
+                return aborted("believed itself at rest on the wall: the cup does not hold");
+            }
+            break;
+        case Outcome::aborted:
+        case Outcome::crashed:
+        case Outcome::timed_out: break;
+    }
+    return told;
+}
+
+}  // namespace
 
 FlightResult result_of(const Flight& flight, double wall_s) {
     const FlightState& state = flight.state();
@@ -54,6 +93,9 @@ const guidance::EventList& Flight::tick() {
     }
     step(*model_, state_, *plant_, report_, outside_);
     observe(seen_, *model_, state_, report_);
+    if (ended()) {
+        state_.ending = as_it_was(*state_.ending, *model_, state_, seen_.metrics);
+    }
     report_parameters();
     if (outside_.autopilot != nullptr && outside_.autopilot->failure()) {
         // In the air it falls; on the wall the cup still holds it.

@@ -22,6 +22,31 @@ int whole(double value) {
     return static_cast<int>(std::lround(value));
 }
 
+/// What holds a level vehicle against the mean wind: it has stood in it before the flight begins.
+Vector3 trim_W_m_s2(const FlightModel& model) {
+    if (model.mount != vehicle::Mount::free || model.wind.mean_W_m_s.isZero()) {
+        return Vector3::Zero();
+    }
+    Kinematics level;
+    level.q_WF = quaternion_from_euler({.yaw_rad = model.start.yaw_rad});
+    const vehicle::RotorsState rotors =
+        spinning(model.airframe.rotor, vehicle::hover_command(model.airframe));
+    const Vector3 force_B_N =
+        vehicle::rotor_wrench_B(model.airframe, rotors, level, model.wind.mean_W_m_s).force_N;
+    return -(level.q_WF * Vector3(force_B_N.x(), force_B_N.y(), 0.0)) / model.airframe.mass_kg;
+}
+
+Quaternion leaning(const FlightModel& model, const Vector3& trim_W) {
+    if (trim_W.isZero()) {
+        return attitude(model.start);
+    }
+    const Vector3 trim_m_s2 = quaternion_from_euler({.yaw_rad = -model.start.yaw_rad}) * trim_W;
+    return quaternion_from_euler(
+        {.roll_rad = std::atan2(trim_m_s2.y(), std::hypot(trim_m_s2.x(), kGravity_m_s2)),
+         .pitch_rad = std::atan2(-trim_m_s2.x(), kGravity_m_s2),
+         .yaw_rad = model.start.yaw_rad});
+}
+
 }  // namespace
 
 autopilot::AutopilotModel autopilot_model(const scenario::Scenario& scenario) {
@@ -82,7 +107,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
 }
 
 FlightState start(const FlightModel& model, plant::Plant& plant, std::uint32_t run) {
-    plant.set_pose(model.start.p_WB_m, attitude(model.start));
+    plant.set_pose(model.start.p_WB_m, leaning(model, trim_W_m_s2(model)));
     Truth truth;
     see_motion(model, truth, plant);
     return start(model, truth.base, truth.cup, run);
@@ -105,9 +130,11 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
 
     Estimate estimate;
     estimate.p_WB_m = model.start.p_WB_m;
-    estimate.q_WB = attitude(model.start);
+    const Vector3 trim_W = trim_W_m_s2(model);
+    estimate.q_WB = leaning(model, trim_W);
     estimate.valid = true;
     state.autopilot = autopilot::start(model.autopilot, estimate);
+    state.autopilot.position.integral_m_s2 = trim_W;
     state.guidance = start_perching(model.task, estimate, 0.0);
     if (model.mount != vehicle::Mount::free) {
         state.guidance.state = guidance::PerchingState::approaching;

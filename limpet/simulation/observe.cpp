@@ -30,6 +30,7 @@ std::optional<LoadPhase> load_phase(guidance::PerchingState state) {
         // Leaving: the cup is torn off on purpose, its margin is meant to end at zero.
         case guidance::PerchingState::backing_off:
         case guidance::PerchingState::retreating:
+        case guidance::PerchingState::braking:
         case guidance::PerchingState::hovering:
         case guidance::PerchingState::pre_positioning:
         case guidance::PerchingState::aligning:
@@ -115,6 +116,7 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
         metrics.memory.rest_pitch_max_deg = kNaN;
     } else if (event.name == EventName::pump_off) {
         metrics.memory.pump_off_s = event.time_s;
+        metrics.release_s = kNaN;
     } else if (event.name == EventName::detached && !std::isnan(metrics.memory.pump_off_s)) {
         metrics.release_s = event.time_s - metrics.memory.pump_off_s;
     }

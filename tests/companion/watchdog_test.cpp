@@ -116,7 +116,8 @@ TEST(Watchdog, KnowsThePlaceOfEveryState) {
         EXPECT_EQ(place(state), pressed) << to_string(state);
     }
     for (const auto state :
-         {guidance::PerchingState::retreating, guidance::PerchingState::backing_off}) {
+         {guidance::PerchingState::retreating, guidance::PerchingState::backing_off,
+          guidance::PerchingState::braking}) {
         EXPECT_EQ(place(state), leaving) << to_string(state);
     }
     for (const auto state :

@@ -4,10 +4,14 @@
 
 #include <string>
 
+#include "limpet/guidance/guards.hpp"
+#include "limpet/guidance/motion.hpp"
 #include "puppet.hpp"
 
 namespace limpet::guidance {
 namespace {
+
+using guards::joint_W;
 
 std::string reason_of_abort(const Puppet& puppet) {
     for (const Event& event : puppet.events) {
@@ -22,7 +26,7 @@ TEST(Faults, NoWallInFrontEndsTheAttempt) {
     Puppet puppet;
     puppet.lidar_works = false;
     puppet.run(60.0);
-    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
     EXPECT_EQ(reason_of_abort(puppet), "no pre-position before the wall in time");
 }
 
@@ -54,7 +58,7 @@ TEST(Faults, PressureStuckLowNeverStartsADockingRun) {
     puppet.pressure_works = false;
     puppet.readings.cup_pressure = {0.0, {70000.0}};
     puppet.run(60.0);
-    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
     EXPECT_EQ(reason_of_abort(puppet), "pressure sensor stuck or silent");
 }
 
@@ -119,7 +123,7 @@ TEST(Faults, LowBatteryStartsNoNewAttempt) {
     Puppet puppet;
     puppet.readings.battery = {0.0, {.voltage_V = 20.0, .current_A = 0.0, .remaining = 0.1}};
     puppet.run(60.0);
-    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
     EXPECT_EQ(reason_of_abort(puppet), "battery low");
 }
 
@@ -162,25 +166,92 @@ TEST(Faults, ACupThatComesOffWhileLandingOrTakingOffIsNoticed) {
     }
 }
 
-TEST(Faults, ADriftAwayFromTheWallEndsTheWaiting) {
+TEST(Faults, APoseAloneDoesNotSayThatTheCupCameOff) {
+    for (const PerchingState state : {PerchingState::pitching_up, PerchingState::releasing}) {
+        Puppet puppet;
+        puppet.leak_tau_s = 16.0;
+        puppet.readings.force = {0.0, {30.0}};
+        ASSERT_TRUE(puppet.run_to(state));
+        puppet.estimate.p_WB_m.x() -= 0.5;
+        puppet.run(0.5);
+        EXPECT_EQ(puppet.memory.state, state) << "the pressure says that it holds";
+    }
+}
+
+TEST(Faults, PoseAndForceAreBelievedAgainstAStuckPressureButThePumpStaysOn) {
     Puppet puppet;
-    puppet.leak_tau_s = 16.0;
-    ASSERT_TRUE(puppet.run_to(PerchingState::releasing));
-    puppet.estimate.p_WB_m.x() -= 0.2;
+    ASSERT_TRUE(puppet.run_to(PerchingState::pitching_up));
+    puppet.run(3.0);
+    puppet.holds = false;  // pitched by now, and nothing pulls
+    puppet.pressure_works = false;
+    for (int k = 0; k < 100 && puppet.memory.state == PerchingState::pitching_up; ++k) {
+        puppet.readings.cup_pressure = {puppet.time_s, {30000.0}};
+        puppet.tick();
+    }
+    EXPECT_EQ(puppet.memory.state, PerchingState::retreating);
+    EXPECT_EQ(reason_of_abort(puppet), "came off the wall");
+    EXPECT_TRUE(puppet.memory.setpoint.pump_on);
+}
+
+TEST(Faults, ARetreatOpensTheValve) {
+    Puppet puppet;
+    puppet.parameters.valve_fitted = true;
+    puppet.seals = false;
+    ASSERT_TRUE(puppet.run_to(PerchingState::retreating));
     puppet.tick();
-    EXPECT_EQ(puppet.memory.state, PerchingState::backing_off);
+    EXPECT_TRUE(puppet.memory.setpoint.valve_open);
+    EXPECT_FALSE(puppet.memory.setpoint.pump_on);
+}
+
+TEST(Faults, ACupThatHoldsItBackIsLandedOnAgain) {
+    Puppet puppet;
+    puppet.parameters.retreat_limit_s = 0.5;
+    ASSERT_TRUE(puppet.run_to(PerchingState::holding));
+    puppet.pressure_works = false;
+    ASSERT_TRUE(puppet.run_to(PerchingState::resealing, 5.0));
+    EXPECT_EQ(reason_of_abort(puppet), "the cup does not come off");
+    EXPECT_TRUE(puppet.memory.setpoint.pump_on);
+}
+
+TEST(Faults, WhatComesOffUnaskedIsNotReleased) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::pitching_down));
+    puppet.run(2.0);
+    puppet.holds = false;
+    puppet.pressure_works = false;
+    puppet.run(60.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
+    EXPECT_EQ(puppet.memory.ending->reason.view(), "came off the wall, back at the pre-position");
+}
+
+TEST(Faults, WithoutAPositionItBrakesOnAttitudeAndSaysHowItEnds) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::approaching));
+    puppet.run(1.0);
+    puppet.knows_position = false;
+    puppet.tick();
+    EXPECT_EQ(puppet.memory.state, PerchingState::braking);
+    EXPECT_TRUE(std::holds_alternative<AttitudeSetpoint>(puppet.memory.setpoint.motion));
+    EXPECT_GT(euler_from_quaternion(std::get<AttitudeSetpoint>(puppet.memory.setpoint.motion).q_WB)
+                  .pitch_rad,
+              radians(5.0))
+        << "nose up: away from the wall";
+    puppet.run(1.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
+    EXPECT_EQ(puppet.memory.ending->reason.view(),
+              "stands before the wall, position estimate lost");
 }
 
 TEST(Faults, WithoutAPositionItDocksNotAndLeavesNotTheWall) {
-    for (const PerchingState state : {PerchingState::pre_positioning, PerchingState::aligning,
-                                      PerchingState::approaching, PerchingState::retreating}) {
+    for (const PerchingState state : {PerchingState::pre_positioning, PerchingState::aligning}) {
         Puppet puppet;
-        puppet.seals = state != PerchingState::retreating;
         ASSERT_TRUE(puppet.run_to(state));
         puppet.knows_position = false;
         puppet.run(0.1);
         ASSERT_TRUE(puppet.memory.ending);
-        EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+        EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
     }
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::resting));
@@ -188,6 +259,26 @@ TEST(Faults, WithoutAPositionItDocksNotAndLeavesNotTheWall) {
     puppet.run(60.0);
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
     EXPECT_FALSE(puppet.memory.setpoint.armed);
+}
+
+TEST(Wind, TooMuchOfItIsDeclined) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::aligning));
+    puppet.memory.wind.trim_W_m_s2 = {0.0, 100.0, 0.0};
+    puppet.run(puppet.parameters.settle_s + 0.1);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->reason.view(), "too much wind: leans too far");
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
+}
+
+TEST(Wind, BesideTheCupItLeansBackBeforeIt) {
+    Puppet puppet;
+    ASSERT_TRUE(puppet.run_to(PerchingState::releasing));
+    puppet.memory.grip_W_m = joint_W(puppet.parameters, puppet.estimate) - Vector3(0.0, 0.1, 0.0);
+    const Setpoint beside =
+        motion(puppet.parameters, puppet.memory, puppet.estimate, puppet.time_s);
+    const Euler to = euler_from_quaternion(std::get<AttitudeSetpoint>(beside.motion).q_WB);
+    EXPECT_LT(to.roll_rad, -radians(3.0)) << "right of the cup: leans to the left";
 }
 
 TEST(Faults, APressureThatDoesNotMoveAfterPumpOffKeepsItOnTheWall) {

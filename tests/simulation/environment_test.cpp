@@ -39,6 +39,27 @@ TEST(WindInTheLoop, GustsAreTheSameForTheSameSeed) {
     EXPECT_NE(hash(1), fly(model_of("hover", {"simulation.hover_s=3"})).state_hash);
 }
 
+TEST(WindInTheLoop, ThePerchedVehicleStandsACrosswindAndATailWind) {
+    for (const char* surface : {"metal", "porous_concrete"}) {
+        for (const char* from : {"90", "180", "315"}) {
+            const Trace flight = trace(
+                model_of("perch_metal_valve",
+                         {std::string("wall.surface=") + surface, "environment.wind_speed_m_s=3",
+                          std::string("environment.wind_from_deg=") + from}));
+            EXPECT_EQ(flight.result.outcome, Outcome::released)
+                << surface << " " << from << ": " << flight.result.reason;
+        }
+    }
+}
+
+TEST(WindInTheLoop, MoreThanItCanLeanAgainstIsDeclined) {
+    const Trace flight = trace(model_of(
+        "perch_concrete", {"environment.wind_speed_m_s=6.5", "environment.wind_from_deg=90"}));
+    EXPECT_EQ(flight.result.outcome, Outcome::aborted);
+    EXPECT_EQ(flight.result.reason, "too much wind: leans too far");
+    EXPECT_EQ(flight.result.attempts, 0);
+}
+
 TEST(WindInTheLoop, AResumedRunGoesOnInTheSameGusts) {
     const auto model =
         model_of("perch_concrete",

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::simulation {
@@ -59,6 +60,47 @@ inline double pitch_deg(const Truth& truth) {
     return degrees(euler_from_quaternion(truth.base.q_WF).pitch_rad);
 }
 
+/// What happened, what is true at the end and what the outcome says are one story. Every flight of
+/// these tests goes through here.
+inline void expect_consistent(const Flight& flight, const std::vector<Event>& events) {
+    const FlightModel& model = flight.model();
+    const FlightState& state = flight.state();
+    ASSERT_TRUE(state.ending);
+    const Outcome outcome = state.ending->outcome;
+    SCOPED_TRACE(std::string(to_string(outcome)) + ": " + std::string(state.ending->reason.view()));
+    EXPECT_FALSE(state.ending->reason.view().empty());
+    const auto last = [&events](EventName name) {
+        double time_s = -1.0;
+        for (const Event& event : events) {
+            time_s = event.name == name ? event.time_s : time_s;
+        }
+        return time_s;
+    };
+    EXPECT_TRUE(std::is_sorted(events.begin(), events.end(), [](const Event& a, const Event& b) {
+        return std::floor(a.time_s * 1000.0 + 0.5) < std::floor(b.time_s * 1000.0 + 0.5) - 1.0;
+    }));
+    EXPECT_EQ(outcome == Outcome::timed_out, seconds(state.tick) >= model.simulation.time_limit_s);
+    if (model.mount != vehicle::Mount::free || !model.task.perch) {
+        return;
+    }
+    const bool sealed = suction::is_sealed(state.cup.status.phase);
+    EXPECT_EQ(outcome == Outcome::crashed, collision(model, state.truth).has_value());
+    if (outcome == Outcome::released) {
+        EXPECT_FALSE(sealed);
+        EXPECT_TRUE(state.command.armed);
+        EXPECT_GT(last(EventName::perched), 0.0);
+        EXPECT_GT(last(EventName::pump_off), last(EventName::perched));
+        EXPECT_GE(last(EventName::detached), last(EventName::pump_off));
+    } else if (outcome == Outcome::failed_to_seal) {
+        EXPECT_FALSE(sealed);
+    } else if (outcome == Outcome::perched || outcome == Outcome::release_aborted) {
+        EXPECT_TRUE(sealed);
+        EXPECT_FALSE(state.command.armed);
+        EXPECT_GT(last(EventName::perched), 0.0);
+        EXPECT_GT(last(EventName::motors_off), last(EventName::motors_on));
+    }
+}
+
 inline Trace trace(const std::shared_ptr<const FlightModel>& model) {
     Trace trace;
     Flight flight(model);
@@ -73,6 +115,7 @@ inline Trace trace(const std::shared_ptr<const FlightModel>& model) {
             trace.force_sensor_N.push_back(flight.state().sensors.readings.force.value.axial_N);
         }
     }
+    expect_consistent(flight, trace.result.events);
     trace.result.outcome = flight.state().ending->outcome;
     trace.result.reason = flight.state().ending->reason.view();
     trace.result.attempts = flight.seen().metrics.attempts;

@@ -295,10 +295,47 @@ TEST(Touches, OneDockIsOneTouch) {
     }
 }
 
+TEST(Missions, ACupThatHoldsIsNotLetGoByAPoseThatSlipped) {
+    const Trace trace = simulation::trace(model_of("perch_metal", {"guidance.land_pitch_s=1.0"}));
+    EXPECT_EQ(trace.result.outcome, Outcome::release_aborted) << trace.result.reason;
+}
+
+TEST(Missions, WithAnEmptyBatteryItIsNotReleased) {
+    const Trace trace = simulation::trace(model_of(
+        "perch_metal", {"vehicle.battery.initial_charge=0.02", "guidance.battery_reserve=0"}));
+    EXPECT_NE(trace.result.outcome, Outcome::released) << trace.result.reason;
+}
+
+TEST(Missions, WithAValveACupWhosePressureIsUnknownComesOff) {
+    const Trace trace =
+        simulation::trace(model_of("perch_metal_valve", {"sensors.pressure_stuck_at_s=5.0"}));
+    EXPECT_EQ(trace.result.reason, "no landing in any attempt");
+    EXPECT_FALSE(trace.times(detached).empty());
+}
+
+TEST(Missions, ASenseLostAtTheImpactOnMetalLandsItAgain) {
+    for (const char* fault : {"sensors.force_fails_at_s=5.15", "sensors.pressure_stuck_at_s=5.15",
+                              "sensors.pressure_stuck_at_s=5.25"}) {
+        const Trace trace = simulation::trace(model_of("perch_metal", {fault}));
+        EXPECT_EQ(trace.result.outcome, Outcome::release_aborted)
+            << fault << ": " << trace.result.reason;
+    }
+}
+
+TEST(Missions, WithoutMotionCaptureInTheApproachItComesToAStand) {
+    for (const char* fault : {"sensors.mocap_fails_at_s=4.0", "sensors.mocap_fails_at_s=4.3",
+                              "sensors.mocap_fails_at_s=4.6"}) {
+        const Trace trace = simulation::trace(model_of("perch_metal", {fault}));
+        EXPECT_EQ(trace.result.outcome, Outcome::aborted) << fault << ": " << trace.result.reason;
+        EXPECT_LT(trace.truth.back().base.v_WF_W_m_s.norm(), 0.3) << fault;
+    }
+}
+
 TEST(Missions, LidarLostInFlightIsSurvived) {
     const Trace trace =
         simulation::trace(model_of("perch_concrete", {"sensors.lidar_left_fails_at_s=4.2"}));
-    EXPECT_EQ(trace.result.outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(trace.result.outcome, Outcome::aborted);
+    EXPECT_EQ(trace.result.reason, "no pre-position before the wall in time");
     EXPECT_FALSE(trace.times(aborted).empty());
     const Vector3 moved_m = trace.truth.back().base.p_WF_m - trace.truth.front().base.p_WF_m;
     EXPECT_LT(moved_m.norm(), 1.0);  // still there, in the air

@@ -14,6 +14,7 @@ enum class Outcome {
     released,         ///< perched, took off and is back where it came from (or hovered as asked)
     failed_to_seal,   ///< used up its attempts
     release_aborted,  ///< gave up the release and rests on the wall again
+    aborted,          ///< gave the mission up in the air for another reason, which its reason says
     crashed,          ///< hit something with something else than the cup and the legs
     timed_out,        ///< the scenario's time is over
 };
