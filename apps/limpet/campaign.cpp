@@ -8,9 +8,11 @@
 
 #include "command_line.hpp"
 #include "limpet/campaign/folder_lock.hpp"
+#include "limpet/campaign/rare_campaign.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "output.hpp"
+#include "rare.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -28,14 +30,16 @@ struct CampaignOptions {
     std::string out;
     bool resume = false;
     bool quiet = false;
+    RareOptions rare;
 };
 
 OptionList options_of(CampaignOptions& options) {
-    return {{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
-            jobs_option(options.jobs),
-            {"--out DIR", &options.out, "folder (default: out/NAME)"},
-            {"--resume", &options.resume, "go on with the results in the folder, if any"},
-            {"--quiet,-q", &options.quiet, "print nothing but errors"}};
+    return joined({{{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
+                    jobs_option(options.jobs),
+                    {"--out DIR", &options.out, "folder (default: out/NAME; out/NAME_rare)"},
+                    {"--resume", &options.resume, "go on with the results in the folder, if any"},
+                    {"--quiet,-q", &options.quiet, "print nothing but errors"}},
+                   options_of(options.rare)});
 }
 
 std::string time_text(double time_s) {
@@ -100,15 +104,26 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     return ExitCode::ok;
 }
 
-ExitCode fly_campaign(const CampaignOptions& options) {
+ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
+    check(given, options.rare);
+    const bool rare = given("--rare");
     const campaign::Campaign campaign = campaign::load_campaign(options.file);
+    if (rare) {
+        require_searchable(campaign);
+    }
     const fs::path folder =
-        make_folder(options.out.empty() ? fs::path("out") / campaign.name : fs::path(options.out));
+        make_folder(options.out.empty() ? fs::path("out") / (campaign.name + (rare ? "_rare" : ""))
+                                        : fs::path(options.out));
     const campaign::FolderLock lock(folder);
     campaign::Results results = begin_results(campaign, folder, options.resume);
     Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
     const std::uint32_t there = results.finished();
     terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
+    if (rare) {
+        return fly_rare_campaign(options.rare, results, options.jobs, folder, options.file,
+                                 terminal);
+    }
+    require_plain(results);
     terminal.line(fmt::format("{} runs of {}, seed {}, on {} thread{}{}", campaign.runs,
                               campaign.scenario_name, campaign.seed, options.jobs,
                               options.jobs == 1 ? "" : "s",

@@ -41,6 +41,10 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {
 /// Flies one run. A fault of ours during the flight becomes a row with the outcome `fault`.
 [[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run);
 
+/// Flies what a row's sample says, and fills in how it went.
+/// @param noise  in place of the numbers of the row's seed and run, if any
+void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {});
+
 /// Flies a row again, recorded.
 /// @param recording  file to write
 /// @throws InternalError when it does not fly to the row's state hash
