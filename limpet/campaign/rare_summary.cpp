@@ -45,7 +45,10 @@ std::string found_text(const RareSummary& summary) {
                 result.brute_force_runs());
         }
         case RareEnding::too_rare:
-            return fmt::format("no estimate: rarer than {:.1g}, where the search ends", p);
+            return fmt::format(
+                "no estimate: not met on the way down to {:.1g} by {}: rarer, or the metric does "
+                "not lead there",
+                p, summary.event.figure);
         case RareEnding::stuck:
             return fmt::format(
                 "no estimate: too few of {} flights come nearer to it by {}; is it a figure that "
@@ -84,7 +87,8 @@ void add_likeliest(std::string& text, const RareSummary& summary) {
     const RunRow& row = *summary.likeliest;
     fmt::format_to(
         std::back_inserter(text),
-        "\nmost likely {}: run {}, {:.2f} sigma from the medians of its {} inputs; {} {:.5g}\n",
+        "\nmost likely {}: run {}, {:.2f} sigma from the medians of {} inputs, its noise apart; {} "
+        "{:.5g}\n",
         summary.event.text, row.run, summary.result.likeliest_distance, summary.keys.size(),
         summary.event.figure, summary.event.value(row));
     for (std::size_t i = 0; i < summary.keys.size(); ++i) {

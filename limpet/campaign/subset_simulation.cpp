@@ -86,33 +86,32 @@ void for_each_sample(const Chains& chains, const Each& each) {
 }
 
 /// Squared coefficient of variation of the share of samples that reach something, with their
-/// correlation along the chains (Au and Beck, eqs. 27 to 29, for chains of any length).
+/// correlation along the chains (Au and Beck, eqs. 27 to 29, all lags at once: twice the products
+/// of a chain's pairs are the square of its sum less its squares).
 template <class Reaches>
 double variation2_of(const Chains& chains, const Reaches& reaches) {
     double samples = 0.0;
     double reached = 0.0;
-    std::size_t longest = 0;
     for_each_sample(chains, [&](const RareSample& sample) {
         samples += 1.0;
         reached += reaches(sample) ? 1.0 : 0.0;
     });
-    for (const Chain& chain : chains) {
-        longest = std::max(longest, chain.size());
-    }
     const double p = reached / samples;
     if (p >= 1.0) {
         return 0.0;
     }
-    double correlated = 0.0;
-    for (std::size_t lag = 1; lag < longest; ++lag) {
-        for (const Chain& chain : chains) {
-            for (std::size_t i = 0; i + lag < chain.size(); ++i) {
-                correlated += ((reaches(chain[i]) ? 1.0 : 0.0) - p) *
-                              ((reaches(chain[i + lag]) ? 1.0 : 0.0) - p);
-            }
+    double pairs = 0.0;
+    for (const Chain& chain : chains) {
+        double sum = 0.0;
+        double squares = 0.0;
+        for (const RareSample& sample : chain) {
+            const double off = (reaches(sample) ? 1.0 : 0.0) - p;
+            sum += off;
+            squares += off * off;
         }
+        pairs += sum * sum - squares;
     }
-    const double gamma = std::max(0.0, 2.0 * correlated / (samples * p * (1.0 - p)));
+    const double gamma = std::max(0.0, pairs / (samples * p * (1.0 - p)));
     return (1.0 - p) / (p * samples) * (1.0 + gamma);
 }
 
@@ -258,7 +257,6 @@ private:
         const auto reaches = [&](const RareSample& sample) {
             return at_event ? sample.event : sample.fall <= threshold;
         };
-        add_curve(falls);
         SubsetLevel level{.threshold = at_event ? highest_event() : threshold,
                           .samples = plan_.level_runs,
                           .reached = at_event ? events : below,
@@ -269,6 +267,7 @@ private:
             level.variation2 = variation2_of(chains_, reaches);
             follow_lineages(reaches);
         }
+        add_curve(falls, at_event ? kFewestInTail : std::max(below, kFewestInTail));
         result_.levels.push_back(level);
         return at_event;
     }
@@ -304,16 +303,15 @@ private:
         result_.lineage_variation2 = std::max(0.0, 1.0 - more * (1.0 - alike));
     }
 
-    /// Places of the level's samples, down to those that go on.
-    void add_curve(const std::vector<double>& falls) {
+    /// Places of the level's samples, down to the last that count.
+    void add_curve(const std::vector<double>& falls, std::uint32_t last) {
         const double before = result_.probability();
         double variation2 = 0.0;
         for (const SubsetLevel& level : result_.levels) {
             variation2 += level.variation2;
         }
         const double n = static_cast<double>(falls.size());
-        for (double rank = n; rank >= kFewestInTail;
-             rank *= std::pow(10.0, -1.0 / kPlacesADecade)) {
+        for (double rank = n; rank >= last; rank *= std::pow(10.0, -1.0 / kPlacesADecade)) {
             const double fall = falls[static_cast<std::size_t>(rank) - 1];
             if (!std::isfinite(fall) ||
                 (!result_.curve.empty() && fall >= result_.curve.back().fall)) {
