@@ -34,12 +34,13 @@ struct CampaignOptions {
 };
 
 OptionList options_of(CampaignOptions& options) {
-    return joined({{{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
-                    jobs_option(options.jobs),
-                    {"--out DIR", &options.out, "folder (default: out/NAME; out/NAME_rare)"},
-                    {"--resume", &options.resume, "go on with the results in the folder, if any"},
-                    {"--quiet,-q", &options.quiet, "print nothing but errors"}},
-                   options_of(options.rare)});
+    return joined(
+        {{{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
+          jobs_option(options.jobs),
+          {"--out DIR", &options.out, "folder (default: out/NAME, with --rare out/NAME_rare)"},
+          {"--resume", &options.resume, "go on with the results in the folder, if any"},
+          {"--quiet,-q", &options.quiet, "print nothing but errors"}},
+         options_of(options.rare)});
 }
 
 std::string time_text(double time_s) {
@@ -142,7 +143,9 @@ Verb campaign_verb() {
         "Writes results.sqlite, table `runs`, a row a run; the rows do not depend on --jobs. "
         "Killed "
         "and\nresumed it loses no finished run and repeats none. Ctrl-C stops it cleanly "
-        "(130).\n");
+        "(130).\n"
+        "With --rare, runs: of the file does not count; results are in out/NAME_rare, and an end "
+        "without an\nestimate exits with 1.\n");
 }
 
 }  // namespace limpet::app

@@ -16,7 +16,7 @@ using RareClock = std::chrono::steady_clock;
 
 constexpr auto kRareLineEvery = std::chrono::seconds(5);  ///< where no person watches
 constexpr double kFewestLevelRuns = 100;
-constexpr double kMostLevelRuns = 1e6;
+constexpr double kMostLevelRuns = 100000;
 constexpr const char* kLikeliest = "likeliest.yaml";
 
 std::string progress_text(const campaign::RareProgress& progress, std::uint32_t level_runs) {
@@ -50,15 +50,16 @@ campaign::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
 
 OptionList options_of(RareOptions& options) {
     return {{"--rare EVENT", &options.event,
-             "search for a rare event and say how probable it is, down to 1e-7:\n"
-             "a threshold, as in cup_margin_min_N<0 or cup_press_max_N>60 (a metric of\n"
-             "`limpet summary`), or an outcome, as in failed_to_seal"},
+             "say how probable a rare event is, down to 1e-7 (campaigns/README.md): a\n"
+             "metric and its limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60',\n"
+             "or an outcome, as in failed_to_seal"},
             {"--falling METRIC", &options.guide.falling,
-             "that falls towards the outcome of --rare (failed_to_seal: cup_press_max_N)"},
+             "that falls towards --rare's outcome (failed_to_seal has cup_press_max_N)"},
             {"--rising METRIC", &options.guide.rising,
-             "that rises towards it (timed_out: simulated_s)", not_with("--falling")},
-            {"--level-runs N", &options.level_runs, "samples of each level of --rare",
-             range(kFewestLevelRuns, kMostLevelRuns)}};
+             "that rises towards it (timed_out has simulated_s)", not_with("--falling")},
+            {"--level-runs N", &options.level_runs,
+             "samples of each level of --rare, 100..100000 (default: 1000)",
+             range(kFewestLevelRuns, kMostLevelRuns, false)}};
 }
 
 void check(const Given& given, const RareOptions& options) {
@@ -73,10 +74,10 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
                            Terminal& terminal) {
     const campaign::RareSearch search{
         .event = campaign::parse_rare_event(options.event, options.guide),
-        .level_runs = options.level_runs};
+        .level_runs = static_cast<std::uint32_t>(options.level_runs)};
     begin_rare(results, search, options.guide);
     const campaign::RareFlown flown =
-        fly_rare(results, search, jobs, rare_watch(terminal, options.level_runs));
+        fly_rare(results, search, jobs, rare_watch(terminal, search.level_runs));
     if (flown.result.ending == campaign::RareEnding::stopped) {
         fmt::print(stderr,
                    "limpet: stopped after {} flights, all kept; go on with: limpet campaign {} "

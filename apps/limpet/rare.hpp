@@ -14,7 +14,7 @@ namespace limpet::app {
 struct RareOptions {
     std::string event;
     campaign::RareGuide guide;
-    std::uint32_t level_runs = 1000;
+    int level_runs = 1000;
 };
 [[nodiscard]] OptionList options_of(RareOptions& options);
 

@@ -122,8 +122,7 @@ TEST_F(BadInput, Seed) {
     EXPECT_NE(hover_error("noise: 7\n").find("as in [[1, 0.6], [2, 0.8]]"), std::string::npos);
     EXPECT_NE(hover_error("noise: [[1]]\n").find("as in [1, 0.6]"), std::string::npos);
     EXPECT_NE(hover_error("noise: [[1, 0]]\n").find("needs a weight beyond"), std::string::npos);
-    EXPECT_NE(hover_error("noise: [[-1, 1]]\n").find("allowed 0..18446744073709551615"),
-              std::string::npos);
+    EXPECT_NE(hover_error("noise: [[-1, 1]]\n").find("0..18446744073709551615"), std::string::npos);
 }
 
 TEST_F(BadInput, Mission) {
