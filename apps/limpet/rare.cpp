@@ -50,13 +50,13 @@ campaign::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
 
 OptionList options_of(RareOptions& options) {
     return {{"--rare EVENT", &options.event,
-             "say how probable a rare event is, down to 1e-7 (campaigns/README.md): a\n"
-             "metric and its limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60',\n"
-             "or an outcome, as in failed_to_seal"},
+             "say how probable a rare event is, down to 1e-7: a metric and its\n"
+             "limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
+             "outcome, as in failed_to_seal (campaigns/README.md)"},
             {"--falling METRIC", &options.guide.falling,
-             "that falls towards --rare's outcome (failed_to_seal has cup_press_max_N)"},
+             "that falls towards the outcome (failed_to_seal: cup_press_max_N)"},
             {"--rising METRIC", &options.guide.rising,
-             "that rises towards it (timed_out has simulated_s)", not_with("--falling")},
+             "that rises towards the outcome (timed_out: simulated_s)", not_with("--falling")},
             {"--level-runs N", &options.level_runs,
              "samples of each level of --rare, 100..100000 (default: 1000)",
              range(kFewestLevelRuns, kMostLevelRuns, false)}};
