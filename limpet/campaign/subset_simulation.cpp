@@ -18,7 +18,7 @@ constexpr double kWantedAcceptance = 0.44;  ///< likewise
 constexpr double kLongestStep = 10.0;
 constexpr std::uint32_t kFewestSeeds = 10;
 constexpr std::uint32_t kFewestInTail = 5;  ///< of the samples, at the end of the curve
-constexpr double kPlacesADecade = 8.0;
+constexpr double kNextPlace = 0.75;         ///< of the curve: its share of the last one's samples
 
 using Chain = std::vector<RareSample>;
 using Chains = std::vector<Chain>;
@@ -311,8 +311,9 @@ private:
             variation2 += level.variation2;
         }
         const double n = static_cast<double>(falls.size());
-        for (double rank = n; rank >= last; rank *= std::pow(10.0, -1.0 / kPlacesADecade)) {
-            const double fall = falls[static_cast<std::size_t>(rank) - 1];
+        for (std::size_t rank = falls.size(); rank >= last;
+             rank = static_cast<std::size_t>(static_cast<double>(rank) * kNextPlace)) {
+            const double fall = falls[rank - 1];
             if (!std::isfinite(fall) ||
                 (!result_.curve.empty() && fall >= result_.curve.back().fall)) {
                 continue;
