@@ -10,10 +10,12 @@
 #include "launch.hpp"
 #include "limpet/campaign/folder_lock.hpp"
 #include "limpet/campaign/ranks.hpp"
+#include "limpet/campaign/rare_campaign.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "output.hpp"
+#include "rare.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -32,15 +34,18 @@ struct CampaignOptions {
     std::string shard;
     bool resume = false;
     bool quiet = false;
+    RareOptions rare;
 };
 
 OptionList options_of(CampaignOptions& options) {
-    return {{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
-            jobs_option(options.jobs),
-            {"--out DIR", &options.out, "folder (default: out/NAME)"},
-            {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},
-            {"--resume", &options.resume, "go on with the results in the folder, if any"},
-            {"--quiet,-q", &options.quiet, "print nothing but errors"}};
+    return joined(
+        {{{"campaign FILE", &options.file, "name in campaigns/, or a YAML file"},
+          jobs_option(options.jobs),
+          {"--out DIR", &options.out, "folder (default: out/NAME, with --rare out/NAME_rare)"},
+          {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},
+          {"--resume", &options.resume, "go on with the results in the folder, if any"},
+          {"--quiet,-q", &options.quiet, "print nothing but errors"}},
+         options_of(options.rare)});
 }
 
 std::string time_text(double time_s) {
@@ -122,9 +127,10 @@ std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
 
 /// Where the results are, nobody else's meanwhile.
 struct Place {
+    /// @param suffix  of the folder's name, when it is not given
     Place(const campaign::Campaign& campaign, const CampaignOptions& options,
-          const campaign::Shard& shard)
-        : folder(make_folder(options.out.empty() ? fs::path("out") / campaign.name
+          const campaign::Shard& shard, const std::string& suffix = "")
+        : folder(make_folder(options.out.empty() ? fs::path("out") / (campaign.name + suffix)
                                                  : fs::path(options.out))),
           lock(folder),
           results(begin_results(campaign, folder, options.resume, shard)) {}
@@ -139,6 +145,7 @@ struct Place {
 ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                      campaign::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
+    require_plain(place.results);
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
                                         : Terminal::Voice::normal);
@@ -180,7 +187,28 @@ ExitCode fly_as_rank(const CampaignOptions& options, int jobs, campaign::RankLin
     return fly_missing(*place, options, jobs, &link);
 }
 
+/// A search for a rare event: by this process alone.
+ExitCode search(const CampaignOptions& options) {
+    if (!options.shard.empty()) {
+        throw InputError("--rare: a search is not parted, leave --shard out");
+    }
+    if (ranks_started()) {
+        throw InputError("--rare: a search flies in one process, start it without mpirun or srun");
+    }
+    const campaign::Campaign campaign = campaign::load_campaign(options.file);
+    require_searchable(campaign);
+    Place place(campaign, options, {}, "_rare");
+    Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
+    terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
+    return fly_rare_campaign(options.rare, place.results, options.jobs, place.folder, options.file,
+                             terminal);
+}
+
 ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
+    check(given, options.rare);
+    if (given("--rare")) {
+        return search(options);
+    }
     if (options.shard.empty()) {
         if (const auto link = ranks_started()) {
             return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
@@ -204,7 +232,9 @@ Verb campaign_verb() {
         "(130).\n\n"
         "On several machines `mpirun -n 8 limpet campaign X`, or srun, shares the runs out: one "
         "file,\nthe same rows; --jobs is then each rank's. Without MPI: --shard, then limpet "
-        "merge.\n");
+        "merge.\n"
+        "With --rare, runs: of the file does not count; results are in out/NAME_rare, and an end "
+        "without an\nestimate exits with 1.\n");
 }
 
 }  // namespace limpet::app

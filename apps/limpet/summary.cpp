@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.hpp"
+#include "limpet/campaign/rare_summary.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -19,19 +20,32 @@ struct SummaryOptions {
     bool json = false;
 };
 
-void summarise_campaign(const SummaryOptions& options) {
-    const fs::path database = campaign::Results::file_of(options.database);
-    campaign::Results results(database, campaign::Access::read);
-    const campaign::CampaignSummary summary = summarise(results);
-    fmt::print("{}\n", options.json ? summary_json(summary) : summary_text(summary));
+/// @param draw  makes the figures in a folder
+template <class Draw>
+void tell(const SummaryOptions& options, const fs::path& database, const std::string& text,
+          const Draw& draw) {
+    fmt::print("{}\n", text);
     if (options.json && options.out.empty()) {
         return;  // a program asked: it gets what it asked for
     }
-    const fs::path folder = folder_or_beside(options.out, database);
-    const auto files = draw_summary(summary, folder);
+    const auto files = draw(folder_or_beside(options.out, database));
     if (!options.json) {
         print_files(files);
     }
+}
+
+void summarise_campaign(const SummaryOptions& options) {
+    const fs::path database = campaign::Results::file_of(options.database);
+    campaign::Results results(database, campaign::Access::read);
+    if (const auto search = rare_search(results)) {
+        const campaign::RareSummary summary = summarise_rare(results, *search);
+        tell(options, database, options.json ? rare_json(summary) : rare_text(summary),
+             [&](const fs::path& folder) { return draw_rare(summary, folder); });
+        return;
+    }
+    const campaign::CampaignSummary summary = summarise(results);
+    tell(options, database, options.json ? summary_json(summary) : summary_text(summary),
+         [&](const fs::path& folder) { return draw_summary(summary, folder); });
 }
 
 OptionList options_of(SummaryOptions& options) {
@@ -46,8 +60,9 @@ Verb summary_verb() {
     return verb<SummaryOptions>(
         "summary", "Print and draw what a campaign found: probabilities, failures, fits",
         options_of, summarise_campaign,
-        "Works while the campaign is still flying. Draws summary.png and summary.svg. "
-        "Intervals are\nWilson's, 95 %.\n");
+        "Works while the campaign is still flying. Draws summary.png and summary.svg, of a search "
+        "for "
+        "a rare\nevent rare.png and rare.svg. Intervals are 95 %, of shares Wilson's.\n");
 }
 
 }  // namespace limpet::app

@@ -48,8 +48,10 @@ struct Campaign {
                                      const std::vector<SampledValue>& sample);
 
 /// The scenario with what a run sets in it.
+/// @param noise  that it flies with in the seed's place, if any
 /// @throws InputError when the values do not fit each other
 [[nodiscard]] scenario::Scenario scenario_of(const Campaign& campaign,
-                                             const std::vector<SampledValue>& sample);
+                                             const std::vector<SampledValue>& sample,
+                                             const NoiseBlend& noise = {});
 
 }  // namespace limpet::campaign

@@ -178,13 +178,17 @@ std::size_t variant_of(const std::vector<VariedKey>& keys,
     return variant;
 }
 
-scenario::Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& sample) {
+scenario::Scenario scenario_of(const Campaign& campaign, const std::vector<SampledValue>& sample,
+                               const NoiseBlend& noise) {
     // The text is spelled out: nothing is looked up in any folder of data.
     scenario::LoadOptions options{.overrides = {}, .seed = campaign.seed, .data_root = "."};
     for (std::size_t i = 0; i < sample.size(); ++i) {
         if (!is_named(campaign.keys[i])) {
             options.overrides.push_back(campaign.keys[i].key + "=" + value_text(sample[i]));
         }
+    }
+    if (!noise.empty()) {
+        options.overrides.push_back("noise=" + scenario::noise_text(noise));
     }
     return campaign.scenarios[variant_of(campaign.keys, sample)].load(options);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -20,15 +21,41 @@ double draw_within(const VariedKey& key, const Draw& draw) {
     return value;
 }
 
-const SampledValue& choose(const VariedKey& key, RandomStream& random) {
+const SampledValue& choose(const VariedKey& key, double uniform) {
     const auto count = static_cast<double>(key.values.size());
-    const auto index = static_cast<std::size_t>(count * random.uniform());
+    const auto index = static_cast<std::size_t>(count * uniform);
     return key.values[std::min(index, key.values.size() - 1)];
 }
 
-/// Share of a standard normal below x.
-double normal_below(double x) {
-    return 0.5 * std::erfc(-x / std::sqrt(2.0));
+/// A standard normal moved into the bounds, in standard deviations: to where its probability is the
+/// same share of what lies between them.
+double moved_into(double low, double high, double normal) {
+    if (std::isinf(low) && std::isinf(high)) {
+        return normal;
+    }
+    if (low > 0.0) {  // probabilities near 1 have fewer digits than those near 0
+        return -moved_into(-high, -low, -normal);
+    }
+    const double below = normal_probability(low);
+    const double share = normal_probability(normal) * (normal_probability(high) - below);
+    return std::clamp(normal_quantile(std::clamp(below + share, 1e-300, 1.0 - 1e-16)), low, high);
+}
+
+double at_normal(const VariedKey& key, double normal) {
+    if (key.spread == Spread::uniform) {
+        return key.first + (key.second - key.first) * normal_probability(normal);
+    }
+    if (key.spread == Spread::normal) {
+        const double z = moved_into((key.from - key.first) / key.second,
+                                    (key.to - key.first) / key.second, normal);
+        return std::clamp(key.first + key.second * z, key.from, key.to);
+    }
+    const auto z_of = [&key](double end) {
+        return end > 0.0 ? std::log(end / key.first) / key.second
+                         : -std::numeric_limits<double>::infinity();
+    };
+    const double z = moved_into(z_of(key.from), z_of(key.to), normal);
+    return std::clamp(key.first * std::exp(key.second * z), key.from, key.to);
 }
 
 }  // namespace
@@ -47,12 +74,12 @@ std::uint64_t grid_points(const std::vector<VariedKey>& keys) {
 
 double share_within(const VariedKey& key) {
     if (key.spread == Spread::normal) {
-        return normal_below((key.to - key.first) / key.second) -
-               normal_below((key.from - key.first) / key.second);
+        return normal_probability((key.to - key.first) / key.second) -
+               normal_probability((key.from - key.first) / key.second);
     }
     if (key.spread == Spread::lognormal) {
         const auto below = [&key](double end) {
-            return end <= 0.0 ? 0.0 : normal_below(std::log(end / key.first) / key.second);
+            return end <= 0.0 ? 0.0 : normal_probability(std::log(end / key.first) / key.second);
         };
         return below(key.to) - below(key.from);
     }
@@ -72,7 +99,7 @@ std::vector<SampledValue> draw(const std::vector<VariedKey>& keys, std::uint64_t
                 stride /= key.values.size();
                 sample.push_back(key.values[point / stride % key.values.size()]);
                 break;
-            case Spread::choice: sample.push_back(choose(key, random)); break;
+            case Spread::choice: sample.push_back(choose(key, random.uniform())); break;
             case Spread::uniform:
                 sample.emplace_back(key.first + (key.second - key.first) * random.uniform());
                 break;
@@ -84,6 +111,28 @@ std::vector<SampledValue> draw(const std::vector<VariedKey>& keys, std::uint64_t
                 sample.emplace_back(
                     draw_within(key, [&] { return random.lognormal(key.first, key.second); }));
                 break;
+        }
+    }
+    return sample;
+}
+
+std::size_t drawn_keys(const std::vector<VariedKey>& keys) {
+    return static_cast<std::size_t>(std::count_if(
+        keys.begin(), keys.end(), [](const VariedKey& key) { return key.spread != Spread::grid; }));
+}
+
+std::vector<SampledValue> sample_at(const std::vector<VariedKey>& keys,
+                                    const std::vector<double>& normals) {
+    require(normals.size() == drawn_keys(keys), "every drawn key has its normal");
+    std::vector<SampledValue> sample;
+    auto normal = normals.begin();
+    for (const VariedKey& key : keys) {
+        if (key.spread == Spread::grid) {
+            sample.push_back(key.values.front());
+        } else if (key.spread == Spread::choice) {
+            sample.push_back(choose(key, normal_probability(*normal++)));
+        } else {
+            sample.emplace_back(at_normal(key, *normal++));
         }
     }
     return sample;

@@ -50,6 +50,15 @@ struct VariedKey {
 [[nodiscard]] std::vector<SampledValue> draw(const std::vector<VariedKey>& keys, std::uint64_t seed,
                                              std::uint32_t run);
 
+/// @return number of keys that are drawn, not set by a grid
+[[nodiscard]] std::size_t drawn_keys(const std::vector<VariedKey>& keys);
+
+/// What a run sets its keys to where each drawn one stands at a standard normal's place in its
+/// spread: the inverse of the distribution at the normal's probability. Grids have one point.
+/// @param normals  one a drawn key, in their order
+[[nodiscard]] std::vector<SampledValue> sample_at(const std::vector<VariedKey>& keys,
+                                                  const std::vector<double>& normals);
+
 /// @return "1.1" or "porous_concrete", as YAML reads it back to the same bits
 [[nodiscard]] std::string value_text(const SampledValue& value);
 

@@ -9,6 +9,7 @@
 
 #include "limpet/campaign/dealer.hpp"
 #include "limpet/campaign/ledger.hpp"
+#include "limpet/campaign/rare_results.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/plant/lane_group.hpp"
@@ -17,10 +18,10 @@ namespace limpet::campaign {
 namespace {
 
 /// @throws InputError naming the run
-std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign,
-                                                        const RunRow& row) {
+std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
+                                                        const NoiseBlend& noise) {
     try {
-        return simulation::build_model(scenario_of(campaign, row.sample));
+        return simulation::build_model(scenario_of(campaign, row.sample, noise));
     } catch (const InputError& error) {
         throw InputError(fmt::format("run {}: {}", row.run, error.what()));
     }
@@ -116,9 +117,15 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bo
     row.run = run;
     row.seed = campaign.seed;
     row.sample = draw(campaign.keys, campaign.seed, run);
-    const auto model = model_of(campaign, row);
+    fly_row(campaign, row);
+    return row;
+}
+
+void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise) {
+    const auto model = model_of(campaign, row, noise);
     try {
         const simulation::FlightResult result = fly(model, {}, {}, run, {.stop = stop});
+        const simulation::FlightResult result = fly(model, {}, {}, noise.empty() ? row.run : 0);
         row.outcome = to_string(result.outcome);
         row.reason = result.reason;
         row.attempts = result.attempts;
@@ -130,7 +137,6 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bo
         row.outcome = kFault;
         row.reason = error.what();
     }
-    return row;
 }
 
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
@@ -146,8 +152,9 @@ simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,
                                     const simulation::FlightWatch& watch) {
     const RunRow row = results.row(run);
-    const auto model = model_of(results.campaign(), row);
-    const simulation::FlightResult result = fly(model, recording, watch, run);
+    const NoiseBlend noise = rare_noise(results, run);
+    const auto model = model_of(results.campaign(), row, noise);
+    const simulation::FlightResult result = fly(model, recording, watch, noise.empty() ? run : 0);
     if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {
         throw InternalError(fmt::format(
             "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "

@@ -45,6 +45,10 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {
 [[nodiscard]] RunRow fly_run(const Campaign& campaign, std::uint32_t run,
                              const std::atomic<bool>* stop = nullptr);
 
+/// Flies what a row's sample says, and fills in how it went.
+/// @param noise  in place of the numbers of the row's seed and run, if any
+void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {});
+
 /// Flies a row again, recorded.
 /// @param recording  file to write
 /// @throws InternalError when it does not fly to the row's state hash

@@ -3,6 +3,7 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace limpet {
@@ -44,6 +45,9 @@ constexpr double kTailUnder[7] = {5.99832206555887937690e-1, 1.36929880922735805
                                   1.84631831751005468180e-5, 1.42151175831644588870e-7,
                                   2.04426310338993978564e-15};
 
+constexpr double kHalfStep = 0x1.0p-54;           ///< of the grid of uniform()
+constexpr double kLastUniform = 1.0 - 0x1.0p-52;  ///< half a step above it is still below 1
+
 }  // namespace
 
 double normal_quantile(double probability) {
@@ -57,23 +61,59 @@ double normal_quantile(double probability) {
     return q < 0.0 ? -z : z;
 }
 
-RandomStream::RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream)
-    : seed_(seed), run_(run), stream_(static_cast<std::uint32_t>(stream)) {}
+double normal_probability(double x) {
+    return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
+RandomStream::RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream,
+                           const NoiseBlend& blend)
+    : seed_(seed), run_(run), stream_(static_cast<std::uint32_t>(stream)) {
+    if (blend.size() == 1 && blend.front().weight > 0.0) {
+        seed_ = blend.front().seed;
+        return;
+    }
+    double squares = 0.0;
+    for (const NoiseTerm& term : blend) {
+        squares += term.weight * term.weight;
+    }
+    blend_ = blend;
+    for (NoiseTerm& term : blend_) {
+        term.weight /= std::sqrt(squares);
+    }
+}
 
 void RandomStream::refill() {
+    if (blend_.empty()) {
+        draw(seed_, uniforms_);
+    } else {
+        double normals[2] = {0.0, 0.0};
+        for (const NoiseTerm& term : blend_) {
+            double uniforms[2];
+            draw(term.seed, uniforms);
+            for (std::size_t i = 0; i < 2; ++i) {
+                normals[i] += term.weight * normal_quantile(uniforms[i] + kHalfStep);
+            }
+        }
+        for (std::size_t i = 0; i < 2; ++i) {
+            uniforms_[i] = std::min(normal_probability(normals[i]), kLastUniform);
+        }
+    }
+    uniforms_left_ = 2;
+    ++counter_;
+}
+
+void RandomStream::draw(std::uint64_t seed, double (&uniforms)[2]) const {
     const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(counter_),
                                                  static_cast<std::uint32_t>(counter_ >> 32U), run_,
                                                  stream_}};
     const r123::Philox4x32::key_type key = {
-        {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32U)}};
+        {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}};
     const auto block = r123::Philox4x32{}(counter, key);
     for (std::size_t i = 0; i < 2; ++i) {
         const std::uint64_t bits =
             (static_cast<std::uint64_t>(block[2 * i]) << 32U) | block[2 * i + 1];
-        uniforms_[i] = static_cast<double>(bits >> 11U) * 0x1.0p-53;
+        uniforms[i] = static_cast<double>(bits >> 11U) * 0x1.0p-53;
     }
-    uniforms_left_ = 2;
-    ++counter_;
 }
 
 double RandomStream::uniform() {
@@ -86,7 +126,7 @@ double RandomStream::uniform() {
 double RandomStream::normal() {
     // Half a step off the grid of uniform(): neither 0 nor 1 can come out, and the draws are even
     // about the median.
-    return normal_quantile(uniform() + 0x1.0p-54);
+    return normal_quantile(uniform() + kHalfStep);
 }
 
 Vector3 RandomStream::normal3() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "limpet/core/frames.hpp"
 
@@ -35,6 +36,20 @@ enum class Stream : std::uint32_t {
 /// Source: Wichura, "Algorithm AS 241: the percentage points of the normal distribution", Applied
 /// Statistics 37 (1988), PPND16.
 [[nodiscard]] double normal_quantile(double probability);
+/// @return probability of a standard normal below x
+[[nodiscard]] double normal_probability(double x);
+
+/// One of the noises that make a blend.
+struct NoiseTerm {
+    std::uint64_t seed = 0;
+    double weight = 1.0;
+    friend bool operator==(const NoiseTerm&, const NoiseTerm&) = default;
+};
+/// A noise between others: each standard normal is the weighted sum of those that the seeds would
+/// draw in its place, over the root of the sum of the squared weights; every other draw is that of
+/// such a normal's probability. A little weight of another seed is a noise a little beside the old
+/// one, and standard normal all the same.
+using NoiseBlend = std::vector<NoiseTerm>;
 
 /// Counter-based random numbers (Philox 4x32-10): a draw is a pure function of (seed, run, stream,
 /// counter), so results do not depend on thread count or order, and a copied stream continues
@@ -42,7 +57,9 @@ enum class Stream : std::uint32_t {
 class RandomStream {
 public:
     RandomStream() = default;
-    RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream);
+    /// @param blend  in the seed's place; empty: the seed alone. Weights of which one is not 0
+    RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream,
+                 const NoiseBlend& blend = {});
 
     /// @return uniform on [0, 1), 53 bits
     [[nodiscard]] double uniform();
@@ -57,11 +74,13 @@ public:
     template <class Self, class Each>
     static void visit_members(Self& self, Each&& each) {
         each(self.seed_, self.run_, self.stream_, self.counter_, self.uniforms_,
-             self.uniforms_left_);
+             self.uniforms_left_, self.blend_);
     }
 
 private:
     void refill();
+    /// The two of the counter as it stands.
+    void draw(std::uint64_t seed, double (&uniforms)[2]) const;
 
     std::uint64_t seed_ = 0;
     std::uint32_t run_ = 0;
@@ -69,6 +88,7 @@ private:
     std::uint64_t counter_ = 0;
     double uniforms_[2] = {0.0, 0.0};
     std::uint32_t uniforms_left_ = 0;
+    NoiseBlend blend_;  ///< squared weights add up to 1; empty: seed_ alone
 };
 
 }  // namespace limpet

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/scenario/loader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "limpet/scenario/data_folder.hpp"
@@ -14,6 +17,9 @@ namespace limpet::scenario {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMostWeight = 1e6;  ///< of a noise
+constexpr double kLeastWeight = 1e-6;
 
 bool says_none(const YamlNode* node) {
     return node == nullptr || node->kind == YamlNode::Kind::null ||
@@ -42,19 +48,39 @@ void read_wall(const YamlNode* node, const fs::path& root, const Section& sectio
     }
 }
 
+/// [[seed, weight], ...]; weights add up by their squares, so that one of them must not be 0.
+NoiseBlend read_noise(const YamlNode& node) {
+    NoiseBlend noise;
+    bool heard = false;
+    for (const YamlNode& item :
+         read_list(node, "a list of seeds and weights, as in [[1, 0.6], [2, 0.8]]")) {
+        const auto& pair = read_list(item, "a seed and its weight, as in [1, 0.6]", 2, 2);
+        double weight = 0.0;
+        noise.push_back(
+            {read_count(pair[0]),
+             read_number(pair[1], {{}, "-", -kMostWeight, kMostWeight, &weight, {}, {}})});
+        heard = heard || std::abs(noise.back().weight) > kLeastWeight;
+    }
+    if (!noise.empty() && !heard) {
+        fail(node, fmt::format("needs a weight beyond {} or -{}", kLeastWeight, kLeastWeight));
+    }
+    return noise;
+}
+
 /// Sections are read in the order in which they build on each other: what is derived from the
 /// vehicle and the sensors first, then the keys that may say otherwise.
 void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenario) {
     if (!is_section(&root)) {
         fail(root, "is empty");
     }
-    check_keys(root, {"description", "mission", "mount", "vehicle", "seed", "wall", "pendulum",
-                      "press_rig", "environment", "suction", "guidance", "autopilot", "sensors",
-                      "simulation"});
+    check_keys(root, {"description", "mission", "mount", "vehicle", "seed", "noise", "wall",
+                      "pendulum", "press_rig", "environment", "suction", "guidance", "autopilot",
+                      "sensors", "simulation"});
     read_given(root, "description", scenario.description);
     read_given(root, "mission", scenario.mission);
     read_given(root, "mount", scenario.mount);
     read_given(root, "seed", scenario.seed);
+    read_given(root, "noise", scenario.noise, read_noise);
     const YamlNode* vehicle = root.find("vehicle");
     if (vehicle == nullptr) {
         fail(root, "vehicle: is missing, as in `vehicle: perching_uav`");
@@ -98,6 +124,10 @@ Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
 }
 
 }  // namespace
+
+NoiseBlend noise_from(const std::string& text, const std::string& place) {
+    return read_noise(parse_yaml(text, place));
+}
 
 Scenario load_scenario(const std::string& wanted, const LoadOptions& options) {
     Scenario scenario;

@@ -32,6 +32,11 @@ struct LoadOptions {
 [[nodiscard]] Scenario load_scenario_text(const std::string& text, const std::string& name,
                                           const LoadOptions& options = {});
 
+/// @param text   "[[1, 0.6], [2, 0.8]]", as noise_text() writes it
+/// @param place  of it in messages
+/// @throws InputError when it is no noise
+[[nodiscard]] NoiseBlend noise_from(const std::string& text, const std::string& place);
+
 /// Such a text, read once, of which scenarios are made with many overrides.
 class ScenarioText {
 public:

@@ -11,6 +11,7 @@
 #include "limpet/autopilot/parameters.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/random.hpp"
 #include "limpet/core/wall.hpp"
 #include "limpet/guidance/parameters.hpp"
 #include "limpet/models/model_writer.hpp"
@@ -89,6 +90,7 @@ struct Scenario {
     std::filesystem::path path;
     std::string yaml;  ///< the text with every override applied: flies the same again
     std::uint64_t seed = 1;
+    NoiseBlend noise;  ///< in the seed's place; empty: the seed alone
     Mission mission = Mission::perch_and_take_off;
     vehicle::Airframe airframe;
     WallSetup wall;
@@ -119,6 +121,9 @@ struct Scenario {
 /// start_distance_m ahead of it along the heading, at the same height. On a mount the vehicle
 /// starts on that line: pulled back on its ropes, or start_gap_m before the wall.
 void lay_out(Scenario& scenario);
+
+/// @return "[[1, 0.6], [2, 0.8]]", as YAML reads it back to the same bits
+[[nodiscard]] std::string noise_text(const NoiseBlend& noise);
 
 /// A scenario as YAML that stands for itself: vehicle and surfaces are spelled out, so that it
 /// flies the same when their files have changed. Loading it gives the same numbers, bit by bit.

@@ -127,6 +127,15 @@ void write_section(Writer& writer, const Section& section, const Scenario& scena
 
 }  // namespace
 
+std::string noise_text(const NoiseBlend& noise) {
+    std::string text;
+    for (const NoiseTerm& term : noise) {
+        text += fmt::format("{}[{}, {}]", text.empty() ? "" : ", ", term.seed,
+                            number_text(term.weight));
+    }
+    return fmt::format("[{}]", text);
+}
+
 std::string to_yaml(const Scenario& scenario) {
     Scenario copy = scenario;  // sections bind to what may be written
     Writer writer;
@@ -134,6 +143,9 @@ std::string to_yaml(const Scenario& scenario) {
     writer.value(0, "mission", to_string(copy.mission));
     writer.value(0, "mount", to_string(copy.mount));
     writer.value(0, "seed", fmt::format("{}", copy.seed));
+    if (!copy.noise.empty()) {
+        writer.value(0, "noise", noise_text(copy.noise));
+    }
     write_vehicle(writer, copy.airframe);
     const std::vector<Section> sections = scenario_sections(copy);
     write_wall(writer, find_section(sections, "wall"), copy.wall);

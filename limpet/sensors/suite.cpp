@@ -18,12 +18,12 @@ void for_each_unit(UnitsOf<TypeList<All...>>& sensors, Visit visit) {
 }  // namespace
 
 SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t seed,
-                   std::uint32_t run) {
+                   std::uint32_t run, const NoiseBlend& noise) {
     SensorsState state;
     for_each_unit(state.sensors, [&](auto type, auto& unit, std::size_t k) {
         using Sensor = typename decltype(type)::type;
-        unit = start_unit<Sensor>(model.parameters, RandomStream(seed, run, Sensor::kStreams[k]),
-                                  truth);
+        unit = start_unit<Sensor>(model.parameters,
+                                  RandomStream(seed, run, Sensor::kStreams[k], noise), truth);
     });
     return state;
 }

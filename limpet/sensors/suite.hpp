@@ -45,8 +45,9 @@ struct SensorsState {
 
 /// Switches the sensors on: draws the biases of this flight. No reading yet.
 /// @param truth  at the start, the first end of the IMU's first interval
+/// @param noise  in the seed's place, if any
 [[nodiscard]] SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t seed,
-                                 std::uint32_t run);
+                                 std::uint32_t run, const NoiseBlend& noise = {});
 
 /// Takes the samples that are due and hands out those that arrive. Once every base tick, in order.
 /// @param truth  of this tick

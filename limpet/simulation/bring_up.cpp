@@ -48,7 +48,7 @@ Snapshot first_state(const FlightModel& model, const FlightState& now, const pla
     state.autopilot.estimate = now.autopilot.estimate;
     state.autopilot.estimate.time_s = 0.0;
     state.guidance = start_perching(model.task, state.autopilot.estimate, 0.0);
-    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run);
+    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run, model.noise);
     return {.state = state, .plant = plant.save(), .seen = {}};
 }
 
@@ -82,7 +82,8 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
     state.rotors = {};
     state.command = {};
     rest_on_stand(model, stand_W_m, plant, state.truth);
-    state.sensors = sensors::start(model.sensors, state.truth, model.seed, options.run);
+    state.sensors =
+        sensors::start(model.sensors, state.truth, model.seed, options.run, model.noise);
 
     TickReport report;
     Pace pace(options.speed);

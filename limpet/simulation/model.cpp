@@ -88,6 +88,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->ahead_W = heading_W(scenario.wall);
     model->start = scenario.start;
     model->seed = scenario.seed;
+    model->noise = scenario.noise;
     model->mount = scenario.mount;
     model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
@@ -140,11 +141,10 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
         state.guidance.state = guidance::PerchingState::approaching;
         state.guidance.setpoint = {.pump_on = model.mount == vehicle::Mount::pendulum};
     }
-    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run);
-    state.wind = vehicle::start(model.wind, RandomStream(model.seed, run, Stream::wind));
-    state.wall_air =
-        vehicle::start(model.wall_air, RandomStream(model.seed, run, Stream::wall_air));
-    state.cup.random = RandomStream(model.seed, run, Stream::seal);
+    state.sensors = sensors::start(model.sensors, state.truth, model.seed, run, model.noise);
+    state.wind = vehicle::start(model.wind, model.random(run, Stream::wind));
+    state.wall_air = vehicle::start(model.wall_air, model.random(run, Stream::wall_air));
+    state.cup.random = model.random(run, Stream::seal);
     return state;
 }
 

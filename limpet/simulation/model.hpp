@@ -28,6 +28,11 @@ struct FlightModel {
     vehicle::WallAirModel wall_air;
     scenario::Start start;
     std::uint64_t seed = 1;
+    NoiseBlend noise;  ///< in its place, if any
+    /// Random numbers of a run.
+    [[nodiscard]] RandomStream random(std::uint32_t run, Stream stream) const {
+        return {seed, run, stream, noise};
+    }
     vehicle::Mount mount = vehicle::Mount::free;
     vehicle::Pendulum pendulum;  ///< of mount pendulum
     double pendulum_hold_s = 0.5;

@@ -188,6 +188,93 @@ TEST_F(Flown, WhatIsNoDatabaseOfOursIsRefused) {
     expect_refused({"summary", "nowhere.sqlite"}, "no such file");
 }
 
+/// Hovers that are cut off at a time that is drawn; rarely a late one.
+constexpr const char* kDrawnHovers =
+    "scenario: hover\nruns: 5\nseed: 3\nparameters:\n"
+    "  simulation.time_limit_s: {normal: {mean: 0.3, sigma: 0.04, from: 0.1, to: 0.6}}\n";
+
+TEST(RareProgram, SaysHowProbableAndFliesTheLikeliestAgain) {
+    const Bench bench;
+    (void)bench.write("x.yaml", kDrawnHovers);
+    const Finished flown =
+        bench.run({"campaign", "x.yaml", "--rare", "simulated_s > 0.4", "--level-runs", "100"});
+    EXPECT_EQ(flown.exit_code, 0) << flown.err;
+    EXPECT_THAT(flown.out, HasSubstr("rare event simulated_s>0.4 of hover, 100 runs a level"));
+    EXPECT_THAT(flown.out, HasSubstr("limpet fly out/x_rare/likeliest.yaml"));
+    const auto json = nlohmann::json::parse(bench.run({"summary", "out/x_rare", "--json"}).out);
+    EXPECT_LT(json["low"], 0.0062);  // Phi(-2.5)
+    EXPECT_GT(json["high"], 0.0062);
+    EXPECT_EQ(json["ending"], "estimated");
+    EXPECT_GT(json["brute_force_runs"], json["flown"]);
+    const std::string hash = json["likeliest"]["state_hash"];
+    const Finished again = bench.run({"fly", "out/x_rare/likeliest.yaml", "--no-record", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(again.out)["state_hash"], hash) << again.err;
+    EXPECT_THAT(bench.run({"replay", "out/x_rare", "150"}).out,
+                HasSubstr("the same to the last bit"));
+    const Finished text = bench.run({"summary", "out/x_rare"});
+    EXPECT_THAT(text.out, HasSubstr("most likely simulated_s>0.4: run "));
+    EXPECT_THAT(bench.files(), testing::Contains("out/x_rare/rare.svg"));
+    const Finished plain = bench.run({"campaign", "x.yaml", "--out", "out/x_rare", "--resume"});
+    EXPECT_EQ(plain.exit_code, 2);
+    EXPECT_TRUE(plain.one_line_of_error()) << plain.err;
+    const Finished none = bench.run({"campaign", "x.yaml", "--rare", "perched", "--rising",
+                                     "pressure_min_Pa", "--level-runs", "100", "--out", "none"});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_THAT(none.out, HasSubstr("no estimate"));
+}
+
+TEST(RareProgram, KilledOrInterruptedItGoesOn) {
+    const Bench bench;
+    (void)bench.write("x.yaml", kDrawnHovers);
+    const std::vector<std::string> rare = {"campaign",     "x.yaml", "--rare", "simulated_s>0.4",
+                                           "--level-runs", "100",    "--jobs", "2"};
+    const auto with = [&rare](std::vector<std::string> more) {
+        more.insert(more.begin(), rare.begin(), rare.end());
+        return more;
+    };
+    const fs::path file = bench.folder() / "cut/results.sqlite";
+    for (const int signal : {SIGKILL, SIGINT}) {
+        const std::uint32_t there = finished_in(file);
+        Running running(bench.folder(), with({"--out", "cut", "--resume"}));
+        EXPECT_TRUE(eventually([&] { return finished_in(file) >= there + 20; }));
+        running.signal(signal);
+        EXPECT_EQ(running.wait(), signal == SIGKILL ? -SIGKILL : 130);
+    }
+    EXPECT_THAT(text_of(bench.folder() / "log"),
+                HasSubstr("limpet campaign x.yaml --rare 'simulated_s>0.4' --level-runs 100 --out "
+                          "cut --resume"));
+    EXPECT_EQ(bench.run(with({"--out", "cut", "--resume", "-q"})).exit_code, 0);
+    EXPECT_EQ(bench.run(with({"--out", "whole", "-q"})).exit_code, 0);
+    EXPECT_EQ(table_of(file), table_of(bench.folder() / "whole/results.sqlite"));
+}
+
+TEST(RareProgram, RefusesInOneLineAndLeavesNothing) {
+    const Bench bench;
+    (void)bench.write("x.yaml", kDrawnHovers);
+    (void)bench.write("grid.yaml", short_hovers(4));
+    const std::pair<std::vector<std::string>, std::string> bad[] = {
+        {{"x.yaml", "--rare", "crash"}, "did you mean crashed?"},
+        {{"x.yaml", "--rare", "crashed"}, "--falling or --rising"},
+        {{"x.yaml", "--rare", "simulated_s>late"}, "is not a number"},
+        {{"x.yaml", "--rare", "simulated_s>1", "--falling", "attempts"}, "are for outcomes"},
+        {{"x.yaml", "--rare", "crashed", "--falling", "attempts", "--rising", "attempts"},
+         "--falling"},
+        {{"x.yaml", "--level-runs", "200"}, "--rare"},
+        {{"x.yaml", "--rare", "attempts>1", "--level-runs", "5"}, "--level-runs"},
+        {{"grid.yaml", "--rare", "attempts>1"}, "a grid has no probabilities"},
+    };
+    const auto files = bench.files();
+    for (const auto& [words, message] : bad) {
+        std::vector<std::string> arguments = {"campaign"};
+        arguments.insert(arguments.end(), words.begin(), words.end());
+        const Finished finished = bench.run(arguments);
+        EXPECT_EQ(finished.exit_code, 2) << message;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(message));
+        EXPECT_EQ(bench.files(), files);
+    }
+}
+
 TEST(CampaignProgram, RefusesWhatItCannotFly) {
     const Bench bench;
     const std::string head = "scenario: hover\nruns: 2\nparameters:\n";

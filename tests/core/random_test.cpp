@@ -45,6 +45,36 @@ TEST(Random, CopyContinuesAlike) {
     }
 }
 
+TEST(Random, ABlendIsTheWeightedSumOfItsNoises) {
+    RandomStream one(7, 3, Stream::test);
+    RandomStream two(8, 3, Stream::test);
+    RandomStream blend(99, 3, Stream::test, {{7, 3.0}, {8, -4.0}});
+    double sum = 0.0;
+    double squares = 0.0;
+    constexpr int kDraws = 20'000;
+    for (int i = 0; i < kDraws; ++i) {
+        const double z = blend.normal();
+        EXPECT_NEAR(z, 0.6 * one.normal() - 0.8 * two.normal(), 1e-9);
+        sum += z;
+        squares += z * z;
+    }
+    EXPECT_NEAR(sum / kDraws, 0.0, 0.03);
+    EXPECT_NEAR(squares / kDraws, 1.0, 0.05);
+    RandomStream uniform(99, 3, Stream::test, {{7, 3.0}, {8, -4.0}});
+    RandomStream normal(99, 3, Stream::test, {{7, 3.0}, {8, -4.0}});
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_NEAR(uniform.uniform(), normal_probability(normal.normal()), 1e-12);
+    }
+}
+
+TEST(Random, ABlendOfOneIsItsSeedAlone) {
+    RandomStream seed(7, 3, Stream::test);
+    RandomStream blend(99, 3, Stream::test, {{7, 0.2}});
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(seed.uniform(), blend.uniform());
+    }
+}
+
 TEST(Random, MomentsOfTheNormal) {
     RandomStream random(42, 0, Stream::test);
     constexpr int kDraws = 200000;

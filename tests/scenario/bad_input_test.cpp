@@ -80,10 +80,11 @@ TEST_F(BadInput, UnknownKey) {
               "x.yaml:3: simulation.hovers: unknown key, did you mean hover_s?");
     EXPECT_EQ(hover_error("simulatoin: {hover_s: 5}\n"),
               "x.yaml:3: simulatoin: unknown key, did you mean simulation?");
-    EXPECT_EQ(hover_error("wind: 5\n"),
-              "x.yaml:3: wind: unknown key; there are description, mission, mount, vehicle, seed, "
-              "wall, pendulum, press_rig, environment, suction, guidance, autopilot, sensors, "
-              "simulation");
+    EXPECT_EQ(
+        hover_error("wind: 5\n"),
+        "x.yaml:3: wind: unknown key; there are description, mission, mount, vehicle, seed, "
+        "noise, wall, pendulum, press_rig, environment, suction, guidance, autopilot, sensors, "
+        "simulation");
     EXPECT_EQ(
         hover_error("autopilot: {gain: 5}\n"),
         "x.yaml:3: autopilot.gain: unknown key; `limpet params autopilot` lists what there is");
@@ -116,6 +117,12 @@ TEST_F(BadInput, Seed) {
               "x.yaml:3: seed: " + allowed + "\"18446744073709551616\"");
     EXPECT_EQ(hover_error("seed: []\n"), "x.yaml:3: seed: " + allowed + "a list");
     EXPECT_EQ(hover_error("seed: 18446744073709551615\n"), "");
+    EXPECT_EQ(hover_error("noise: [[1, 0.6], [2, -0.8]]\n"), "");
+    EXPECT_EQ(hover_error("noise: []\n"), "");
+    EXPECT_NE(hover_error("noise: 7\n").find("as in [[1, 0.6], [2, 0.8]]"), std::string::npos);
+    EXPECT_NE(hover_error("noise: [[1]]\n").find("as in [1, 0.6]"), std::string::npos);
+    EXPECT_NE(hover_error("noise: [[1, 0]]\n").find("needs a weight beyond"), std::string::npos);
+    EXPECT_NE(hover_error("noise: [[-1, 1]]\n").find("0..18446744073709551615"), std::string::npos);
 }
 
 TEST_F(BadInput, Mission) {

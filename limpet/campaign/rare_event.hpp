@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "limpet/campaign/results.hpp"
+
+namespace limpet::campaign {
+
+/// A rare event, and the figure of a flight by which a search comes nearer to it.
+struct RareEvent {
+    std::string text;                ///< "failed_to_seal", "cup_margin_min_N<0"
+    std::optional<Outcome> outcome;  ///< the event is that; none: `figure` is beyond `limit`
+    std::string figure;              ///< a metric, `attempts` or `simulated_s`
+    bool rising = false;             ///< towards the event; else the figure falls
+    double limit = 0.0;
+    bool inclusive = false;  ///< the limit itself is the event as well
+
+    /// NaN: did not come to pass.
+    [[nodiscard]] double value(const RunRow& row) const;
+    /// What RareSample::fall says: falls towards the event, infinite where there is no value.
+    [[nodiscard]] double fall(const RunRow& row) const;
+    [[nodiscard]] bool happened(const RunRow& row) const;
+    /// The figure's value at a fall.
+    [[nodiscard]] double value_at(double fall) const { return rising ? -fall : fall; }
+};
+
+/// How the figure for an outcome's levels is given.
+struct RareGuide {
+    std::string falling;  ///< name of a figure, or empty
+    std::string rising;   ///< likewise
+};
+
+/// @param text   an outcome, or a figure with <, <=, > or >= and a number
+/// @param guide  of an outcome; failed_to_seal and timed_out have one of their own
+/// @throws InputError one line: what is unknown and what is near, or what is missing
+[[nodiscard]] RareEvent parse_rare_event(const std::string& text, const RareGuide& guide = {});
+
+}  // namespace limpet::campaign
