@@ -66,11 +66,10 @@ Verb picture_verb(const char* name, const char* about, const Draw& work) {
 /// The recording as tables, with what is attached to it.
 draw::Pictures write_tables(const record::Recording& recording,
                             const std::filesystem::path& folder) {
+    require_plain_names(recording);
     draw::Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
-    for (const mcap::Attachment& attachment : recording.attachments) {
-        written.files.push_back(folder / "csv" / attachment.name);
-        write_file(written.files.back(), attachment.text);
-    }
+    const auto attached = write_attachments(recording, folder / "csv");
+    written.files.insert(written.files.end(), attached.begin(), attached.end());
     return written;
 }
 
