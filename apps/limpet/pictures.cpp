@@ -14,6 +14,7 @@
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "output.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -43,7 +44,7 @@ void draw(const PictureOptions& options, const Draw& work) {
     }
     print_files(pictures.files);
     for (const std::string& missing : pictures.missing) {
-        fmt::print(stderr, "limpet: {}\n", missing);
+        complain(missing);
     }
     if (!damage.empty()) {
         throw InputError(damage);

@@ -35,11 +35,7 @@ public:
     }
     /// @return bytes read, 0 at the end, negative with errno
     [[nodiscard]] ssize_t read_some(char* to, std::size_t most) const {
-        ssize_t count = 0;
-        do {
-            count = read(descriptor_, to, most);
-        } while (count < 0 && errno == EINTR);
-        return count;
+        return read(descriptor_, to, most);
     }
 
 private:
@@ -51,6 +47,9 @@ private:
 std::string read_file(const std::filesystem::path& path, const FileBound& bound,
                       const std::string& shown) {
     const auto cannot = [&shown](int why) {
+        if (why == EINTR) {  // a pipe that nobody fills
+            throw Interrupted("interrupted while reading " + shown);
+        }
         return InputError(shown + ": cannot be read: " + std::strerror(why));
     };
     const OpenFile file(path);

@@ -17,6 +17,7 @@ struct FileBound {
 /// Reads a file whole; the one place where what others wrote comes into memory.
 /// @param shown  how the path is called in messages
 /// @throws InputError  one line, for a folder, a file that is missing, unreadable or larger
+/// @throws Interrupted by a signal that is handled
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, const FileBound& bound,
                                     const std::string& shown);
 /// The same, called as it is.

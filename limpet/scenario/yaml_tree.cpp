@@ -12,6 +12,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -181,6 +182,9 @@ const YamlNode* YamlNode::find(std::string_view name) const {
 YamlNode parse_yaml(const std::string& text, const std::string& name) {
     if (!is_text(text)) {
         throw InputError(name + ": is not a text file");
+    }
+    if (!is_utf8(text)) {
+        throw InputError(name + ": is not UTF-8 text");
     }
     if (text.size() > kYamlFile.most_MB * 1'000'000) {  // that of a recording came another way
         throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");

@@ -16,6 +16,7 @@ enum class Outcome {
     release_aborted,  ///< gave up the release and rests on the wall again
     crashed,          ///< hit something with something else than the cup and the legs
     timed_out,        ///< the scenario's time is over
+    interrupted,      ///< somebody ended it: Ctrl-C, SIGTERM
 };
 
 [[nodiscard]] inline std::string_view to_string(Outcome outcome) {
