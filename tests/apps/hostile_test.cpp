@@ -194,6 +194,15 @@ TEST(Hostile, CtrlCEndsTheWaitForALog) {
     EXPECT_FALSE(fs::exists(bench.folder() / "out"));
 }
 
+TEST(Hostile, CtrlCInTheLastPartOfThePaperWritesNoPage) {
+    const Bench bench;
+    Started paper(bench.folder(), "paper", {"reproduce", "--only", "trials", "--out", "o"});
+    ASSERT_TRUE(paper.says("pendulum trials", seconds(30)));
+    paper.signal(SIGINT);
+    expect_line(paper.wait(seconds(60)), 130, "stopped; no page was written");
+    EXPECT_FALSE(fs::exists(bench.folder() / "o/index.html"));
+}
+
 TEST(Hostile, TwoFlightsDoNotShareAFolder) {
     const Bench bench;
     Started first(bench.folder(), "first",

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string refusal_of(const std::string& urdf) {
+std::string urdf_refusal(const std::string& urdf) {
     const TestFolder folder;
     std::ofstream(folder / "x.urdf") << urdf;
     try {
@@ -24,7 +24,7 @@ std::string refusal_of(const std::string& urdf) {
     return "";
 }
 
-std::string link_of(const std::string& mass, const std::string& ixy) {
+std::string robot_with(const std::string& mass, const std::string& ixy) {
     return fmt::format(
         "<robot name=\"r\">\n<link name=\"a\"><inertial><origin xyz=\"0 0 0\" rpy=\"0 0 0.1\"/>"
         "<mass value=\"{}\"/><inertia ixx=\"1\" ixy=\"{}\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
@@ -33,11 +33,11 @@ std::string link_of(const std::string& mass, const std::string& ixy) {
 }
 
 TEST(UrdfReader, AnInertiaIsAFiniteMatrixOfABody) {
-    EXPECT_EQ(refusal_of(link_of("1", "0.1")), "");
+    EXPECT_EQ(urdf_refusal(robot_with("1", "0.1")), "");
     for (const char* bad : {"1e300", "-1e155", "1e308", "nan", "inf", "1e999", "5", ""}) {
-        EXPECT_THAT(refusal_of(link_of("1", bad)), HasSubstr("x.urdf:2: ")) << bad;
+        EXPECT_THAT(urdf_refusal(robot_with("1", bad)), HasSubstr("x.urdf:2: ")) << bad;
     }
-    EXPECT_THAT(refusal_of(link_of("1e300", "0.1")), HasSubstr("below 1e+100"));
+    EXPECT_THAT(urdf_refusal(robot_with("1e300", "0.1")), HasSubstr("below 1e+100"));
 }
 
 TEST(UrdfReader, BoundsWhatIsLookedUpAmongAll) {
@@ -45,14 +45,14 @@ TEST(UrdfReader, BoundsWhatIsLookedUpAmongAll) {
     for (int i = 0; i < 501; ++i) {
         links += fmt::format("<link name=\"l{}\"/>", i);
     }
-    EXPECT_THAT(refusal_of(links + "</robot>"), HasSubstr("more than 500 links"));
+    EXPECT_THAT(urdf_refusal(links + "</robot>"), HasSubstr("more than 500 links"));
     std::string visuals = "<robot name=\"r\"><link name=\"a\">";
     for (int i = 0; i < 501; ++i) {
         visuals += "<visual><geometry><sphere radius=\"1\"/></geometry></visual>";
     }
-    EXPECT_THAT(refusal_of(visuals + "</link></robot>"), HasSubstr("more than 500 visuals"));
-    EXPECT_THAT(refusal_of(std::string(2'000'001, ' ')), HasSubstr("larger than 2 MB"));
-    EXPECT_THAT(refusal_of(""), HasSubstr("an empty file"));
+    EXPECT_THAT(urdf_refusal(visuals + "</link></robot>"), HasSubstr("more than 500 visuals"));
+    EXPECT_THAT(urdf_refusal(std::string(2'000'001, ' ')), HasSubstr("larger than 2 MB"));
+    EXPECT_THAT(urdf_refusal(""), HasSubstr("an empty file"));
 }
 
 }  // namespace
