@@ -17,7 +17,7 @@ std::string urdf_refusal(const std::string& urdf) {
     const TestFolder folder;
     std::ofstream(folder / "x.urdf") << urdf;
     try {
-        (void)read_urdf(folder / "x.urdf");
+        (void)models::read_urdf(folder / "x.urdf");
     } catch (const InputError& error) {
         return error.what();
     }
