@@ -135,9 +135,11 @@ private:
         link.mass_kg = number(inertial.child("mass"), "value");
         const auto node = inertial.child("inertia");
         const auto at = [&](const char* key) { return number(node, key); };
+        // All before the first is put in: an initializer that is left half way aborts.
+        const double xx = at("ixx"), yy = at("iyy"), zz = at("izz");
+        const double xy = at("ixy"), xz = at("ixz"), yz = at("iyz");
         Matrix3 own;
-        own << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"),
-            at("iyz"), at("izz");
+        own << xx, xy, xz, xy, yy, yz, xz, yz, zz;
         link.inertia_kg_m2 = q.toRotationMatrix() * own * q.toRotationMatrix().transpose();
         if (link.mass_kg == 0.0 && own.isZero()) {
             return;  // a frame without a body
