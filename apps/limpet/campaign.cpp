@@ -8,12 +8,12 @@
 
 #include "command_line.hpp"
 #include "launch.hpp"
-#include "limpet/campaign/folder_lock.hpp"
 #include "limpet/campaign/ranks.hpp"
 #include "limpet/campaign/rare_campaign.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/folder_lock.hpp"
 #include "output.hpp"
 #include "rare.hpp"
 #include "terminal.hpp"
@@ -90,11 +90,11 @@ campaign::CampaignWatch campaign_watch(Terminal& terminal) {
 ExitCode conclude(const campaign::Progress& progress, campaign::Results& results,
                   const CampaignOptions& options, const fs::path& folder, Terminal& terminal) {
     if (progress.finished < progress.runs) {
-        fmt::print(stderr,
-                   "limpet: stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
-                   "--out {}{} --resume\n",
-                   progress.finished, progress.runs, options.file, folder.string(),
-                   options.shard.empty() ? "" : " --shard " + options.shard);
+        complain(
+            fmt::format("stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
+                        "--out {}{} --resume",
+                        progress.finished, progress.runs, options.file, folder.string(),
+                        options.shard.empty() ? "" : " --shard " + options.shard));
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
@@ -111,8 +111,8 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     terminal.line("", "limpet replay " + file + " 0     one run, recorded");
     if (const auto faults = progress.outcomes.find(campaign::kFault);
         faults != progress.outcomes.end()) {
-        fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",
-                   faults->second, file);
+        complain(fmt::format("{} runs broke off by a fault of ours: limpet summary {}",
+                             faults->second, file));
         return ExitCode::our_fault;
     }
     return ExitCode::ok;
@@ -136,7 +136,7 @@ struct Place {
           results(begin_results(campaign, folder, options.resume, shard)) {}
 
     fs::path folder;
-    campaign::FolderLock lock;
+    FolderLock lock;
     campaign::Results results;
 };
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::app {
 namespace {
@@ -52,6 +53,16 @@ void add(CLI::App& verb, const Option& option) {
     }
     if (option.rule) {
         option.rule(verb, *added);
+    }
+}
+
+/// Names of files and folders come into recordings, JSON and XML, which can hold nothing else.
+void require_utf8(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        if (!is_utf8(argv[i])) {
+            throw InputError(
+                fmt::format("{}: is not UTF-8, the only text that is taken", in_quotes(argv[i])));
+        }
     }
 }
 
@@ -160,6 +171,7 @@ void only_with(const Given& given, bool used, std::initializer_list<const char*>
 }
 
 ExitCode run(const Program& program, int argc, char** argv) {
+    require_utf8(argc, argv);
     require_verb(program.verbs, argc, argv);
     CLI::App app{program.about, program.name};
     app.footer(program.footer);

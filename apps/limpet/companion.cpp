@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -94,7 +95,7 @@ ExitCode code_of(const CompanionOptions& options, const companion::CompanionResu
             throw InputError("nothing was flown: " + result.reason);
         case companion::CompanionEnd::interrupted: return ExitCode::interrupted;
         case companion::CompanionEnd::handed_back:
-            fmt::print(stderr, "limpet: control was handed back: {}\n", result.reason);
+            complain("control was handed back: " + result.reason);
             return ExitCode::other_outcome;
         case companion::CompanionEnd::mission_over: break;
     }
@@ -119,8 +120,10 @@ ExitCode companion(const CompanionOptions& options) {
     const std::atomic<bool>* stop = stop_on_signals();
     companion::Wires wires = open_wires(config);
     companion::CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
+    std::optional<OutFolder> folder;
     if (!options.no_record) {
-        conduct.recording = make_folder(options.out) / "flight.mcap";
+        folder.emplace(options.out);
+        conduct.recording = folder->path() / "flight.mcap";
     }
     terminal.line(terminal.dim(simulation::event_head()));
     const companion::CompanionResult result = run(

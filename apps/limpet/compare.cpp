@@ -14,6 +14,7 @@
 #include "limpet/compare/text.hpp"
 #include "limpet/core/errors.hpp"
 #include "output.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -117,7 +118,9 @@ ExitCode compare_flights(const CompareOptions& options) {
     for (const compare::Excess& check : checked) {
         if (check.exceeded()) {
             exceeded = true;
-            fmt::print(stderr, "limpet: {}", compare::limits_text({check}));
+            std::string text = compare::limits_text({check});
+            text.resize(text.find_last_not_of('\n') + 1);
+            complain(std::move(text));
         }
     }
     return exceeded ? ExitCode::other_outcome : ExitCode::ok;

@@ -59,8 +59,8 @@ ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outco
     if (!expected || *expected == outcome) {
         return ExitCode::ok;
     }
-    fmt::print(stderr, "limpet: expected {}, the {} ended {}: {}\n", to_string(*expected), what,
-               to_string(outcome), reason);
+    complain(fmt::format("expected {}, the {} ended {}: {}", to_string(*expected), what,
+                         to_string(outcome), reason));
     return ExitCode::other_outcome;
 }
 
@@ -107,15 +107,15 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
         }
         terminal.written(files);
     }
-    if (interrupted) {
-        terminal.line("interrupted; the recording is whole up to here");
-    }
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    return interrupted
-               ? ExitCode::interrupted
-               : judged(expected_outcome(options.expect), "flight", result.outcome, result.reason);
+    if (interrupted) {
+        throw Interrupted(result.recording.empty()
+                              ? "interrupted"
+                              : "interrupted; the recording is whole up to here");
+    }
+    return judged(expected_outcome(options.expect), "flight", result.outcome, result.reason);
 }
 
 }  // namespace limpet::app

@@ -68,6 +68,7 @@ scenario::Scenario load(const FlyOptions& options, const Given& given) {
 }
 
 ExitCode fly_one(const FlyOptions& options, const Given& given) {
+    const std::atomic<bool>* stop = stop_on_signals();
     check_together(given, options);
     (void)expected_outcome(options.expect);  // before any work
     const double speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0);
@@ -85,7 +86,6 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     }
     Terminal terminal(options.voice());
     introduce(scenario, terminal);
-    const std::atomic<bool>* stop = stop_on_signals();
     simulation::FlightConduct conduct{.speed = speed, .stop = stop};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {

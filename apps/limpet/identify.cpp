@@ -15,6 +15,7 @@
 #include "limpet/identification/pressure_log.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "output.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -212,14 +213,22 @@ void require_sense(const identification::IdentificationOptions& options) {
 void identify(IdentifyOptions options) {
     require_sense(options.of_log);
     options.of_log.atmosphere_Pa = 100.0 * options.atmosphere_hPa;
+    const std::atomic<bool>* stop = stop_on_signals();
+    const auto go_on = [stop](const char* written) {
+        if (*stop) {
+            throw Interrupted(fmt::format("interrupted; {} was written", written));
+        }
+    };
     const identification::PressureTrace trace =
         identification::read_pressure_log(fs::path(options.log));
+    go_on("nothing");
     identification::PressureFit fit;
     try {
         fit = identify_pressure(trace, options.of_log);
     } catch (const InputError& error) {
         throw InputError(options.log + ": " + error.what());
     }
+    go_on("nothing");
     const std::optional<scenario::Surface> surface = nearest_surface(fit);
     const std::vector<Row> rows = rows_of(fit);
     const bool draws = !options.json || !options.out.empty();  // a program gets what it asks for
@@ -237,6 +246,7 @@ void identify(IdentifyOptions options) {
     if (!options.json) {
         print_files(pictures.files);
     }
+    go_on("all");
 }
 
 OptionList options_of(IdentifyOptions& options) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
+#include "terminal.hpp"
 
 namespace {
 
@@ -29,15 +31,27 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 1 another outcome than --expect or control handed back, 2 bad input,\n"
     "70 a fault of ours, 130 interrupted.\n";
 
-/// One line on standard error, so that scripts and people find it.
+constexpr const char* kNoOutput = "standard output cannot be written";
+
 int fail(ExitCode code, const std::string& message) {
-    fmt::print(stderr, "limpet: {}\n", message);
+    limpet::app::complain(message);
     return static_cast<int>(code);
+}
+
+/// A file that is opened must not become standard error, or a recording holds our messages. What is
+/// written to a standard output that was closed fails, as it should.
+void fill_closed_streams() {
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (fcntl(stream, F_GETFD) < 0) {
+            (void)open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    fill_closed_streams();
     std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
     try {
         const ExitCode code =
@@ -48,7 +62,7 @@ int main(int argc, char** argv) {
                               .verbs = limpet::app::all_verbs()},
                              argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            throw limpet::InputError("standard output cannot be written");
+            return fail(ExitCode::bad_input, kNoOutput);
         }
         return static_cast<int>(code);
     } catch (const limpet::Interrupted& error) {
@@ -56,6 +70,9 @@ int main(int argc, char** argv) {
     } catch (const limpet::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) {
+            return fail(ExitCode::bad_input, kNoOutput);
+        }
         return fail(ExitCode::our_fault, std::string("a fault of ours: ") + error.what());
     }
 }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/campaign/folder_lock.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -31,7 +30,6 @@ void merge(const MergeOptions& options) {
         parts.push_back(campaign::Results::file_of(part));
     }
     const OutFolder folder(options.out);
-    const campaign::FolderLock lock(folder.path());
     const fs::path target = folder.path() / campaign::Results::kFileName;
     const std::uint32_t rows = campaign::merge_results(parts, target);
     fmt::print("{} runs of {} files\n{}\n", rows, parts.size(), target.string());

@@ -40,6 +40,7 @@ OutFolder::OutFolder(const fs::path& folder) : path_(folder) {
         made_.push_back(above);
     }
     (void)make_folder(folder);
+    lock_.emplace(folder);
 }
 
 OutFolder::~OutFolder() {

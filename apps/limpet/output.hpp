@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "limpet/core/folder_lock.hpp"
 
 namespace limpet::app {
 
@@ -16,10 +19,10 @@ std::filesystem::path make_folder(const std::filesystem::path& folder);
 std::filesystem::path folder_or_beside(const std::string& out, const std::filesystem::path& file);
 
 /// As make_folder, for work that may end before it begins: when nothing has come into it, what was
-/// made goes with this.
+/// made goes with this. Nobody else flies into it meanwhile.
 class OutFolder {
 public:
-    /// @throws InputError as make_folder
+    /// @throws InputError as make_folder, and when another is at work in it
     explicit OutFolder(const std::filesystem::path& folder);
     ~OutFolder();
     OutFolder(const OutFolder&) = delete;
@@ -30,6 +33,7 @@ public:
 private:
     std::filesystem::path path_;
     std::vector<std::filesystem::path> made_;  ///< innermost first
+    std::optional<FolderLock> lock_;
 };
 
 /// For scripts: a path a line.

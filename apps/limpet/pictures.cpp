@@ -14,6 +14,7 @@
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
 #include "output.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -43,7 +44,7 @@ void draw(const PictureOptions& options, const Draw& work) {
     }
     print_files(pictures.files);
     for (const std::string& missing : pictures.missing) {
-        fmt::print(stderr, "limpet: {}\n", missing);
+        complain(missing);
     }
     if (!damage.empty()) {
         throw InputError(damage);
@@ -66,11 +67,10 @@ Verb picture_verb(const char* name, const char* about, const Draw& work) {
 /// The recording as tables, with what is attached to it.
 draw::Pictures write_tables(const record::Recording& recording,
                             const std::filesystem::path& folder) {
+    require_plain_names(recording);
     draw::Pictures written{.files = write_csv(recording, folder / "csv"), .missing = {}};
-    for (const mcap::Attachment& attachment : recording.attachments) {
-        written.files.push_back(folder / "csv" / attachment.name);
-        write_file(written.files.back(), attachment.text);
-    }
+    const auto attached = write_attachments(recording, folder / "csv");
+    written.files.insert(written.files.end(), attached.begin(), attached.end());
     return written;
 }
 

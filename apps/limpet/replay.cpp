@@ -37,9 +37,10 @@ void replay(const ReplayOptions& options) {
     const fs::path database = campaign::Results::file_of(options.database);
     campaign::Results results(database, campaign::Access::read);
     const campaign::RunRow row = results.row(options.run);  // before a folder is made for it
-    const fs::path folder = make_folder(options.out.empty() ? database.parent_path() /
-                                                                  fmt::format("run_{}", options.run)
-                                                            : fs::path(options.out));
+    const OutFolder out(options.out.empty()
+                            ? database.parent_path() / fmt::format("run_{}", options.run)
+                            : fs::path(options.out));
+    const fs::path& folder = out.path();
     Terminal terminal(Terminal::Voice::normal);
     introduce(results.campaign(), row, terminal);
     const simulation::FlightResult result =

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "command_line.hpp"
+#include "limpet/core/errors.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -72,8 +73,7 @@ ExitCode reproduce_paper(const ReproduceOptions& options) {
     try {
         fly_parts(options);
     } catch (const Interrupted&) {
-        fmt::print(stderr, "limpet: stopped; no page was written\n");
-        return ExitCode::interrupted;
+        throw Interrupted("stopped; no page was written");
     }
     return ExitCode::ok;
 }

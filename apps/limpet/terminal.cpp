@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -13,6 +14,12 @@ namespace {
 
 /// A signal handler can reach nothing else.
 std::atomic<bool> interrupted = false;
+
+/// What does not get there is known to the stream: main() asks standard output in the end.
+void put(std::FILE* out, const std::string& text) {
+    (void)std::fwrite(text.data(), 1, text.size(), out);
+    (void)std::fflush(out);
+}
 
 }  // namespace
 
@@ -33,8 +40,7 @@ void Terminal::line(const std::string& text) {
         return;
     }
     clear_progress();
-    fmt::print(out_, "{}\n", text);
-    std::fflush(out_);
+    put(out_, text + "\n");
 }
 
 void Terminal::line(const std::string& about, const std::string& text) {
@@ -52,8 +58,7 @@ void Terminal::progress(const std::string& text) {
     if (!live_) {
         return;
     }
-    fmt::print(out_, "\r\033[K{}", text);
-    std::fflush(out_);
+    put(out_, "\r\033[K" + text);
     progress_shown_ = true;
 }
 
@@ -67,10 +72,21 @@ std::string Terminal::dim(const std::string& text) const {
 
 void Terminal::clear_progress() {
     if (progress_shown_) {
-        fmt::print(out_, "\r\033[K");
-        std::fflush(out_);
+        put(out_, "\r\033[K");
         progress_shown_ = false;
     }
+}
+
+void complain(std::string message) {
+    constexpr std::size_t kLongest = 4000;
+    if (message.size() > kLongest) {
+        message.resize(kLongest);
+        message += "...";
+    }
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return c == 127 || (c >= 0 && c < ' '); },
+        ' ');
+    put(stderr, "limpet: " + message + "\n");
 }
 
 const std::atomic<bool>* stop_on_signals() {

@@ -44,6 +44,10 @@ private:
     bool progress_shown_ = false;
 };
 
+/// One line on standard error, "limpet: " before it, so that scripts and people find it. A standard
+/// error that takes nothing changes no exit code.
+void complain(std::string message);
+
 /// From now on the first Ctrl-C, SIGTERM or SIGHUP sets the flag, for long work to end in good
 /// order; the second ends the program as ever.
 [[nodiscard]] const std::atomic<bool>* stop_on_signals();

@@ -11,6 +11,7 @@
 
 #include "command_line.hpp"
 #include "output.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -25,7 +26,7 @@ struct ViewOptions {
 void open_in_browser(const std::filesystem::path& page) {
     if (::fork() == 0) {
         ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
-        fmt::print(stderr, "limpet: no xdg-open here: open {} in a browser\n", page.string());
+        complain("no xdg-open here: open " + page.string() + " in a browser");
         std::_Exit(0);
     }
 }

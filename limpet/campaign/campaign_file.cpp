@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <set>
 
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -16,6 +17,7 @@ using scenario::YamlNode;
 
 constexpr double kHuge = 1e300;
 constexpr std::uint64_t kMostRuns = 1'000'000'000;
+constexpr std::size_t kMostOverrides = 1000;
 constexpr std::uint64_t kMostPoints = 1'000'000;
 constexpr std::uint64_t kLargestSeed = 9'223'372'036'854'775'807U;  ///< what SQLite can hold
 constexpr double kLeastShare = 1e-3;
@@ -59,12 +61,13 @@ std::vector<SampledValue> read_values(const YamlNode& list) {
     const auto& items = read_list(list, "a list of values, as in [0.8, 1.0, 1.2]", 1);
     const bool names = is_name(items.front());
     std::vector<SampledValue> values;
+    std::set<SampledValue> seen;
     for (const YamlNode& item : items) {
         if (names && !is_name(item)) {
             fail(item, fmt::format("{} is a number among names", scenario::shown(item.text)));
         }
         SampledValue value = names ? SampledValue(read_text(item)) : SampledValue(number(item));
-        if (std::find(values.begin(), values.end(), value) != values.end()) {
+        if (!seen.insert(value).second) {
             fail(item, fmt::format("{} stands in the list twice", scenario::shown(item.text)));
         }
         values.push_back(std::move(value));
@@ -205,7 +208,8 @@ std::string read_name(const YamlNode& node) {
 std::vector<std::string> read_overrides(const YamlNode* node) {
     std::vector<std::string> overrides;
     if (node != nullptr && node->kind != YamlNode::Kind::null) {
-        for (const YamlNode& item : read_list(*node, "a list, as in [guidance.attempts=1]")) {
+        for (const YamlNode& item : read_list(
+                 *node, "a list of at most 1000, as in [guidance.attempts=1]", 0, kMostOverrides)) {
             overrides.push_back(read_text(item));
         }
     }

@@ -20,6 +20,32 @@ namespace limpet {
     return whole ? std::optional(value) : std::nullopt;
 }
 
+/// Whether the text is UTF-8, as JSON, XML and recordings need it.
+[[nodiscard]] inline bool is_utf8(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        const auto at = [&](std::size_t k) {
+            return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
+        };
+        const unsigned first = at(i);
+        const std::size_t more = first < 0x80 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+        const unsigned second = at(i + 1);
+        if (more > 0 && (first < 0xC2 || first > 0xF4 ||       // none, or overlong
+                         (first == 0xE0 && second < 0xA0) ||   // overlong
+                         (first == 0xED && second > 0x9F) ||   // a surrogate
+                         (first == 0xF0 && second < 0x90) ||   // overlong
+                         (first == 0xF4 && second > 0x8F))) {  // beyond Unicode
+            return false;
+        }
+        for (std::size_t k = 1; k <= more; ++k) {
+            if ((at(i + k) & 0xC0U) != 0x80U) {
+                return false;
+            }
+        }
+        i += 1 + more;
+    }
+    return true;
+}
+
 /// The text in quotes, fit for one line of a terminal.
 [[nodiscard]] inline std::string in_quotes(std::string_view text) {
     constexpr std::size_t kLongest = 40;

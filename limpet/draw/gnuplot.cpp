@@ -9,6 +9,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -96,6 +97,9 @@ void run(const std::filesystem::path& folder, const std::string& script) {
         throw InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(problem)));
     }
     const int status = wait_for(child);
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM)) {
+        throw Interrupted("interrupted while a figure was drawn");  // Ctrl-C reaches both
+    }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         throw InternalError(
             fmt::format("gnuplot failed (status {}): {}", status, read_text(folder / kLog)));

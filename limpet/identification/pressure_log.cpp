@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 
 namespace limpet::identification {
@@ -171,15 +170,8 @@ PressureTrace read_pressure_log(std::istream& text, const std::string& name) {
 }
 
 PressureTrace read_pressure_log(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        throw InputError(path.string() + ": is a folder, not a file of comma-separated values");
-    }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(path.string() + ": " + std::strerror(errno));
-    }
-    return read_pressure_log(file, path.string());
+    std::istringstream text(read_file(path, {"pressure log", 50}));
+    return read_pressure_log(text, path.string());
 }
 
 }  // namespace limpet::identification

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -14,6 +13,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
@@ -81,13 +81,7 @@ PropellerRow read_row(const std::vector<std::string>& words, const Places& place
 
 std::vector<PropellerRow> read_propeller_file(const fs::path& path) {
     const std::string name = path.string();
-    if (fs::is_directory(path)) {
-        throw InputError(name + ": is a directory");
-    }
-    std::ifstream file(path);
-    if (!file) {
-        throw InputError(name + ": cannot be read: No such file");
-    }
+    std::istringstream file(read_file(path, {"propeller file", 1}));
     std::vector<PropellerRow> rows;
     std::optional<Places> places;
     std::string line;

@@ -5,19 +5,22 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/read_file.hpp"
 
 namespace limpet::mcap {
 namespace {
 
 /// A chunk that claims more is not unpacked: a few bytes of zstd can claim terabytes.
 constexpr std::uint64_t kMaxChunk_bytes = 256u << 20;
+/// What is beyond is no damaged file but one that was made to keep a reader busy.
+constexpr std::uint64_t kMostDamaged = 100'000;
+constexpr FileBound kRecording = {"recording", 1000};
 
-Bytes read_file(const std::filesystem::path& path) {
+std::string content_of(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code problem;
     const auto status = std::filesystem::status(path, problem);
@@ -27,18 +30,14 @@ Bytes read_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) {
         throw InputError(name + ": not a recording: not a regular file");
     }
-    std::ifstream file(path, std::ios::binary);
-    Bytes bytes(file ? std::filesystem::file_size(path, problem) : 0);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()))) {
-        throw InputError(name + ": cannot be read");
-    }
+    std::string bytes = read_file(path, kRecording);
     if (bytes.empty()) {
         throw InputError(name + ": not a recording: empty file");
     }
     const std::size_t compared = std::min(bytes.size(), kMagic.size());
     if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(compared),
-                    bytes.begin())) {
+                    bytes.begin(),
+                    [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); })) {
         throw InputError(name + ": not a recording: does not begin as an MCAP file does");
     }
     return bytes;
@@ -47,8 +46,12 @@ Bytes read_file(const std::filesystem::path& path) {
 /// One pass over a file.
 class Scan {
 public:
-    Scan(ByteView file, const MessageVisitor& visit)
-        : file_(file), visit_(visit), zstd_(ZSTD_createDCtx(), &ZSTD_freeDCtx) {}
+    Scan(ByteView file, std::string name, const MessageVisitor& visit)
+        : file_(file),
+          name_(std::move(name)),
+          visit_(visit),
+          zstd_(ZSTD_createDCtx(), &ZSTD_freeDCtx),
+          unpacked_left_(unpacked_allowance_bytes(file.size())) {}
 
     Contents run() {
         Cursor in(file_.subspan(std::min(file_.size(), kMagic.size())));
@@ -92,6 +95,10 @@ private:
             ++contents_.skipped_records;
             if (first_problem_.empty()) {
                 first_problem_ = problem.what();
+            }
+            if (contents_.skipped_records > kMostDamaged) {
+                throw InputError(fmt::format("{}: more than {} damaged records, first a {}", name_,
+                                             kMostDamaged, first_problem_));
             }
         }
     }
@@ -207,6 +214,13 @@ private:
         if (header.size > kMaxChunk_bytes) {
             throw Malformed("chunk larger than 256 MiB");
         }
+        if (header.size > unpacked_left_) {
+            throw InputError(fmt::format(
+                "{}: unpacks to more than {} MB, which no recording of {} "
+                "bytes does",
+                name_, unpacked_allowance_bytes(file_.size()) / 1'000'000, file_.size()));
+        }
+        unpacked_left_ -= header.size;
         unpacked_.resize(static_cast<std::size_t>(header.size));
         const std::size_t size = ZSTD_decompressDCtx(
             zstd_.get(), unpacked_.data(), unpacked_.size(), stored.data(), stored.size());
@@ -262,8 +276,10 @@ private:
     }
 
     ByteView file_;
+    std::string name_;
     const MessageVisitor& visit_;
     std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd_;
+    std::uint64_t unpacked_left_;
     Bytes unpacked_;
     Contents contents_;
     bool footer_seen_ = false;
@@ -273,9 +289,17 @@ private:
 
 }  // namespace
 
+std::uint64_t unpacked_allowance_bytes(std::uint64_t file_bytes) {
+    constexpr std::uint64_t kAnyFile_bytes = 256'000'000;
+    constexpr std::uint64_t kMost_bytes = 4'000'000'000;
+    constexpr std::uint64_t kTimes = 100;  // a flight's own unpack to some three times their size
+    return std::min(kAnyFile_bytes + kTimes * file_bytes, kMost_bytes);
+}
+
 Contents read(const std::filesystem::path& path, const MessageVisitor& visit) {
-    const Bytes file = read_file(path);
-    return Scan(file, visit).run();
+    const std::string file = content_of(path);
+    const ByteView bytes(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
+    return Scan(bytes, path.string(), visit).run();
 }
 
 }  // namespace limpet::mcap

@@ -31,13 +31,19 @@ struct Contents {
 /// as a damaged record.
 using MessageVisitor = std::function<void(const Contents& contents, const Message& message)>;
 
+/// What may come of a file of that size once it is unpacked: more than any flight's, far less than
+/// a file that was made to fill the memory.
+[[nodiscard]] std::uint64_t unpacked_allowance_bytes(std::uint64_t file_bytes);
+
 /// Reads an MCAP file from its start to its end, never by its index: so a file that was cut off
 /// anywhere gives everything that is whole in it, and a damaged chunk costs that chunk alone. Of a
 /// chunk that is cut off, the messages that are whole are given if it is not compressed.
 /// Knows the compressions "" and "zstd".
 /// @param path   read as a whole into memory
 /// @param visit  may be empty
-/// @throws InputError  if path is no file, cannot be read, is empty or is no MCAP file
+/// @throws InputError  if path is no file, cannot be read, is empty, is no MCAP file, is larger
+/// than
+///                     1 GB, unpacks to more than it is allowed or has over 100,000 damaged records
 [[nodiscard]] Contents read(const std::filesystem::path& path, const MessageVisitor& visit);
 
 }  // namespace limpet::mcap

@@ -5,12 +5,11 @@
 
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/read_file.hpp"
 
 namespace limpet::models {
 
@@ -125,10 +124,9 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
 
 Mesh read_stl(const std::filesystem::path& file) {
     const std::string name = file.string();
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || bytes.empty()) {
-        throw InputError(name + ": no such mesh, or it is empty");
+    const std::string bytes = read_file(file, {"mesh of an STL", 100});
+    if (bytes.empty()) {
+        throw InputError(name + ": an empty file, not an STL");
     }
     // Some binary files begin with "solid" too: the length decides.
     if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * word(bytes, kHeader - 4)) {

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/read_file.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet::models {
@@ -20,16 +19,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int kMostParts = 500;
+
 /// A file being read, which knows on which line a node stands.
 class Reader {
 public:
     explicit Reader(const fs::path& file) : file_(fs::absolute(file).lexically_normal()) {
-        std::ifstream in(file_, std::ios::binary);
-        text_.assign(std::istreambuf_iterator<char>(in), {});
-        if (!in.is_open() || text_.empty()) {
-            throw InputError(file.string() + ": no such URDF, or it is empty");
-        }
         robot_.file = file.string();
+        text_ = read_file(file_, {"URDF", 2}, robot_.file);
+        if (text_.empty()) {
+            throw InputError(robot_.file + ": an empty file, not a URDF");
+        }
     }
 
     UrdfRobot read() {
@@ -46,6 +46,13 @@ public:
         for (const auto material : robot.children("material")) {
             if (const auto colour = colour_of(material)) {
                 colours_[material.attribute("name").value()] = *colour;
+            }
+        }
+        // Each is looked up by its name among all.
+        for (const char* name : {"link", "joint"}) {
+            const auto all = robot.children(name);
+            if (std::distance(all.begin(), all.end()) > kMostParts) {
+                fail(robot, fmt::format("more than {} {}s", kMostParts, name));
             }
         }
         for (const auto link : robot.children("link")) {
@@ -128,9 +135,11 @@ private:
         link.mass_kg = number(inertial.child("mass"), "value");
         const auto node = inertial.child("inertia");
         const auto at = [&](const char* key) { return number(node, key); };
+        // All before the first is put in: an initializer that is left half way aborts.
+        const double xx = at("ixx"), yy = at("iyy"), zz = at("izz");
+        const double xy = at("ixy"), xz = at("ixz"), yz = at("iyz");
         Matrix3 own;
-        own << at("ixx"), at("ixy"), at("ixz"), at("ixy"), at("iyy"), at("iyz"), at("ixz"),
-            at("iyz"), at("izz");
+        own << xx, xy, xz, xy, yy, yz, xz, yz, zz;
         link.inertia_kg_m2 = q.toRotationMatrix() * own * q.toRotationMatrix().transpose();
         if (link.mass_kg == 0.0 && own.isZero()) {
             return;  // a frame without a body
@@ -211,6 +220,9 @@ private:
             read_inertial(inertial, link);
         }
         for (const auto visual : node.children("visual")) {
+            if (++visuals_ > kMostParts) {
+                fail(visual, fmt::format("more than {} visuals", kMostParts));
+            }
             link.visuals.push_back(read_shape(visual));
         }
         robot_.links.push_back(std::move(link));
@@ -250,6 +262,7 @@ private:
     std::string text_;
     std::map<std::string, std::array<double, 4>> colours_;
     UrdfRobot robot_;
+    int visuals_ = 0;  ///< of all links
 };
 
 }  // namespace

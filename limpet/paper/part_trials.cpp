@@ -23,7 +23,8 @@ campaign::CampaignSummary fly_trials(const char* name, const Study& study) {
     std::filesystem::remove(campaign::Results::file_of(folder));
     std::filesystem::create_directories(folder);
     campaign::Results results = begin_results(campaign, folder, false);
-    run_campaign(results, study.jobs);
+    run_campaign(results, study.jobs, {.on_progress = {}, .stop = study.stop});
+    study.say("");  // some of its runs may be missing
     return summarise(results);
 }
 

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "limpet/campaign/folder_lock.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/folder_lock.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/paper/claims.hpp"
 #include "limpet/paper/study.hpp"
@@ -122,7 +122,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
     const auto statements = load_statements(statements_file(), measured_names());
     PageText text = load_page_text(page_text_file(), parts());
     require_ours(options.folder);
-    const campaign::FolderLock lock(options.folder);
+    const FolderLock lock(options.folder);
     Study study{.folder = options.folder,
                 .quick = options.quick,
                 .jobs = options.jobs,
@@ -145,6 +145,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
         chosen[i].run(study);
         page.sections.push_back(study.section(chosen[i]));
     }
+    study.say("");  // the last part's runs may have been stopped
     page.claims = judged(study, chosen, options.only.empty());
     const Evidence counts = counted(page.claims);
     for (const std::string& paragraph : text.summary) {

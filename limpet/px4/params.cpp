@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 
 namespace limpet::px4 {
@@ -60,10 +60,7 @@ void set(const Parameter<autopilot::AutopilotParameters>& row, const Line& line,
 
 std::vector<std::string> load_px4_params(const std::string& path,
                                          autopilot::AutopilotParameters& parameters) {
-    std::ifstream file(path);
-    if (!file) {
-        throw InputError(fmt::format("{}: cannot be read", path));
-    }
+    std::istringstream file(read_file(path, {"parameter file", 1}));
     autopilot::AutopilotParameters loaded = parameters;
     std::vector<std::string> ignored;
     std::string text;
@@ -84,9 +81,6 @@ std::vector<std::string> load_px4_params(const std::string& path,
             continue;
         }
         set(*row, *line, where, loaded);
-    }
-    if (file.bad()) {  // a folder opens, but does not read
-        throw InputError(fmt::format("{}: cannot be read", path));
     }
     parameters = loaded;
     return ignored;

@@ -9,13 +9,16 @@
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/record/topics.hpp"
 #include "limpet/record/units.hpp"
 
 namespace limpet::record {
 namespace {
 
-std::string table_as_csv(const Table& table) {
+/// In pieces: the text of a table takes several times its memory.
+void write_table(const Table& table, std::ostream& file) {
+    constexpr std::size_t kPiece_bytes = 1 << 16;
     std::string out = "time_s";
     const auto append = [&out](const auto& field) {
         fmt::format_to(std::back_inserter(out), ",{}", field);
@@ -34,8 +37,12 @@ std::string table_as_csv(const Table& table) {
         for (const TextColumn& column : table.texts) {
             append(csv_field(column.values[row]));
         }
+        if (out.size() > kPiece_bytes) {
+            file << out;
+            out.clear();
+        }
     }
-    return out + '\n';
+    file << out << '\n';
 }
 
 std::string values_as_text(const RecordedEvent& event) {
@@ -59,14 +66,17 @@ std::string events_as_csv(const std::vector<RecordedEvent>& events) {
 /// A topic's name comes from the file: nothing of it may lead out of the folder.
 std::string file_name(std::string_view topic) {
     std::string name(topic.substr(std::min(topic.size(), topic.find_first_not_of('/'))));
-    std::replace(name.begin(), name.end(), '/', '_');
+    std::replace_if(
+        name.begin(), name.end(),
+        [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
     return name + ".csv";
 }
 
-std::filesystem::path write_whole(const std::filesystem::path& path, const std::string& text) {
+template <class Write>
+std::filesystem::path write_whole(const std::filesystem::path& path, const Write& write) {
     const std::filesystem::path part = path.string() + ".part";
     std::ofstream file(part, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    write(file);
     file.close();
     std::error_code problem;
     if (file) {
@@ -104,11 +114,41 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
     std::vector<std::filesystem::path> files;
     for (const Table& table : recording.tables) {
         if (table.type != info(Topic::events).type) {
-            files.push_back(write_whole(folder / file_name(table.topic), table_as_csv(table)));
+            files.push_back(write_whole(folder / file_name(table.topic),
+                                        [&](std::ostream& file) { write_table(table, file); }));
         }
     }
-    files.push_back(write_whole(folder / "events.csv", events_as_csv(recording.events)));
+    files.push_back(write_whole(folder / "events.csv", [&](std::ostream& file) {
+        file << events_as_csv(recording.events);
+    }));
     return files;
+}
+
+std::vector<std::filesystem::path> write_attachments(const Recording& recording,
+                                                     const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    for (const mcap::Attachment& attachment : recording.attachments) {
+        files.push_back(write_whole(folder / attachment.name,
+                                    [&](std::ostream& file) { file << attachment.text; }));
+    }
+    return files;
+}
+
+void require_plain_names(const Recording& recording) {
+    constexpr std::size_t kLongest = 200;
+    for (const mcap::Attachment& attachment : recording.attachments) {
+        const std::string& name = attachment.name;
+        const bool plain = !name.empty() && name.size() <= kLongest && name != "." &&
+                           name != ".." && std::none_of(name.begin(), name.end(), [](char c) {
+                               return c == '/' || c == 127 || static_cast<unsigned char>(c) < 0x20;
+                           });
+        if (!plain) {
+            throw InputError(
+                fmt::format("{}: attachment {}: must be the name of a file, without "
+                            "a folder, of 1..{} characters",
+                            recording.path.string(), in_quotes(name), kLongest));
+        }
+    }
 }
 
 }  // namespace limpet::record

@@ -20,6 +20,16 @@ namespace limpet::record {
 std::vector<std::filesystem::path> write_csv(const Recording& recording,
                                              const std::filesystem::path& folder);
 
+/// Writes what is attached to a recording into the folder, which is there, under its own names.
+/// @return the files
+/// @throws InputError if a file cannot be written, naming it
+std::vector<std::filesystem::path> write_attachments(const Recording& recording,
+                                                     const std::filesystem::path& folder);
+
+/// A recording may come from anybody, its names too: to be asked before anything is written.
+/// @throws InputError naming the first attachment whose name is no plain file name
+void require_plain_names(const Recording& recording);
+
 /// @return the text as a CSV field: in quotes if it holds a comma, a quote or a line break
 [[nodiscard]] std::string csv_field(std::string_view text);
 

@@ -14,6 +14,8 @@
 namespace limpet::record {
 namespace {
 
+constexpr std::size_t kMostProblems = 5;  ///< told one by one
+
 /// A table and what fills it; without a reader the topic is of a kind that is not read.
 struct TopicReader {
     Table table;
@@ -22,15 +24,17 @@ struct TopicReader {
 
 /// A reader of the channel's messages, which fills the topic's table.
 /// @throws InputError when they are of a kind that is not read
-void open(const mcap::Contents& contents, const mcap::Channel& channel, TopicReader& topic) {
+void open(const mcap::Contents& contents, const mcap::Channel& channel, TableAllowance& allowance,
+          TopicReader& topic) {
     topic.table.topic = channel.topic;
     const auto schema = contents.schemas.find(channel.schema_id);
     if (schema == contents.schemas.end() || schema->second.encoding != "ros2msg" ||
         channel.message_encoding != "cdr") {
         throw InputError("not cdr with a ros2msg schema");
     }
+    allowance.take_definition(schema->second.text.size());
     const auto types = parse_ros2msg(schema->second.name, schema->second.text);
-    topic.reader = std::make_unique<TableReader>(types, topic.table);
+    topic.reader = std::make_unique<TableReader>(types, topic.table, allowance);
 }
 
 std::string text_at(const Table& table, const std::string& column, std::size_t row) {
@@ -41,6 +45,14 @@ std::string text_at(const Table& table, const std::string& column, std::size_t r
 std::vector<RecordedEvent> events_of(const Table& table) {
     std::vector<RecordedEvent> events;
     const Column* lengths = table.find("values.length");
+    std::vector<std::pair<const TextColumn*, const Column*>> values;  // in the order of the array
+    for (std::size_t i = 0; i < kMaxArrayColumns; ++i) {
+        const Column* value = table.find(fmt::format("values[{}]", i));
+        if (value == nullptr) {
+            break;
+        }
+        values.emplace_back(table.find_text(fmt::format("value_names[{}]", i)), value);
+    }
     for (std::size_t row = 0; row < table.time_s.size(); ++row) {
         RecordedEvent event{.time_s = table.time_s[row],
                             .station = text_at(table, "station", row),
@@ -48,13 +60,9 @@ std::vector<RecordedEvent> events_of(const Table& table) {
                             .reason = text_at(table, "reason", row),
                             .values = {}};
         const double count = lengths == nullptr ? 0.0 : lengths->values[row];
-        for (int i = 0; i < count; ++i) {
-            const Column* value = table.find(fmt::format("values[{}]", i));
-            if (value == nullptr) {
-                break;
-            }
-            event.values.emplace_back(text_at(table, fmt::format("value_names[{}]", i), row),
-                                      value->values[row]);
+        for (std::size_t i = 0; i < values.size() && static_cast<double>(i) < count; ++i) {
+            const auto& [name, value] = values[i];
+            event.values.emplace_back(name != nullptr ? name->values[row] : "", value->values[row]);
         }
         events.push_back(std::move(event));
     }
@@ -87,25 +95,35 @@ const mcap::Attachment* Recording::attachment(std::string_view name) const {
 }
 
 Recording read_recording(const std::filesystem::path& path) {
+    std::error_code ignored;  // what is no file is refused by the reader
+    const auto file_bytes = std::filesystem::file_size(path, ignored);
+    TableAllowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
     std::vector<std::string> problems;
-    mcap::Contents contents =
-        mcap::read(path, [&](const mcap::Contents& so_far, const mcap::Message& message) {
-            const auto [at, is_new] = topics.try_emplace(message.channel_id);
-            TopicReader& topic = at->second;
-            const mcap::Channel& channel = so_far.channels.at(message.channel_id);
-            try {
-                if (is_new && !is_of_scene(channel.topic)) {
-                    open(so_far, channel, topic);
-                }
-            } catch (const InputError& problem) {
-                problems.push_back(
-                    fmt::format("topic {} is not read: {}", channel.topic, problem.what()));
+    std::size_t unread = 0;
+    mcap::Contents contents = mcap::read(path, [&](const mcap::Contents& so_far,
+                                                   const mcap::Message& message) {
+        const auto [at, is_new] = topics.try_emplace(message.channel_id);
+        TopicReader& topic = at->second;
+        const mcap::Channel& channel = so_far.channels.at(message.channel_id);
+        try {
+            if (is_new && !is_of_scene(channel.topic)) {
+                open(so_far, channel, allowance, topic);
             }
             if (topic.reader) {
                 topic.reader->append(static_cast<double>(message.log_time_ns) * 1e-9, message.data);
             }
-        });
+        } catch (const TooMuch& problem) {
+            throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
+        } catch (const InputError& problem) {
+            topic.reader.reset();
+            ++unread;
+            if (problems.size() < kMostProblems) {
+                problems.push_back(
+                    fmt::format("topic {} is not read: {}", channel.topic, problem.what()));
+            }
+        }
+    });
 
     Recording recording;
     recording.path = path;
@@ -122,6 +140,9 @@ Recording read_recording(const std::filesystem::path& path) {
         if (table.type == info(Topic::events).type) {
             recording.events = events_of(table);
         }
+    }
+    if (unread > problems.size()) {
+        problems.push_back(fmt::format("{} topics more are not read", unread - problems.size()));
     }
     if (!contents.damage.empty()) {
         problems.insert(problems.begin(), contents.damage);

@@ -14,8 +14,9 @@
 namespace limpet::record {
 namespace {
 
-constexpr std::size_t kMaxSteps = 10'000;
+constexpr std::size_t kMaxFields = 10'000;
 constexpr int kMaxDepth = 16;
+constexpr std::size_t kLongestName = 128;
 
 }  // namespace
 
@@ -83,20 +84,46 @@ private:
     std::size_t at_ = 0;
 };
 
-TableReader::TableReader(const std::vector<MessageType>& types, Table& table) : table_(table) {
-    table_.type = types.front().name;
-    flatten(types, types.front(), "", 0);
+void TableAllowance::Share::take(std::uint64_t count) {
+    if (count > most - taken) {
+        throw TooMuch(fmt::format("more than {} {}", most / unit, what));
+    }
+    taken += count;
 }
 
-void TableReader::flatten(const std::vector<MessageType>& types, const MessageType& type,
-                          const std::string& prefix, int depth) {
+TableReader::TableReader(const std::vector<MessageType>& types, Table& table,
+                         TableAllowance& allowance)
+    : table_(table), allowance_(allowance) {
+    table_.type = types.front().name;
+    Types by_name;
+    for (const MessageType& type : types) {
+        by_name.emplace(type.name, &type);
+    }
+    flatten(by_name, types.front(), "", 0);
+}
+
+/// Before the field is looked at: what takes no column takes time.
+void TableReader::take_field() {
+    if (++fields_ > kMaxFields) {
+        throw InputError(fmt::format("{}: more than {} fields", table_.type, kMaxFields));
+    }
+    allowance_.take_fields(1);
+}
+
+void TableReader::flatten(const Types& types, const MessageType& type, const std::string& prefix,
+                          int depth) {
     if (depth > kMaxDepth) {
         throw InputError(type.name + ": message within itself");
     }
     for (const Field& field : type.fields) {
         const bool primitive = field.nested_type.empty() || field.primitive == Primitive::time;
         const bool dynamic = field.shape == Field::Shape::dynamic_array;
-        const MessageType* nested = find_by(types, &MessageType::name, field.nested_type);
+        const auto named = types.find(field.nested_type);
+        const MessageType* nested = named == types.end() ? nullptr : named->second;
+        if (field.name.size() > kLongestName) {
+            throw InputError(fmt::format("{}: a field's name of {} characters, allowed 1..{}",
+                                         type.name, field.name.size(), kLongestName));
+        }
         if (!primitive && (nested == nullptr || dynamic)) {
             throw InputError(type.name + ": " +
                              (dynamic ? "dynamic array of messages: " : "unknown type: ") +
@@ -104,6 +131,7 @@ void TableReader::flatten(const std::vector<MessageType>& types, const MessageTy
         }
         const std::size_t count = dynamic ? 1 : field.count;
         for (std::size_t i = 0; i < count; ++i) {
+            take_field();
             const bool indexed = field.shape == Field::Shape::fixed_array;
             const std::string path =
                 indexed ? fmt::format("{}{}[{}]", prefix, field.name, i) : prefix + field.name;
@@ -117,9 +145,6 @@ void TableReader::flatten(const std::vector<MessageType>& types, const MessageTy
 }
 
 void TableReader::add_step(const Field& field, const std::string& path) {
-    if (steps_.size() >= kMaxSteps) {
-        throw InputError(table_.type + ": more than 10000 fields");
-    }
     Step step;
     step.primitive = field.primitive;
     step.dynamic = field.shape == Field::Shape::dynamic_array;
@@ -133,6 +158,9 @@ void TableReader::add_step(const Field& field, const std::string& path) {
 std::size_t TableReader::add_column(Primitive primitive, const std::string& path) {
     const std::string name = column_name(table_.type, path);
     const std::size_t rows = table_.time_s.size();
+    const std::size_t cell_bytes =
+        primitive == Primitive::string ? sizeof(std::string) : sizeof(double);
+    allowance_.take_bytes(sizeof(TextColumn) + name.size() + rows * cell_bytes);
     if (primitive == Primitive::string) {
         table_.texts.push_back({name, std::vector<std::string>(rows)});
         return table_.texts.size() - 1;
@@ -142,6 +170,8 @@ std::size_t TableReader::add_column(Primitive primitive, const std::string& path
 }
 
 void TableReader::append(double time_s, std::span<const std::uint8_t> message) {
+    allowance_.take_bytes(sizeof(double) * (1 + table_.columns.size()) +
+                          sizeof(std::string) * table_.texts.size());
     table_.time_s.push_back(time_s);
     for (Column& column : table_.columns) {
         column.values.push_back(kNaN);
@@ -166,7 +196,9 @@ void TableReader::append(double time_s, std::span<const std::uint8_t> message) {
 
 void TableReader::read_value(Cdr& cdr, Primitive primitive, std::size_t column) {
     if (primitive == Primitive::string) {
-        table_.texts[column].values.back() = cdr.string();
+        std::string text = cdr.string();
+        allowance_.take_bytes(text.size());
+        table_.texts[column].values.back() = std::move(text);
     } else {
         table_.columns[column].values.back() = cdr.number(primitive);
     }
@@ -177,6 +209,7 @@ void TableReader::read_array(Cdr& cdr, Step& step) {
     table_.columns[step.column].values.back() = length;
     for (std::size_t i = 0; i < length; ++i) {
         if (i == step.elements.size() && i < kMaxArrayColumns) {
+            take_field();
             step.elements.push_back(
                 add_column(step.primitive, fmt::format("{}[{}]", step.name, i)));
         }

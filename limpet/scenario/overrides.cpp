@@ -13,6 +13,9 @@
 namespace limpet::scenario {
 namespace {
 
+constexpr std::size_t kLongestPath = 200;
+constexpr std::size_t kMostSettings = 1000;
+
 /// A value's own tree hangs under the key that it is set to and is found under the command line.
 void adopt(YamlNode& node, const std::string& path, const std::string& place) {
     node.path = node.path.empty()          ? path
@@ -60,6 +63,10 @@ void set_override(YamlNode& root, std::string_view assignment) {
         throw InputError(place + ": write it as key=value, as in guidance.dock_speed_m_s=1.0");
     }
     const std::string path(assignment.substr(0, equals));
+    if (path.size() > kLongestPath) {
+        throw InputError(fmt::format("{}: a key of {} characters, allowed 1..{}", place,
+                                     path.size(), kLongestPath));
+    }
     YamlNode* node = &root;
     for (std::size_t begin = 0; begin <= path.size();) {
         const std::size_t end = std::min(path.find('.', begin), path.size());
@@ -94,13 +101,19 @@ std::vector<std::string> split_settings(std::string_view text) {
 
 std::vector<std::string> read_settings(const YamlNode& node) {
     if (node.kind == YamlNode::Kind::scalar) {
-        return split_settings(node.text);
+        std::vector<std::string> settings = split_settings(node.text);
+        if (settings.size() > kMostSettings) {
+            fail(node, fmt::format("{} settings, at most {}", settings.size(), kMostSettings));
+        }
+        return settings;
     }
     if (node.kind != YamlNode::Kind::list) {
         fail(node, "must be a list of KEY=VALUE, or one text with ; between them");
     }
     std::vector<std::string> settings;
-    for (const YamlNode& item : node.children) {
+    for (const YamlNode& item :
+         read_list(node, fmt::format("a list of at most {} KEY=VALUE", kMostSettings), 0,
+                   kMostSettings)) {
         settings.push_back(read_text(item));
     }
     return settings;

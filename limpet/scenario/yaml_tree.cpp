@@ -6,19 +6,22 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
+#include <unordered_set>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/read_file.hpp"
+#include "limpet/core/user_text.hpp"
 
 namespace limpet::scenario {
 namespace {
 
-constexpr std::size_t kLargestFile_B = 1'000'000;
+constexpr FileBound kYamlFile = {"YAML file of ours", 1};
+// Every node knows its path: a long way down to many of them would fill the memory.
+constexpr std::size_t kMostValues = 50'000;
+constexpr std::size_t kMostDepth = 32;
+constexpr std::size_t kLongestKey = 100;
 constexpr std::size_t kLongestShown = 60;
 
 /// A command line has no lines worth counting.
@@ -65,12 +68,12 @@ public:
     }
     void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
                          YAML::EmitterStyle::value /*style*/) override {
-        stack_.push_back(open(mark, YamlNode::Kind::list, tag));
+        enter(mark, open(mark, YamlNode::Kind::list, tag));
     }
     void OnSequenceEnd() override { close_top(); }
     void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
                     YAML::EmitterStyle::value /*style*/) override {
-        stack_.push_back(open(mark, YamlNode::Kind::map, tag));
+        enter(mark, open(mark, YamlNode::Kind::map, tag));
     }
     void OnMapEnd() override { close_top(); }
 
@@ -90,9 +93,14 @@ private:
         if (key.empty()) {
             refuse(mark, "a key is empty");
         }
-        if (const YamlNode* first = map.find(key)) {
-            refuse(mark, fmt::format("{}: is given twice, first at {}", shown(first->path),
-                                     first->place));
+        if (key.size() > kLongestKey) {
+            refuse(mark, fmt::format("a key of {} characters, allowed 1..{}: {}", key.size(),
+                                     kLongestKey, shown(key)));
+        }
+        if (!keys_.back().insert(key).second) {
+            const YamlNode& first = *map.find(key);
+            refuse(mark,
+                   fmt::format("{}: is given twice, first at {}", shown(first.path), first.place));
         }
         key_ = key;
         key_place_ = place_of(name_, mark);
@@ -104,6 +112,9 @@ private:
         }
         if (!tag.empty() && tag != "?" && tag != "!") {
             refuse(mark, fmt::format("tags ({}) are not supported", shown(tag)));
+        }
+        if (++values_ > kMostValues) {
+            refuse(mark, fmt::format("more than {} values and sections", kMostValues));
         }
         YamlNode node;
         node.kind = kind;
@@ -120,6 +131,15 @@ private:
         return node;
     }
 
+    void enter(const YAML::Mark& mark, YamlNode node) {
+        if (stack_.size() >= kMostDepth) {
+            refuse(mark,
+                   fmt::format("more than {} sections and lists within each other", kMostDepth));
+        }
+        stack_.push_back(std::move(node));
+        keys_.emplace_back();
+    }
+
     void close(YamlNode node) {
         if (stack_.empty()) {
             root_ = std::move(node);
@@ -131,6 +151,7 @@ private:
     void close_top() {
         YamlNode node = std::move(stack_.back());
         stack_.pop_back();
+        keys_.pop_back();
         close(std::move(node));
     }
 
@@ -138,6 +159,8 @@ private:
     std::string key_;
     std::string key_place_;
     std::vector<YamlNode> stack_;
+    std::vector<std::unordered_set<std::string>> keys_;  ///< of every map in the stack
+    std::size_t values_ = 0;
     YamlNode root_;
     int documents_ = 0;
 };
@@ -160,6 +183,12 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
     if (!is_text(text)) {
         throw InputError(name + ": is not a text file");
     }
+    if (!is_utf8(text)) {
+        throw InputError(name + ": is not UTF-8 text");
+    }
+    if (text.size() > kYamlFile.most_MB * 1'000'000) {  // that of a recording came another way
+        throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
+    }
     TreeBuilder builder(name);
     try {
         std::istringstream stream(text);
@@ -180,29 +209,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
 }
 
 std::string read_yaml_text(const std::filesystem::path& path) {
-    const std::string name = shown_path(path);
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) {
-        throw InputError(name + ": is a directory, not a file");
-    }
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-    }
-    std::string text;
-    std::array<char, 16384> part;
-    while (text.size() <= kLargestFile_B && file) {
-        file.read(part.data(), part.size());
-        text.append(part.data(), static_cast<std::size_t>(file.gcount()));
-    }
-    if (file.bad()) {
-        throw InputError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
-    }
-    if (text.size() > kLargestFile_B) {
-        throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
-    }
-    return text;
+    return read_file(path, kYamlFile, shown_path(path));
 }
 
 YamlNode parse_yaml_file(const std::filesystem::path& path) {

@@ -13,7 +13,8 @@ namespace limpet::scenario {
 ///
 /// The part of YAML that scenarios need: maps with plain keys, lists and scalars. Duplicate keys,
 /// anchors, aliases, tags and a second document are refused: each lets a text mean something else
-/// than it seems to.
+/// than it seems to. So are more than 1 MB, 50,000 values, 32 levels, and keys of over 100
+/// characters.
 struct YamlNode {
     enum class Kind {
         null,

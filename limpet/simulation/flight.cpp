@@ -15,6 +15,13 @@
 #include "limpet/simulation/step.hpp"
 
 namespace limpet::simulation {
+namespace {
+
+// Far beyond what a vehicle does, even one that falls and tumbles.
+constexpr double kFastest_rad_s = 200.0;
+constexpr double kFastest_m_s = 300.0;
+
+}  // namespace
 
 namespace {
 
@@ -101,6 +108,10 @@ const guidance::EventList& Flight::tick() {
         // In the air it falls; on the wall the cup still holds it.
         stop(state_.cup.status.phase == CupPhase::attached ? Outcome::timed_out : Outcome::crashed,
              *outside_.autopilot->failure());
+    } else if (!(state_.truth.base.w_WF_F_rad_s.norm() < kFastest_rad_s) ||
+               !(state_.truth.base.v_WF_W_m_s.norm() < kFastest_m_s)) {
+        // Before numbers leave their range: with what was set, the forces feed on the motion.
+        stop(Outcome::crashed, "turned faster than 200 rad/s or flew faster than 300 m/s");
     } else if (seconds(state_.tick) >= model_->simulation.time_limit_s) {
         stop(Outcome::timed_out, "the scenario's time is over");
     }
@@ -194,7 +205,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
             next_progress_s += watch.progress_every_s;
         }
         if (conduct.stop != nullptr && *conduct.stop) {
-            flight.stop(Outcome::timed_out, "interrupted");
+            flight.stop(Outcome::interrupted, "interrupted");
         }
         pace.wait_until(time_s);
     }

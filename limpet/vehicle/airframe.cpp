@@ -27,6 +27,13 @@ void require_physical(const std::string& what, double mass_kg, const Matrix3& in
     if (!(mass_kg > 0.0)) {
         throw InputError(fmt::format("{}: mass_kg is {}, must be > 0", what, mass_kg));
     }
+    // Beyond these squares overflow, and the eigenvalues' solver does not end as it should.
+    constexpr double kLargest = 1e100;
+    if (!(mass_kg < kLargest) || !(inertia_kg_m2.cwiseAbs().maxCoeff() < kLargest) ||
+        !inertia_kg_m2.allFinite()) {
+        throw InputError(
+            fmt::format("{}: mass and inertias must be finite numbers below {:g}", what, kLargest));
+    }
     const Vector3 principal =
         Eigen::SelfAdjointEigenSolver<Matrix3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
     if (!(principal[0] > 0.0) || !(principal[0] + principal[1] >= principal[2])) {

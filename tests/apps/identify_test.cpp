@@ -131,7 +131,7 @@ TEST(Identify, RefusesBadOptionsInOneLine) {
     EXPECT_THAT(missing.err, AllOf(HasSubstr("nowhere.csv"), HasSubstr("No such file")));
     const Finished folder = Bench{}.run({"identify", "."});
     EXPECT_EQ(folder.exit_code, 2);
-    EXPECT_THAT(folder.err, HasSubstr("is a folder"));
+    EXPECT_THAT(folder.err, HasSubstr("is a directory"));
 }
 
 }  // namespace

@@ -275,6 +275,14 @@ TEST(RareProgram, RefusesInOneLineAndLeavesNothing) {
     }
 }
 
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) {
+        all += text;
+    }
+    return all;
+}
+
 TEST(CampaignProgram, RefusesWhatItCannotFly) {
     const Bench bench;
     const std::string head = "scenario: hover\nruns: 2\nparameters:\n";
@@ -294,6 +302,10 @@ TEST(CampaignProgram, RefusesWhatItCannotFly) {
         {head + "  simulation.hover_s: {gauss: [1, 2]}\n", "unknown key"},
         {head + "  vehicle: {grid: [perching_uav, perching_uva]}\n", "perching_uva"},
         {head + "  seed: {grid: [1, 2]}\n", "cannot vary"},
+        {"scenario: hover\nruns: 1\noverrides: [" + repeated("a=1, ", 1001) + "a=1]\n",
+         "a list of at most 1000"},
+        {"scenario: hover\nruns: 1\noverrides: [" + repeated("a.", 200) + "a=1]\n",
+         "a key of 401 characters, allowed 1..200"},
         {"scenario: hover\nruns: 0\n", "x.yaml:2: runs: 0 is out of range"},
         {"scenario: hover\nrepeats: 0\nparameters:\n  simulation.hover_s: {grid: [1, 2]}\n",
          "repeats: 0"},

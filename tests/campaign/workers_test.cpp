@@ -8,9 +8,9 @@
 #include <set>
 
 #include "campaigns.hpp"
-#include "limpet/campaign/folder_lock.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/folder_lock.hpp"
 
 namespace limpet::campaign {
 namespace {

@@ -389,6 +389,43 @@ TEST(McapReader, RefusesWhatIsNoRecording) {
     expect_refused(folder / "text.mcap", "does not begin as an MCAP file");
 }
 
+/// Zeros by zstd: 100 MB are some 10 KB.
+TEST(McapReader, UnpacksNoMoreThanAFileOfItsSizeMayHold) {
+    const TestFolder folder;
+    {
+        Writer writer(folder / "a.mcap", {.chunk_bytes = 100'000'000});
+        const auto channel = writer.add_channel(writer.add_schema("S", "ros2msg", ""), "/t", "cdr");
+        const Bytes zeros(99'999'000);
+        for (int i = 0; i < 4; ++i) {
+            writer.write(channel, 1, zeros);
+        }
+        writer.close();
+    }
+    ASSERT_LT(std::filesystem::file_size(folder / "a.mcap"), 1'000'000u);
+    expect_refused(folder / "a.mcap", "unpacks to more than");
+    EXPECT_EQ(unpacked_allowance_bytes(0), 256'000'000u);
+    EXPECT_EQ(unpacked_allowance_bytes(1'000'000'000), 4'000'000'000u);
+}
+
+TEST(McapReader, GivesUpOnAFileOfDamagedRecords) {
+    const TestFolder folder;
+    {
+        Writer writer(folder / "a.mcap");
+        const auto channel = writer.add_channel(writer.add_schema("S", "ros2msg", ""), "/t", "cdr");
+        for (int i = 0; i < 100'001; ++i) {
+            writer.write(channel, 1, {});
+        }
+        writer.close();
+    }
+    const auto refuse_all = [](const Contents&, const Message&) { throw Malformed("nonsense"); };
+    try {
+        (void)read(folder / "a.mcap", refuse_all);
+        FAIL() << "was read";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("more than 100000 damaged records, first a nonsense"));
+    }
+}
+
 TEST(McapWriter, IsAtItsPlaceOnlyWhenWhole) {
     const TestFolder folder;
     {

@@ -87,7 +87,7 @@ TEST_F(StlReader, BinaryAndAsciiGiveTheSameBody) {
 }
 
 TEST_F(StlReader, RefusesWhatIsNone) {
-    EXPECT_THAT(error(""), HasSubstr("no such mesh, or it is empty"));
+    EXPECT_THAT(error(""), HasSubstr("an empty file"));
     EXPECT_THAT(error(binary().substr(0, 200)), HasSubstr("no STL"));
     EXPECT_THAT(error("solid empty\nendsolid empty\n"), HasSubstr("without a triangle"));
     EXPECT_THAT(error("solid x\nfacet\nvertex 1 2\n"), HasSubstr(":3: "));

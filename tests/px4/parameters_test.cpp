@@ -97,7 +97,7 @@ TEST_F(Px4Params, RefusesAMissingFileAndAFolder) {
     EXPECT_THAT(error(), HasSubstr("cannot be read"));
     path_ = testing::TempDir() + "folder.params";
     std::filesystem::create_directory(path_);
-    EXPECT_THAT(error(), HasSubstr("cannot be read"));
+    EXPECT_THAT(error(), HasSubstr("is a directory"));
 }
 
 }  // namespace

@@ -65,6 +65,37 @@ TEST(Csv, OneFileATopicWithUnits) {
               "2,cup,attached,,\n");
 }
 
+TEST(Csv, WritesAttachmentsUnderTheirNamesAlone) {
+    const TestFolder folder;
+    Recording recording = sample();
+    recording.path = "a.mcap";
+    recording.attachments = {{"scenario.yaml", "text/yaml", "a: 1\n", 0}};
+    EXPECT_NO_THROW(require_plain_names(recording));
+    EXPECT_THAT(write_attachments(recording, folder.path()), ElementsAre(folder / "scenario.yaml"));
+    EXPECT_EQ(load_text(folder / "scenario.yaml"), "a: 1\n");
+    for (const std::string& name :
+         {std::string("../../F"), std::string("/tmp/F"), std::string("a/b"), std::string(".."),
+          std::string("."), std::string(""), std::string("a\0b", 3), std::string("a\nb"),
+          std::string(201, 'x')}) {
+        recording.attachments.back().name = name;
+        try {
+            require_plain_names(recording);
+            ADD_FAILURE() << name;
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr("a.mcap: attachment \""));
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        }
+    }
+}
+
+TEST(Csv, NoTopicLeadsOutOfTheFolder) {
+    const TestFolder folder;
+    Recording recording = sample();
+    recording.tables.front().topic = "/../../x\n";
+    const auto files = write_csv(recording, folder.path());
+    EXPECT_EQ(files.front(), folder / ".._.._x_.csv");
+}
+
 TEST(Csv, LeavesNothingHalfWritten) {
     const TestFolder folder;
     store(folder / "file", {});

@@ -131,6 +131,40 @@ TEST(Recording, ReadsOtherPeoplesTopicsAndNamesThoseItCannot) {
                       HasSubstr("topic /bad is not read")));
 }
 
+TEST(Recording, ATopicWithoutEndCostsThatTopicAlone) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const mcap::Bytes message = {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F};
+        const auto good = writer.add_schema("p/msg/P", "ros2msg", "float64 x\n");
+        writer.write(writer.add_channel(good, "/good", "cdr"), 1, message);
+        const auto loop = writer.add_schema("p/msg/L", "ros2msg", "L again\n");
+        for (int i = 0; i < 30; ++i) {
+            writer.write(writer.add_channel(loop, "/loop" + std::to_string(i), "cdr"), 2, message);
+        }
+        writer.close();
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_EQ(recording.tables.size(), 1u);
+    EXPECT_THAT(recording.damage, AllOf(HasSubstr("/loop4 is not read: p/msg/L: message within"),
+                                        HasSubstr("; 25 topics more are not read")));
+}
+
+TEST(Recording, WhatIsBeyondAllIsRefusedAsAWhole) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const auto wide = writer.add_schema("p/msg/W", "ros2msg",
+                                            "uint8 x\n#" + std::string(2'100'000, '-') + "\n");
+        for (const char* topic : {"/one", "/two"}) {
+            writer.write(writer.add_channel(wide, topic, "cdr"), 1, mcap::Bytes{0, 1, 0, 0, 1});
+        }
+        writer.close();
+    }
+    EXPECT_EQ(message_of([&] { (void)read_recording(folder / "a.mcap"); }),
+              (folder / "a.mcap").string() + ": more than 4000000 bytes of message definitions");
+}
+
 TEST(Recording, RefusesWhatIsNone) {
     const TestFolder folder;
     EXPECT_THROW((void)read_recording(folder / "none.mcap"), InputError);

@@ -87,7 +87,8 @@ TEST(MessageDefinitions, EveryTopicHasASchemaThatCanBeFlattened) {
         Table table;
         const auto types = parse_ros2msg(std::string(topic.type), ros2msg_schema(topic.type));
         EXPECT_EQ(types.front().name, topic.type);
-        EXPECT_NO_THROW(TableReader(types, table)) << topic.type;
+        TableAllowance allowance;
+        EXPECT_NO_THROW(TableReader(types, table, allowance)) << topic.type;
         EXPECT_FALSE(table.columns.empty());
     }
 }
@@ -138,12 +139,17 @@ TEST(Units, ColumnsAreWrittenAsInTheHouse) {
     EXPECT_EQ(column_name_with_unit("limpet_msgs/msg/CupState", "stamp"), "stamp_s");
 }
 
-TEST(TableReader, AlignsAsCdrDoes) {
+class TableReaderTest : public testing::Test {
+protected:
+    TableAllowance allowance;
+};
+
+TEST_F(TableReaderTest, AlignsAsCdrDoes) {
     const auto types = parse_ros2msg("p/T",
                                      "bool b\nfloat64 x\nuint8 c\nint16 d\nstring s\n"
                                      "float32 f\nbuiltin_interfaces/Time t\n");
     Table table;
-    TableReader reader(types, table);
+    TableReader reader(types, table, allowance);
     const std::vector<std::uint8_t> message = {
         0, 1, 0,    0,                             // little-endian CDR
         1, 0, 0,    0,    0,    0,    0,    0,     // true, then 7 bytes up to 8
@@ -163,11 +169,11 @@ TEST(TableReader, AlignsAsCdrDoes) {
     EXPECT_THAT(table.time_s, ElementsAre(9.0));
 }
 
-TEST(TableReader, FlattensMessagesWithinMessagesAndArrays) {
+TEST_F(TableReaderTest, FlattensMessagesWithinMessagesAndArrays) {
     const std::string text =
         "q/In[2] in\nuint8[] list\n" + std::string(80, '=') + "\nMSG: q/In\nuint8 a\nuint8 b\n";
     Table table;
-    TableReader reader(parse_ros2msg("p/T", text), table);
+    TableReader reader(parse_ros2msg("p/T", text), table, allowance);
     reader.append(0.0, std::vector<std::uint8_t>{0, 1, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0});
     reader.append(1.0, std::vector<std::uint8_t>{0, 1, 0, 0, 5, 6, 7, 8, 2, 0, 0, 0, 9, 10});
     EXPECT_THAT(column_names(table), ElementsAre("in[0].a", "in[0].b", "in[1].a", "in[1].b",
@@ -178,9 +184,10 @@ TEST(TableReader, FlattensMessagesWithinMessagesAndArrays) {
     EXPECT_EQ(table.find("list[1]")->values[1], 10.0);
 }
 
-TEST(TableReader, AShortMessageLeavesNoHalfRow) {
+TEST_F(TableReaderTest, AShortMessageLeavesNoHalfRow) {
     Table table;
-    TableReader reader(parse_ros2msg("p/T", "uint8[] list\nfloat64 x\nstring s\n"), table);
+    TableReader reader(parse_ros2msg("p/T", "uint8[] list\nfloat64 x\nstring s\n"), table,
+                       allowance);
     const std::vector<std::vector<std::uint8_t>> broken = {
         {},
         {0, 1, 0, 0},
@@ -197,17 +204,89 @@ TEST(TableReader, AShortMessageLeavesNoHalfRow) {
     }
 }
 
-TEST(TableReader, RefusesSchemasWithoutEnd) {
-    const auto refused = [](const std::string& text) {
+TEST_F(TableReaderTest, RefusesSchemasWithoutEnd) {
+    const auto refused = [this](const std::string& text) {
         return input_error([&] {
             Table table;
-            TableReader reader(parse_ros2msg("p/T", text), table);
+            TableReader reader(parse_ros2msg("p/T", text), table, allowance);
         });
     };
     EXPECT_THAT(refused("p/T again\n"), HasSubstr("message within itself"));
     EXPECT_THAT(refused("p/Unknown x\n"), HasSubstr("unknown type: p/msg/Unknown"));
     EXPECT_THAT(refused("p/T[] list\n"), HasSubstr("dynamic array of messages"));
     EXPECT_THAT(refused("float64[999999999] x\n"), HasSubstr("more than 10000 fields"));
+    EXPECT_THAT(refused("float64 " + std::string(129, 'x') + "\n"), HasSubstr("allowed 1..128"));
+}
+
+/// Messages that hold no value cost time all the same.
+TEST_F(TableReaderTest, CountsFieldsWithoutAColumn) {
+    const std::string separator(80, '=');
+    const auto refused = [this](const std::string& text) {
+        return input_error([&] {
+            Table table;
+            TableReader reader(parse_ros2msg("p/T", text), table, allowance);
+        });
+    };
+    EXPECT_THAT(refused("E[4294967295] x\n" + separator + "\nMSG: p/E\n"),
+                HasSubstr("more than 10000 fields"));
+    std::string tree = "T1 a\nT1 b\n";
+    for (int depth = 1; depth < 16; ++depth) {  // 2^16 leaves
+        tree += separator + "\nMSG: p/T" + std::to_string(depth) + "\n";
+        for (const char* name : {"a", "b"}) {
+            tree += "T" + std::to_string(depth + 1) + " " + name + "\n";
+        }
+    }
+    EXPECT_THAT(refused(tree + separator + "\nMSG: p/T16\n"), HasSubstr("more than 10000 fields"));
+}
+
+TEST_F(TableReaderTest, TheAllowanceIsTheWholeRecordings) {
+    const auto many = parse_ros2msg("p/T", "uint8[6000] x\n");
+    const auto open = [&](int times) {
+        return input_error([&] {
+            for (int i = 0; i < times; ++i) {
+                Table table;
+                TableReader reader(many, table, allowance);
+            }
+        });
+    };
+    EXPECT_EQ(open(16), "");
+    EXPECT_EQ(open(1), "more than 100000 fields in its messages");
+    EXPECT_EQ(input_error([&] { allowance.take_definition(4'000'001); }),
+              "more than 4000000 bytes of message definitions");
+}
+
+/// Rows of four bytes, a column of 64 elements behind each array: a small file, a large table.
+TEST_F(TableReaderTest, TheMemoryOfATableIsBounded) {
+    TableAllowance little(1'000'000);
+    Table table;
+    TableReader reader(parse_ros2msg("p/T", "uint8[] list\n"), table, little);
+    std::vector<std::uint8_t> full = {0, 1, 0, 0, 64, 0, 0, 0};
+    full.resize(72, 1);
+    const std::vector<std::uint8_t> empty = {0, 1, 0, 0, 0, 0, 0, 0};
+    reader.append(0.0, full);
+    EXPECT_EQ(input_error([&] {
+                  for (int row = 0; row < 2000; ++row) {
+                      reader.append(1.0, empty);
+                  }
+              }),
+              "more than 1 MB of tables");
+    EXPECT_THROW(TableReader(parse_ros2msg("p/T", "uint8[9999] x\n"), table, little), TooMuch);
+}
+
+TEST_F(TableReaderTest, AnArrayGrowsNoMoreColumnsThanFieldsAreAllowed) {
+    std::string text;
+    for (int i = 0; i < 157; ++i) {  // 157 * 65 columns
+        text += "uint8[] c" + std::to_string(i) + "\n";
+    }
+    Table table;
+    TableReader reader(parse_ros2msg("p/T", text), table, allowance);
+    std::vector<std::uint8_t> message = {0, 1, 0, 0};
+    for (int i = 0; i < 157; ++i) {
+        message.insert(message.end(), {64, 0, 0, 0});
+        message.insert(message.end(), 64, 1);
+    }
+    EXPECT_THAT(input_error([&] { reader.append(0.0, message); }),
+                HasSubstr("more than 10000 fields"));
 }
 
 }  // namespace

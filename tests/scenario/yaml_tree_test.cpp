@@ -74,6 +74,27 @@ TEST(YamlTree, SurvivesAbsurdNesting) {
     EXPECT_NE(parse_error("a: " + std::string(5000, '{')), "");
 }
 
+TEST(YamlTree, BoundsValuesDepthAndKeys) {
+    const auto keys = [](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += "k" + std::to_string(i) + ": 1\n";
+        }
+        return text;
+    };
+    EXPECT_EQ(parse_error(keys(40'000)), "");  // a minute, when every key looked at all before it
+    EXPECT_EQ(parse_error(keys(50'000)), "x.yaml:50000: more than 50000 values and sections");
+    std::string deep;
+    for (int i = 0; i < 33; ++i) {
+        deep += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+    }
+    EXPECT_EQ(parse_error(deep), "x.yaml:33: more than 32 sections and lists within each other");
+    EXPECT_EQ(parse_error(std::string(101, 'k') + ": 1\n"),
+              "x.yaml:1: a key of 101 characters, allowed 1..100: " + std::string(60, 'k') + "...");
+    EXPECT_EQ(parse_error(std::string(1'000'001, ' ')),
+              "x.yaml: is larger than 1 MB, which no YAML file of ours is");
+}
+
 TEST(YamlTree, RefusesFilesThatAreNone) {
     const TestData data;
     const auto file_error = [](const std::filesystem::path& path) {

@@ -17,6 +17,7 @@ enum class Outcome {
     aborted,          ///< gave the mission up in the air for another reason, which its reason says
     crashed,          ///< hit something with something else than the cup and the legs
     timed_out,        ///< the scenario's time is over
+    interrupted,      ///< somebody ended it: Ctrl-C, SIGTERM
 };
 
 [[nodiscard]] inline std::string_view to_string(Outcome outcome) {

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-namespace limpet::campaign {
+namespace limpet {
 
-/// Keeps a second campaign out of a folder for as long as it lives; ends with the process, however
-/// that ends, and leaves no file behind.
+/// Keeps a second flight or campaign out of a folder for as long as it lives; ends with the
+/// process, however that ends, and leaves no file behind.
 class FolderLock {
 public:
     /// @throws InputError when another process holds it
@@ -19,4 +19,4 @@ private:
     int descriptor_;
 };
 
-}  // namespace limpet::campaign
+}  // namespace limpet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/folder_lock.hpp"
+#include "limpet/core/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -7,7 +7,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet::campaign {
+namespace limpet {
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -16,7 +16,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
         close(descriptor_);
-        throw InputError(folder.string() + ": another campaign is at work in this folder");
+        throw InputError(folder.string() +
+                         ": another flight or campaign is at work in this folder");
     }
 }
 
@@ -24,4 +25,4 @@ FolderLock::~FolderLock() {
     close(descriptor_);
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever is read may have been made to do harm: one line, exit code 2, in no time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+
+#include "program.hpp"
+
+namespace limpet {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+
+void expect_line(const Finished& finished, int code, const std::string& text) {
+    EXPECT_EQ(finished.exit_code, code) << finished.err;
+    EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+    EXPECT_THAT(finished.err, HasSubstr(text));
+}
+
+/// Little-endian, as MCAP has it.
+std::string number(std::uint64_t value, int bytes) {
+    std::string raw;
+    for (int i = 0; i < bytes; ++i) {
+        raw += static_cast<char>(value >> (8 * i));
+    }
+    return raw;
+}
+std::string text(const std::string& content) {
+    return number(content.size(), 4) + content;
+}
+std::string record(int opcode, const std::string& content) {
+    return number(static_cast<std::uint64_t>(opcode), 1) + number(content.size(), 8) + content;
+}
+
+/// A recording, whole, of what is given.
+std::string recording_of(const std::string& records) {
+    const std::string magic = "\x89MCAP0\r\n";
+    return magic + record(1, text("") + text("x")) + records + record(0x0F, number(0, 4)) +
+           record(2, number(0, 8) + number(0, 8) + number(0, 4)) + magic;
+}
+
+std::string with_attachment(const std::string& name) {
+    const std::string content = "mine now\n";
+    return recording_of(record(9, number(0, 8) + number(0, 8) + text(name) + text("text/plain") +
+                                      number(content.size(), 8) + content + number(0, 4)));
+}
+
+std::string with_message_type(const std::string& type) {
+    return recording_of(
+        record(3, number(1, 2) + text("a/msg/B") + text("ros2msg") + text(type)) +
+        record(4, number(1, 2) + number(1, 2) + text("/t") + text("cdr") + number(0, 4)) +
+        record(5, number(1, 2) + number(0, 4) + number(0, 8) + number(0, 8) +
+                      std::string("\0\1\0\0", 4)));
+}
+
+TEST(Hostile, NoAttachmentLeadsOutOfTheFolder) {
+    const Bench bench;
+    fs::create_directories(bench.folder() / "in/deep");
+    (void)bench.write("in/deep/good.mcap", with_attachment("F"));
+    EXPECT_EQ(bench.run({"csv", "in/deep/good.mcap"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(bench.folder() / "in/deep/csv/F"));
+    fs::remove_all(bench.folder() / "in/deep/csv");
+    const std::string absolute = (bench.folder() / "F").string();
+    for (const std::string& name : {std::string("../../F"), absolute}) {
+        (void)bench.write("in/deep/bad.mcap", with_attachment(name));
+        const auto before = bench.files();
+        expect_line(bench.run({"csv", "in/deep/bad.mcap"}), 2, "bad.mcap: attachment ");
+        EXPECT_EQ(bench.files(), before);
+    }
+}
+
+TEST(Hostile, NoMessageTypeKeepsAReaderBusy) {
+    const Bench bench;
+    const std::string separator = std::string(80, '=') + "\nMSG: a/";
+    (void)bench.write("loop.mcap", with_message_type("E[4294967295] x\n" + separator +
+                                                     "E\nF[4294967295] y\n" + separator + "F\n"));
+    (void)bench.write("itself.mcap", with_message_type("B b\nB c\n"));
+    for (const char* verb : {"csv", "plot", "film", "check"}) {
+        expect_line(bench.run({verb, "loop.mcap"}), 2, "more than 10000 fields");
+        expect_line(bench.run({verb, "itself.mcap"}), 2, "message within itself");
+    }
+    expect_line(bench.run({"compare", "loop.mcap", "loop.mcap"}), 2, "more than 10000 fields");
+}
+
+TEST(Hostile, WhatNeverEndsIsReadUpToItsBound) {
+    const Bench bench;
+    expect_line(bench.run({"rotor", "/dev/zero", "--diameter", "12in"}), 2,
+                "/dev/zero: is larger than 1 MB, which no propeller file is");
+    expect_line(bench.run({"identify", "/dev/zero"}), 2, "larger than 50 MB");
+    expect_line(bench.run({"fly", "/dev/zero"}), 2, "larger than 1 MB");
+    expect_line(bench.run({"check", "/dev/zero"}), 2, "larger than 1 MB");
+    expect_line(bench.run({"campaign", "/dev/zero"}), 2, "larger than 1 MB");
+    expect_line(bench.run({"companion", "/dev/zero", "--check"}), 2, "larger than 1 MB");
+    expect_line(bench.run({"plot", "/dev/zero"}), 2, "not a regular file");
+    expect_line(bench.run({"summary", "/dev/zero"}), 2, "/dev/zero");
+}
+
+TEST(Hostile, NamesMustBeUtf8) {
+    const Bench bench;
+    const std::string name = "caf\xE9";
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"fly", "hover", "--out", name},
+          std::vector<std::string>{"fly", name + ".yaml"},
+          std::vector<std::string>{"fly", "hover", "--set", "vehicle=" + name}}) {
+        expect_line(bench.run(words), 2, "is not UTF-8");
+    }
+    (void)bench.write("x.yaml", "mission: hover\nvehicle: perching_uav\ndescription: " + name);
+    expect_line(bench.run({"fly", "x.yaml"}), 2, "x.yaml: is not UTF-8 text");
+    EXPECT_THAT(bench.files(), testing::ElementsAre("x.yaml"));
+}
+
+/// By a shell, which closes and fills what a program writes to.
+int exit_code_in_shell(const Bench& bench, const std::string& arguments) {
+    const std::string command = "cd '" + bench.folder().string() + "' && '" +
+                                std::string(LIMPET_PROGRAM) + "' " + arguments;
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Hostile, AClosedOrFullStandardErrorChangesNoExitCode) {
+    const Bench bench;
+    for (const char* error : {" 2>&-", " 2>/dev/full"}) {
+        EXPECT_EQ(exit_code_in_shell(bench, std::string("fly nowhere.yaml") + error), 2);
+        EXPECT_EQ(exit_code_in_shell(bench, std::string("fly hover --set simulation.hover_s=0.1 "
+                                                        "--quiet --expect crashed --out o") +
+                                                error),
+                  1);
+        EXPECT_EQ(exit_code_in_shell(bench, std::string("fly hover --set simulation.hover_s=0.1 "
+                                                        "--json --out o >/dev/null") +
+                                                error),
+                  0);
+    }
+    EXPECT_THAT(text_of(bench.folder() / "o/flight.mcap"), EndsWith("\x89MCAP0\r\n"));
+}
+
+TEST(Hostile, AFullStandardOutputIsSaidAndNoFaultOfOurs) {
+    const Bench bench;
+    for (const std::string& verb :
+         {std::string("list scenarios"), std::string("--help"),
+          std::string("fly hover --set simulation.hover_s=0.1 --no-figures --out o"),
+          std::string("fly hover --set simulation.hover_s=0.1 --json --out o")}) {
+        EXPECT_EQ(exit_code_in_shell(bench, verb + " >/dev/full 2>err"), 2) << verb;
+        EXPECT_THAT(text_of(bench.folder() / "err"),
+                    EndsWith("limpet: standard output cannot be written\n"))
+            << verb;
+    }
+    EXPECT_TRUE(fs::exists(bench.folder() / "o/flight.mcap"));
+    EXPECT_FALSE(fs::exists(bench.folder() / "o/flight.mcap.part"));
+}
+
+TEST(Hostile, ForcesThatFeedOnTheMotionEndTheFlight) {
+    const Bench bench;
+    const Finished end =
+        bench.run({"fly", "slow_motors_concrete", "--set", "vehicle.rotor.rolling_constant_kg_m=1",
+                   "--no-figures", "--expect", "crashed"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_THAT(end.out, HasSubstr("turned faster than 200 rad/s"));
+}
+
+TEST(Hostile, CtrlCEndsAHoverWithALine) {
+    const Bench bench;
+    Started hover(bench.folder(), "hover",
+                  {"fly", "hover", "--set", "simulation.hover_s=60", "--speed", "1", "--no-figures",
+                   "--out", "o"});
+    ASSERT_TRUE(hover.says("time s", seconds(30)));
+    hover.signal(SIGINT);
+    const Finished end = hover.wait(seconds(30));
+    expect_line(end, 130, "interrupted; the recording is whole up to here");
+    EXPECT_THAT(end.out, Not(HasSubstr("timed_out")));
+    EXPECT_TRUE(fs::exists(bench.folder() / "o/flight.mcap"));
+}
+
+TEST(Hostile, CtrlCEndsTheWaitForALog) {
+    const Bench bench;
+    const fs::path pipe = bench.folder() / "log.csv";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    Started identify(bench.folder(), "identify", {"identify", "log.csv"});
+    std::ofstream writer(pipe);  // opens when the reader does
+    writer << "t_s,pressure_Pa\n0,101325\n" << std::flush;
+    identify.signal(SIGINT);
+    writer.close();  // in case the signal came between two reads
+    const Finished end = identify.wait(seconds(30));
+    expect_line(end, 130, "interrupted");
+    EXPECT_FALSE(fs::exists(bench.folder() / "out"));
+}
+
+TEST(Hostile, CtrlCInTheLastPartOfThePaperWritesNoPage) {
+    const Bench bench;
+    Started paper(bench.folder(), "paper", {"reproduce", "--only", "trials", "--out", "o"});
+    ASSERT_TRUE(paper.says("pendulum trials", seconds(30)));
+    paper.signal(SIGINT);
+    expect_line(paper.wait(seconds(60)), 130, "stopped; no page was written");
+    EXPECT_FALSE(fs::exists(bench.folder() / "o/index.html"));
+}
+
+TEST(Hostile, TwoFlightsDoNotShareAFolder) {
+    const Bench bench;
+    Started first(bench.folder(), "first",
+                  {"fly", "hover", "--set", "simulation.hover_s=60", "--speed", "1", "--no-figures",
+                   "--out", "o"});
+    ASSERT_TRUE(first.says("time s", seconds(30)));
+    expect_line(bench.run({"fly", "hover", "--out", "o"}), 2,
+                "o: another flight or campaign is at work in this folder");
+    first.signal(SIGINT);
+    EXPECT_EQ(first.wait(seconds(30)).exit_code, 130);
+    EXPECT_THAT(text_of(bench.folder() / "o/flight.mcap"), EndsWith("\x89MCAP0\r\n"));
+}
+
+}  // namespace
+}  // namespace limpet

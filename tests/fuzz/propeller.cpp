@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "as_file.hpp"
+#include "limpet/identification/propeller_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return limpet::fuzz::read_or_refuse([&] {
+        const limpet::fuzz::AsFile file(data, size);
+        (void)limpet::identification::read_propeller_file(file.path());
+    });
+}
