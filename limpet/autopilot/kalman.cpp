@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "limpet/core/machines.hpp"
+
 namespace limpet::autopilot {
 namespace {
 
@@ -85,6 +87,7 @@ void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& 
 
 }  // namespace
 
+LIMPET_FOR_MACHINES
 void propagate(Covariance& covariance, const Transition& transition, const ProcessNoise& noise) {
     // P is symmetric: F P F' = ((P F')' F')'
     multiply_by_transposed(covariance, transition);
@@ -105,6 +108,7 @@ void add_row(Measurement& measurement, const ErrorVector& jacobian, double innov
     measurement.variance[row] = variance;
 }
 
+LIMPET_FOR_MACHINES
 bool passes(const Covariance& covariance, const ErrorVector& correction,
             const Measurement& measurement, double gate) {
     for (int i = 0; i < measurement.rows; ++i) {
@@ -119,6 +123,7 @@ bool passes(const Covariance& covariance, const ErrorVector& correction,
     return true;
 }
 
+LIMPET_FOR_MACHINES
 void update(Covariance& covariance, ErrorVector& correction, const Measurement& measurement) {
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
