@@ -87,8 +87,9 @@ void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& 
 
 }  // namespace
 
-LIMPET_FOR_MACHINES
-void propagate(Covariance& covariance, const Transition& transition, const ProcessNoise& noise) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
+                                                    const Transition& transition,
+                                                    const ProcessNoise& noise) {
     // P is symmetric: F P F' = ((P F')' F')'
     multiply_by_transposed(covariance, transition);
     covariance.transposeInPlace();
@@ -108,9 +109,9 @@ void add_row(Measurement& measurement, const ErrorVector& jacobian, double innov
     measurement.variance[row] = variance;
 }
 
-LIMPET_FOR_MACHINES
-bool passes(const Covariance& covariance, const ErrorVector& correction,
-            const Measurement& measurement, double gate) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] bool passes(const Covariance& covariance,
+                                                 const ErrorVector& correction,
+                                                 const Measurement& measurement, double gate) {
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
         const ErrorVector& h = measurement.jacobian[row];
@@ -123,8 +124,8 @@ bool passes(const Covariance& covariance, const ErrorVector& correction,
     return true;
 }
 
-LIMPET_FOR_MACHINES
-void update(Covariance& covariance, ErrorVector& correction, const Measurement& measurement) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVector& correction,
+                                                 const Measurement& measurement) {
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
     for (std::size_t row = 0; row < rows; ++row) {

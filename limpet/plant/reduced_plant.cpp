@@ -36,6 +36,7 @@ using OneBody = ReducedBodies<Lanes<1>>;
 LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, double step_s,
                                                        bool contacts) {
     bodies.prepare(step_s, contacts);
+    (void)bodies.step().change();  // whoever prepares asks for it next
 }
 LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step_s) {
     bodies.advance(step_s);
