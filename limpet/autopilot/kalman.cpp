@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "limpet/core/machines.hpp"
+
 namespace limpet::autopilot {
 namespace {
 
@@ -85,7 +87,9 @@ void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& 
 
 }  // namespace
 
-void propagate(Covariance& covariance, const Transition& transition, const ProcessNoise& noise) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
+                                                    const Transition& transition,
+                                                    const ProcessNoise& noise) {
     // P is symmetric: F P F' = ((P F')' F')'
     multiply_by_transposed(covariance, transition);
     covariance.transposeInPlace();
@@ -105,8 +109,9 @@ void add_row(Measurement& measurement, const ErrorVector& jacobian, double innov
     measurement.variance[row] = variance;
 }
 
-bool passes(const Covariance& covariance, const ErrorVector& correction,
-            const Measurement& measurement, double gate) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] bool passes(const Covariance& covariance,
+                                                 const ErrorVector& correction,
+                                                 const Measurement& measurement, double gate) {
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
         const ErrorVector& h = measurement.jacobian[row];
@@ -119,7 +124,8 @@ bool passes(const Covariance& covariance, const ErrorVector& correction,
     return true;
 }
 
-void update(Covariance& covariance, ErrorVector& correction, const Measurement& measurement) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVector& correction,
+                                                 const Measurement& measurement) {
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
     for (std::size_t row = 0; row < rows; ++row) {

@@ -82,7 +82,7 @@ public:
     }
     void step() override {
         prepare();
-        bodies_.advance(step_s_);
+        advance();
         R_WT_.setIdentity();
         springs_ = {};
         holds_ = {};
@@ -103,7 +103,7 @@ public:
 private:
     using T = Lanes<kWidth>;
 
-    void prepare() {
+    [[gnu::flatten]] void prepare() {
         if (springs_new_) {
             if (any(holds_)) {
                 bodies_.step().hold_lip(R_WT_, springs_);
@@ -115,6 +115,8 @@ private:
         }
         bodies_.prepare(step_s_, contacts_);
     }
+
+    [[gnu::flatten]] void advance() { bodies_.advance(step_s_); }
 
     ReducedBodies<T> bodies_;
     T step_s_{1e-3};

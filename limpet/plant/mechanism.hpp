@@ -74,7 +74,8 @@ struct Mechanism {
     Vec3<T> lip_B_m = Vec3<T>::Zero();
     Vec3<T> lip_arm_B_m = Vec3<T>::Zero();  ///< from the joint
     Vec3<T> cup_w_B_rad_s = Vec3<T>::Zero();
-    Spatial<T> pitch_axis, yaw_axis;
+    TurnAboutY<T> pitch_axis;
+    Spatial<T> yaw_axis;
     /// Of lip and cup in W while no speed changes, in B: [m/s^2], [rad/s^2].
     Vec3<T> lip_drift_m_s2 = Vec3<T>::Zero();
     Vec3<T> cup_drift_rad_s2 = Vec3<T>::Zero();
@@ -135,7 +136,7 @@ void place_mechanism(const MechanismNumbers<T>& model, const MechanismState<T>& 
     at.joint_B_m = model.joint_B_m + slid;
     at.lip_arm_B_m = model.lip_m * at.R_BC.col(0);
     at.lip_B_m = at.joint_B_m + at.lip_arm_B_m;
-    at.pitch_axis = {{T(0.0), T(1.0), T(0.0), -at.joint_B_m.z(), T(0.0), at.joint_B_m.x()}};
+    at.pitch_axis = {at.joint_B_m.x(), at.joint_B_m.z()};
     at.yaw_axis = Spatial<T>::of(yaw_axis, at.joint_B_m.cross(yaw_axis));
 
     const T &carriage_kg = model.carriage.mass_kg, &cup_kg = model.cup.mass_kg;

@@ -195,9 +195,9 @@ private:
                                         state_.joint_rate[joint], T(step_s_ / inertia), step_s_);
             return step_s_ * joints_[joint].gain;
         };
-        const auto hinge = [&](std::size_t joint, const Spatial<T>& axis, Eliminated<T>& out) {
+        const auto hinge = [&](std::size_t joint, const auto& axis, Eliminated<T>& out) {
             out.u = beyond.times(axis);
-            const T inertia = axis.dot(out.u);
+            const T inertia = out.u.dot(axis);
             out.inverse = 1.0 / (inertia + spring(joint, inertia));
             beyond.add_square(-out.inverse, out.u);
         };
@@ -246,8 +246,8 @@ private:
             own[joint] = (joints[joint] + along) * out_[joint].inverse;
             passed.add(-own[joint], out_[joint].u);
         };
-        pass(2, at_.yaw_axis.dot(passed));
-        pass(1, at_.pitch_axis.dot(passed));
+        pass(2, passed.dot(at_.yaw_axis));
+        pass(1, passed.dot(at_.pitch_axis));
         passed += impulse.carriage;
         pass(0, passed[kAlong]);
         passed += impulse.base;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/machines.hpp"
 #include "limpet/core/visit.hpp"
 #include "limpet/plant/engines.hpp"
 #include "limpet/plant/lane_group.hpp"
@@ -28,6 +29,17 @@ std::shared_ptr<const ReducedModel> own_reduced(const std::shared_ptr<const Plan
     auto own = std::dynamic_pointer_cast<const ReducedModel>(model);
     require(own != nullptr, "a model of the reduced engine's");
     return own;
+}
+
+using OneBody = ReducedBodies<Lanes<1>>;
+
+LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, double step_s,
+                                                       bool contacts) {
+    bodies.prepare(step_s, contacts);
+    (void)bodies.step().change();  // whoever prepares asks for it next
+}
+LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step_s) {
+    bodies.advance(step_s);
 }
 
 }  // namespace
@@ -89,7 +101,7 @@ void ReducedPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m
 }
 
 void ReducedPlant::prepare(const StepMode& mode) {
-    bodies_.prepare(mode.step_s, mode.contacts);
+    prepare_step(bodies_, mode.step_s, mode.contacts);
 }
 
 CupBearer* ReducedPlant::bear_cup(const StepMode& mode) {
@@ -99,7 +111,7 @@ CupBearer* ReducedPlant::bear_cup(const StepMode& mode) {
 
 void ReducedPlant::step(const StepMode& mode) {
     prepare(mode);
-    bodies_.advance(mode.step_s);
+    take_step(bodies_, mode.step_s);
     require_sound(is_finite(bodies_, 0));
 }
 

@@ -17,6 +17,12 @@ using Vec3 = Eigen::Matrix<T, 3, 1>;
 template <class T>
 using Mat3 = Eigen::Matrix<T, 3, 3>;
 
+/// The twist of a turn about y past a point: half of its six numbers are zeros.
+template <class T>
+struct TurnAboutY {
+    T x_m{}, z_m{};  ///< of the point
+};
+
 /// A twist (angular velocity, velocity) or a wrench (moment, force).
 template <class T>
 struct Spatial {
@@ -46,6 +52,14 @@ struct Spatial {
     [[gnu::always_inline]] void add(const T& factor, const Spatial& other) {
         unrolled<6>([&](auto i)
                         [[gnu::always_inline]] { at[i.value] += factor * other.at[i.value]; });
+    }
+    [[gnu::always_inline]] void add(const T& factor, const TurnAboutY<T>& turn) {
+        at[1] += factor;
+        at[3] -= factor * turn.z_m;
+        at[5] += factor * turn.x_m;
+    }
+    [[nodiscard]] [[gnu::always_inline]] T dot(const TurnAboutY<T>& turn) const {
+        return at[1] - turn.z_m * at[3] + turn.x_m * at[5];
     }
     [[nodiscard]] [[gnu::always_inline]] T dot(const Spatial& other) const {
         T sum = at[0] * other.at[0];
@@ -131,6 +145,14 @@ struct SpatialInertia {
                 sum += (*this)(i.value, j.value + 1) * v.at[j.value + 1];
             });
             product.at[i.value] = sum;
+        });
+        return product;
+    }
+    [[nodiscard]] [[gnu::always_inline]] Spatial<T> times(const TurnAboutY<T>& turn) const {
+        Spatial<T> product;
+        unrolled<6>([&](auto i) [[gnu::always_inline]] {
+            product.at[i.value] = (*this)(i.value, 1) - turn.z_m * (*this)(i.value, 3) +
+                                  turn.x_m * (*this)(i.value, 5);
         });
         return product;
     }

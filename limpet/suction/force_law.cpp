@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/machines.hpp"
 #include "limpet/core/within_step.hpp"
 
 namespace limpet::suction {
@@ -219,6 +220,7 @@ std::string_view to_string(LetGo reason) {
     throw InternalError("reason of letting go out of range");
 }
 
+LIMPET_FOR_MACHINES
 LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
     const TangentFrame spot = tangent_frame(wall, cup.p_WF_m);
     LipMotion motion{.R_WT = spot.R_WT, .gap_m = spot.gap_m, .y_m = spot.y_m, .z_m = spot.z_m};
@@ -246,8 +248,10 @@ double vacuum_force_N(double pressure_Pa, double radius_m) {
     return std::max(0.0, kAtmosphere_Pa - pressure_Pa) * kPi * radius_m * radius_m;
 }
 
-LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,
-                 double vacuum_N, bool sealed, CupBearer* bearer) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] LipLoad lip_load(const LipParameters& lip,
+                                                      const LipMotion& motion, Anchor& anchor,
+                                                      double friction, double vacuum_N, bool sealed,
+                                                      CupBearer* bearer) {
     const LipForces forces = within_step_of(springs_of(lip, motion, anchor, sealed), bearer);
     const LipLimits limits{vacuum_N, friction, lip.radius_m, sealed};
     CupBearer::Held held{.change = Vector6::Zero()};

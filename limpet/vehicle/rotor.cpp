@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/machines.hpp"
 
 namespace limpet::vehicle {
 namespace {
@@ -66,6 +67,7 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
     }
 }
 
+LIMPET_FOR_MACHINES
 Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
                       const Kinematics& base, const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
