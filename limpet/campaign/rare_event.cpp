@@ -59,7 +59,9 @@ bool guide_by_itself(Outcome outcome, RareEvent& event) {
         case Outcome::perched:
         case Outcome::released:
         case Outcome::release_aborted:
-        case Outcome::crashed: return false;
+        case Outcome::aborted:
+        case Outcome::crashed:
+        case Outcome::interrupted: return false;
     }
     throw InternalError("outcome out of range");
 }

@@ -117,15 +117,16 @@ RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bo
     row.run = run;
     row.seed = campaign.seed;
     row.sample = draw(campaign.keys, campaign.seed, run);
-    fly_row(campaign, row);
+    fly_row(campaign, row, {}, stop);
     return row;
 }
 
-void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise) {
+void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise,
+             const std::atomic<bool>* stop) {
     const auto model = model_of(campaign, row, noise);
     try {
-        const simulation::FlightResult result = fly(model, {}, {}, run, {.stop = stop});
-        const simulation::FlightResult result = fly(model, {}, {}, noise.empty() ? row.run : 0);
+        const simulation::FlightResult result =
+            fly(model, {}, {}, noise.empty() ? row.run : 0, {.stop = stop});
         row.outcome = to_string(result.outcome);
         row.reason = result.reason;
         row.attempts = result.attempts;

@@ -47,7 +47,9 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {
 
 /// Flies what a row's sample says, and fills in how it went.
 /// @param noise  in place of the numbers of the row's seed and run, if any
-void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {});
+/// @param stop   breaks it off, as fly_run()
+void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {},
+             const std::atomic<bool>* stop = nullptr);
 
 /// Flies a row again, recorded.
 /// @param recording  file to write

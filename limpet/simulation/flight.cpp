@@ -54,7 +54,8 @@ guidance::Ending as_it_was(const guidance::Ending& told, const FlightModel& mode
             break;
         case Outcome::aborted:
         case Outcome::crashed:
-        case Outcome::timed_out: break;
+        case Outcome::timed_out:
+        case Outcome::interrupted: break;
     }
     return told;
 }

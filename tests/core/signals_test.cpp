@@ -22,7 +22,7 @@ TEST(Event, CarriesItsValuesAndNoMore) {
 TEST(Outcome, NamesComeBack) {
     for (const Outcome outcome :
          {Outcome::perched, Outcome::released, Outcome::failed_to_seal, Outcome::release_aborted,
-           Outcome::aborted, Outcome::crashed, Outcome::timed_out, Outcome::interrupted}) {
+          Outcome::aborted, Outcome::crashed, Outcome::timed_out, Outcome::interrupted}) {
         EXPECT_EQ(outcome_from(to_string(outcome)), outcome);
     }
     EXPECT_FALSE(outcome_from("landed"));
