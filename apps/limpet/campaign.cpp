@@ -9,11 +9,11 @@
 #include "command_line.hpp"
 #include "launch.hpp"
 #include "limpet/campaign/ranks.hpp"
-#include "limpet/campaign/rare_campaign.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
+#include "limpet/rare/rare_campaign.hpp"
 #include "output.hpp"
 #include "rare.hpp"
 #include "terminal.hpp"
@@ -145,7 +145,7 @@ struct Place {
 ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                      campaign::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
-    require_plain(place.results);
+    rare::require_plain(place.results);
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
                                         : Terminal::Voice::normal);
@@ -196,7 +196,7 @@ ExitCode search(const CampaignOptions& options) {
         throw InputError("--rare: a search flies in one process, start it without mpirun or srun");
     }
     const campaign::Campaign campaign = campaign::load_campaign(options.file);
-    require_searchable(campaign);
+    rare::require_searchable(campaign);
     Place place(campaign, options, {}, "_rare");
     Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
     terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);

@@ -5,8 +5,8 @@
 
 #include <chrono>
 
-#include "limpet/campaign/rare_campaign.hpp"
-#include "limpet/campaign/rare_summary.hpp"
+#include "limpet/rare/rare_campaign.hpp"
+#include "limpet/rare/rare_summary.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -19,23 +19,23 @@ constexpr double kFewestLevelRuns = 100;
 constexpr double kMostLevelRuns = 100000;
 constexpr const char* kLikeliest = "likeliest.yaml";
 
-std::string progress_text(const campaign::RareProgress& progress, std::uint32_t level_runs) {
+std::string progress_text(const rare::RareProgress& progress, std::uint32_t level_runs) {
     return fmt::format("level {}: {} of about {} flights, {:.1f} a second, {} events, P {:.2g}",
                        progress.level, progress.finished, level_runs,
                        progress.elapsed_s > 0.0 ? progress.flown / progress.elapsed_s : 0.0,
                        progress.events, progress.probability);
 }
 
-std::string guide_text(const campaign::RareGuide& guide) {
+std::string guide_text(const rare::RareGuide& guide) {
     return guide.falling.empty() && guide.rising.empty() ? ""
            : guide.rising.empty()                        ? " --falling " + guide.falling
                                                          : " --rising " + guide.rising;
 }
 
-campaign::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
+rare::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
     return {.on_progress =
                 [&terminal, level_runs, next = RareClock::now() + kRareLineEvery](
-                    const campaign::RareProgress& progress) mutable {
+                    const rare::RareProgress& progress) mutable {
                     if (terminal.live()) {
                         terminal.progress(progress_text(progress, level_runs));
                     } else if (RareClock::now() >= next) {
@@ -65,20 +65,19 @@ OptionList options_of(RareOptions& options) {
 void check(const Given& given, const RareOptions& options) {
     only_with(given, given("--rare"), {"--falling", "--rising", "--level-runs"}, "--rare");
     if (given("--rare")) {
-        (void)campaign::parse_rare_event(options.event, options.guide);
+        (void)rare::parse_rare_event(options.event, options.guide);
     }
 }
 
 ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& results, int jobs,
                            const std::filesystem::path& folder, const std::string& file,
                            Terminal& terminal) {
-    const campaign::RareSearch search{
-        .event = campaign::parse_rare_event(options.event, options.guide),
-        .level_runs = static_cast<std::uint32_t>(options.level_runs)};
+    const rare::RareSearch search{.event = rare::parse_rare_event(options.event, options.guide),
+                                  .level_runs = static_cast<std::uint32_t>(options.level_runs)};
     begin_rare(results, search, options.guide);
-    const campaign::RareFlown flown =
+    const rare::RareFlown flown =
         fly_rare(results, search, jobs, rare_watch(terminal, search.level_runs));
-    if (flown.result.ending == campaign::RareEnding::stopped) {
+    if (flown.result.ending == rare::RareEnding::stopped) {
         fmt::print(stderr,
                    "limpet: stopped after {} flights, all kept; go on with: limpet campaign {} "
                    "--rare '{}'{} --level-runs {} --out {} --resume\n",
@@ -86,17 +85,17 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
                    options.level_runs, folder.string());
         return ExitCode::interrupted;
     }
-    const campaign::RareSummary summary = summarise_rare(results, search, flown.result);
+    const rare::RareSummary summary = summarise_rare(results, search, flown.result);
     terminal.line(fmt::format("{} flights in {:.1f} s", flown.flown, flown.elapsed_s));
     terminal.line("");
-    terminal.line(rare_text(summary));
+    terminal.line(rare::rare_text(summary));
     const std::string database = (folder / campaign::Results::kFileName).string();
     terminal.line("written", database);
     terminal.line("", "limpet summary " + database + "      figure, JSON");
     if (summary.likeliest) {
         const std::filesystem::path likeliest = folder / kLikeliest;
         write_file(likeliest, scenario_of(results.campaign(), summary.likeliest->sample,
-                                          rare_noise(results, summary.likeliest->run))
+                                          rare::rare_noise(results, summary.likeliest->run))
                                   .yaml);
         terminal.line("", fmt::format("limpet fly {}      the most likely {}", likeliest.string(),
                                       summary.event.text));
@@ -108,8 +107,8 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
                    flown.faults, database);
         return ExitCode::our_fault;
     }
-    return flown.result.ending == campaign::RareEnding::estimated ? ExitCode::ok
-                                                                  : ExitCode::other_outcome;
+    return flown.result.ending == rare::RareEnding::estimated ? ExitCode::ok
+                                                              : ExitCode::other_outcome;
 }
 
 }  // namespace limpet::app

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/campaign/rare_event.hpp"
+#include "limpet/rare/rare_event.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -13,7 +13,7 @@ namespace limpet::app {
 /// What `limpet campaign --rare` is asked.
 struct RareOptions {
     std::string event;
-    campaign::RareGuide guide;
+    rare::RareGuide guide;
     int level_runs = 1000;
 };
 [[nodiscard]] OptionList options_of(RareOptions& options);

@@ -7,6 +7,7 @@
 #include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/campaign/workers.hpp"
+#include "limpet/rare/rare_results.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "output.hpp"
@@ -44,7 +45,8 @@ void replay(const ReplayOptions& options) {
     Terminal terminal(Terminal::Voice::normal);
     introduce(results.campaign(), row, terminal);
     const simulation::FlightResult result =
-        replay_run(results, options.run, folder / "flight.mcap", watch(terminal));
+        replay_run(results, options.run, folder / "flight.mcap", watch(terminal),
+                   rare::rare_noise(results, options.run));
     tell(result, terminal);
     terminal.line("", "the same as in the row: the flight is the same to the last bit");
     terminal.progress("drawing figures ...");

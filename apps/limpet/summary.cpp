@@ -6,7 +6,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/campaign/rare_summary.hpp"
+#include "limpet/rare/rare_summary.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -37,10 +37,10 @@ void tell(const SummaryOptions& options, const fs::path& database, const std::st
 void summarise_campaign(const SummaryOptions& options) {
     const fs::path database = campaign::Results::file_of(options.database);
     campaign::Results results(database, campaign::Access::read);
-    if (const auto search = rare_search(results)) {
-        const campaign::RareSummary summary = summarise_rare(results, *search);
-        tell(options, database, options.json ? rare_json(summary) : rare_text(summary),
-             [&](const fs::path& folder) { return draw_rare(summary, folder); });
+    if (const auto search = rare::rare_search(results)) {
+        const rare::RareSummary summary = summarise_rare(results, *search);
+        tell(options, database, options.json ? rare::rare_json(summary) : rare_text(summary),
+             [&](const fs::path& folder) { return rare::draw_rare(summary, folder); });
         return;
     }
     const campaign::CampaignSummary summary = summarise(results);

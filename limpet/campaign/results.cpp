@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -170,12 +171,14 @@ Shard read_shard(SQLite::Database& database) {
     return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
 }
 
-/// Runs of another campaign, or of another part of this.
+/// Runs of another campaign, or of another part of this. A search flies as many as it needs.
 void require_runs(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
+    const std::uint32_t end = database.tableExists("rare")
+                                  ? std::numeric_limits<std::uint32_t>::max()
+                                  : shard.end(campaign.runs);
     if (integer(database,
                 fmt::format("SELECT count(*) FROM runs WHERE run < {} OR run >= {} OR seed <> {}",
-                            shard.begin(campaign.runs), shard.end(campaign.runs), campaign.seed)) >
-        0) {
+                            shard.begin(campaign.runs), end, campaign.seed)) > 0) {
         refuse(database, "is damaged: it holds runs that its campaign does not have");
     }
 }

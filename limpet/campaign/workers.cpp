@@ -9,7 +9,6 @@
 
 #include "limpet/campaign/dealer.hpp"
 #include "limpet/campaign/ledger.hpp"
-#include "limpet/campaign/rare_results.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/plant/lane_group.hpp"
@@ -151,9 +150,8 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
 
 simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,
-                                    const simulation::FlightWatch& watch) {
+                                    const simulation::FlightWatch& watch, const NoiseBlend& noise) {
     const RunRow row = results.row(run);
-    const NoiseBlend noise = rare_noise(results, run);
     const auto model = model_of(results.campaign(), row, noise);
     const simulation::FlightResult result = fly(model, recording, watch, noise.empty() ? run : 0);
     if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {

@@ -53,9 +53,11 @@ void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {}
 
 /// Flies a row again, recorded.
 /// @param recording  file to write
+/// @param noise      as fly_row()
 /// @throws InternalError when it does not fly to the row's state hash
 simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,
-                                    const simulation::FlightWatch& watch = {});
+                                    const simulation::FlightWatch& watch = {},
+                                    const NoiseBlend& noise = {});
 
 }  // namespace limpet::campaign

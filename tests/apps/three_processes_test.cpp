@@ -137,7 +137,7 @@ TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {
     sim_io->signal(SIGINT);
     const Finished flown = sim_io->wait(30s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
-    EXPECT_NE(flown.out.find("the recording is whole"), std::string::npos);
+    EXPECT_NE(flown.err.find("the recording is whole"), std::string::npos);
     EXPECT_FALSE(record::read_recording(bench.folder() / "sim" / "flight.mcap").events.empty());
 }
 

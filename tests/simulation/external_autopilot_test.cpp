@@ -171,7 +171,7 @@ TEST(Flight, StopsWhenToldWithTheRecordingWhole) {
     const std::atomic<bool> stop = true;
     const auto path = std::filesystem::path(testing::TempDir()) / "stopped.mcap";
     const FlightResult result = fly(model, path, {}, 0, {.stop = &stop});
-    EXPECT_EQ(result.outcome, Outcome::timed_out);
+    EXPECT_EQ(result.outcome, Outcome::interrupted);
     EXPECT_EQ(result.reason, "interrupted");
     EXPECT_EQ(record::read_recording(path).damage, "");
     std::filesystem::remove(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_results.hpp"
+#include "limpet/rare/rare_results.hpp"
 
 #include <fmt/format.h>
 
@@ -10,17 +10,17 @@
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 template <class... Values>
-[[noreturn]] void refuse_rare(Results& results, fmt::format_string<Values...> why,
+[[noreturn]] void refuse_rare(campaign::Results& results, fmt::format_string<Values...> why,
                               Values&&... values) {
     throw InputError(results.database().getFilename() + ": " +
                      fmt::format(why, std::forward<Values>(values)...));
 }
 
-void create_tables(Results& results, const RareSearch& search, const RareGuide& guide) {
+void create_tables(campaign::Results& results, const RareSearch& search, const RareGuide& guide) {
     SQLite::Database& database = results.database();
     SQLite::Transaction transaction(database);
     database.exec(
@@ -36,14 +36,14 @@ void create_tables(Results& results, const RareSearch& search, const RareGuide& 
 
 }  // namespace
 
-SubsetPlan plan_of(const Campaign& campaign, const RareSearch& search) {
+SubsetPlan plan_of(const campaign::Campaign& campaign, const RareSearch& search) {
     return {.seed = campaign.seed,
             .inputs = drawn_keys(campaign.keys),
             .level_runs = search.level_runs};
 }
 
-std::optional<RareSearch> rare_search(Results& results) {
-    return asking(results.database(), [&]() -> std::optional<RareSearch> {
+std::optional<RareSearch> rare_search(campaign::Results& results) {
+    return campaign::asking(results.database(), [&]() -> std::optional<RareSearch> {
         if (!results.database().tableExists("rare")) {
             return std::nullopt;
         }
@@ -64,7 +64,7 @@ std::optional<RareSearch> rare_search(Results& results) {
     });
 }
 
-void begin_rare(Results& results, const RareSearch& search, const RareGuide& guide) {
+void begin_rare(campaign::Results& results, const RareSearch& search, const RareGuide& guide) {
     const std::optional<RareSearch> there = rare_search(results);
     if (there) {
         if (there->event.text != search.event.text || there->event.figure != search.event.figure ||
@@ -79,19 +79,19 @@ void begin_rare(Results& results, const RareSearch& search, const RareGuide& gui
     if (results.finished() > 0) {
         refuse_rare(results, "holds a campaign without --rare; give another --out");
     }
-    asking(results.database(), [&] { create_tables(results, search, guide); });
+    campaign::asking(results.database(), [&] { create_tables(results, search, guide); });
 }
 
-void require_plain(Results& results) {
+void require_plain(campaign::Results& results) {
     if (const auto search = rare_search(results)) {
         refuse_rare(results, "holds a search for a rare event; go on with it by --rare '{}'",
                     search->event.text);
     }
 }
 
-void add_rare(Results& results, const RareEvent& event, const RareSample& sample,
-              const RunRow& row) {
-    asking(results.database(), [&] {
+void add_rare(campaign::Results& results, const RareEvent& event, const RareSample& sample,
+              const campaign::RunRow& row) {
+    campaign::asking(results.database(), [&] {
         SQLite::Statement insert(
             results.database(), "INSERT OR REPLACE INTO rare_runs VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
         SQLite::bind(
@@ -104,8 +104,8 @@ void add_rare(Results& results, const RareEvent& event, const RareSample& sample
     results.add({row});
 }
 
-NoiseBlend rare_noise(Results& results, std::uint32_t run) {
-    return asking(results.database(), [&]() -> NoiseBlend {
+NoiseBlend rare_noise(campaign::Results& results, std::uint32_t run) {
+    return campaign::asking(results.database(), [&]() -> NoiseBlend {
         if (!results.database().tableExists("rare_runs")) {
             return {};
         }
@@ -119,13 +119,14 @@ NoiseBlend rare_noise(Results& results, std::uint32_t run) {
     });
 }
 
-void require_run_of(Results& results, const RunRow& row, const RareSample& sample) {
+void require_run_of(campaign::Results& results, const campaign::RunRow& row,
+                    const RareSample& sample) {
     if (row.sample != sample_at(results.campaign().keys, sample.point.normals)) {
         refuse_rare(results, "is damaged: run {} is not the one that the search flies", row.run);
     }
 }
 
-SubsetResult evaluate_rare(Results& results, const RareSearch& search) {
+SubsetResult evaluate_rare(campaign::Results& results, const RareSearch& search) {
     const auto finished = results.finished_runs();
     return subset_simulation(
         plan_of(results.campaign(), search), [&](std::span<RareSample> runs, const SubsetResult&) {
@@ -133,7 +134,7 @@ SubsetResult evaluate_rare(Results& results, const RareSearch& search) {
                 if (!std::binary_search(finished.begin(), finished.end(), sample.run)) {
                     return false;
                 }
-                const RunRow row = results.row(sample.run);
+                const campaign::RunRow row = results.row(sample.run);
                 require_run_of(results, row, sample);
                 sample.fall = search.event.fall(row);
                 sample.event = search.event.happened(row);
@@ -142,4 +143,4 @@ SubsetResult evaluate_rare(Results& results, const RareSearch& search) {
         });
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_campaign.hpp"
+#include "limpet/rare/rare_campaign.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/lane_group.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 constexpr double kFarthest = 6.0;  ///< standard deviations: beyond is rarer than what is looked for
@@ -21,7 +21,7 @@ constexpr double kFarthest = 6.0;  ///< standard deviations: beyond is rarer tha
 /// Flies what a step of the search asks for, the same in every thread.
 class Judge {
 public:
-    Judge(Results& results, const RareSearch& search, int jobs, const RareWatch& watch)
+    Judge(campaign::Results& results, const RareSearch& search, int jobs, const RareWatch& watch)
         : results_(results),
           search_(search),
           jobs_(jobs),
@@ -56,7 +56,7 @@ private:
         missing_.clear();
         for (RareSample& sample : runs) {
             if (std::binary_search(finished_.begin(), finished_.end(), sample.run)) {
-                const RunRow row = results_.row(sample.run);
+                const campaign::RunRow row = results_.row(sample.run);
                 require_run_of(results_, row, sample);
                 judge(sample, row);
             } else {
@@ -80,8 +80,8 @@ private:
     void fly_some() noexcept {
         try {
             while (RareSample* sample = next()) {
-                const Campaign& campaign = results_.campaign();
-                RunRow row;
+                const campaign::Campaign& campaign = results_.campaign();
+                campaign::RunRow row;
                 row.run = sample->run;
                 row.seed = campaign.seed;
                 row.sample = sample_at(campaign.keys, sample->point.normals);
@@ -100,7 +100,7 @@ private:
         return stop || next_ == missing_.size() ? nullptr : missing_[next_++];
     }
 
-    void land(RareSample& sample, const RunRow& row) {
+    void land(RareSample& sample, const campaign::RunRow& row) {
         const std::lock_guard lock(mutex_);
         add_rare(results_, search_.event, sample, row);
         judge(sample, row);
@@ -112,15 +112,15 @@ private:
         }
     }
 
-    void judge(RareSample& sample, const RunRow& row) {
+    void judge(RareSample& sample, const campaign::RunRow& row) {
         sample.fall = search_.event.fall(row);
         sample.event = search_.event.happened(row);
         ++progress_.finished;
         progress_.events += sample.event ? 1U : 0U;
-        faults_ += row.outcome == kFault ? 1U : 0U;
+        faults_ += row.outcome == campaign::kFault ? 1U : 0U;
     }
 
-    Results& results_;
+    campaign::Results& results_;
     const RareSearch& search_;
     const int jobs_;
     const RareWatch& watch_;
@@ -136,9 +136,9 @@ private:
 
 }  // namespace
 
-void require_searchable(const Campaign& campaign) {
-    for (const VariedKey& key : campaign.keys) {
-        if (key.spread == Spread::grid && key.values.size() > 1) {
+void require_searchable(const campaign::Campaign& campaign) {
+    for (const campaign::VariedKey& key : campaign.keys) {
+        if (key.spread == campaign::Spread::grid && key.values.size() > 1) {
             throw InputError(fmt::format(
                 "{}: parameters.{}: a grid has no probabilities: for --rare write choice in its "
                 "place, or a single value",
@@ -147,15 +147,15 @@ void require_searchable(const Campaign& campaign) {
     }
     std::vector<double> normals(drawn_keys(campaign.keys), 0.0);
     std::size_t drawn = 0;
-    for (const VariedKey& key : campaign.keys) {
-        if (key.spread == Spread::grid) {
+    for (const campaign::VariedKey& key : campaign.keys) {
+        if (key.spread == campaign::Spread::grid) {
             continue;
         }
         for (const double end : {-kFarthest, kFarthest}) {
             normals[drawn] = end;
             const auto sample = sample_at(campaign.keys, normals);
             try {
-                (void)scenario_of(campaign, sample);
+                (void)campaign::scenario_of(campaign, sample);
             } catch (const InputError& error) {
                 throw InputError(fmt::format(
                     "{}: parameters.{}: with --rare it is drawn as far out as 6 sigma, where its "
@@ -167,7 +167,8 @@ void require_searchable(const Campaign& campaign) {
     }
 }
 
-RareFlown fly_rare(Results& results, const RareSearch& search, int jobs, const RareWatch& watch) {
+RareFlown fly_rare(campaign::Results& results, const RareSearch& search, int jobs,
+                   const RareWatch& watch) {
     Judge judge(results, search, jobs, watch);
     RareFlown flown;
     flown.result = subset_simulation(plan_of(results.campaign(), search), std::ref(judge));
@@ -176,4 +177,4 @@ RareFlown fly_rare(Results& results, const RareSearch& search, int jobs, const R
     return flown;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "limpet/campaign/rare_summary.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
+#include "limpet/rare/rare_summary.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 
 std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
                                              const std::filesystem::path& folder) {
@@ -22,7 +22,7 @@ std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
     draw::ChartSeries high{.mark = draw::ChartSeries::Mark::dashes,
                            .colour = draw::colours::kOrange};
     for (const RarePlace& place : result.curve) {
-        const Interval interval = place.interval();
+        const campaign::Interval interval = place.interval();
         const double x = event.value_at(place.fall);
         middle.add(x, place.probability);
         low.add(x, interval.low);
@@ -48,4 +48,4 @@ std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
     return draw_chart(chart, "rare", folder).files;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -10,7 +10,7 @@
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/random.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 
 /// Where a run stands in what is random: an independent standard normal for each drawn input, and
 /// the noise that it flies with.
@@ -71,7 +71,7 @@ struct RarePlace {
     double probability = 0.0;
     double variation2 = 0.0;
 
-    [[nodiscard]] Interval interval() const;
+    [[nodiscard]] campaign::Interval interval() const;
 };
 
 struct SubsetResult {
@@ -92,7 +92,7 @@ struct SubsetResult {
     [[nodiscard]] double variation2() const;
     /// 95 %, of a lognormal with that coefficient, which is known from so many lineages only:
     /// Student's t with as many degrees of freedom less one.
-    [[nodiscard]] Interval interval() const;
+    [[nodiscard]] campaign::Interval interval() const;
     /// Independent runs that would give an interval as narrow.
     [[nodiscard]] double brute_force_runs() const;
 };
@@ -110,4 +110,4 @@ using RareJudge = std::function<bool(std::span<RareSample> runs, const SubsetRes
 /// 105 (2018) 609.
 [[nodiscard]] SubsetResult subset_simulation(const SubsetPlan& plan, const RareJudge& judge);
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

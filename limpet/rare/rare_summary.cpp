@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_summary.hpp"
+#include "limpet/rare/rare_summary.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 using RareJson = nlohmann::ordered_json;
@@ -37,7 +37,7 @@ std::string found_text(const RareSummary& summary) {
     const double p = result.levels.empty() ? 1.0 : result.probability();
     switch (result.ending) {
         case RareEnding::estimated: {
-            const Interval interval = result.interval();
+            const campaign::Interval interval = result.interval();
             return fmt::format(
                 "probability {:.3g}, 95 % {:.2g}..{:.2g}, coefficient of variation {:.2f}\n"
                 "{} flights; by brute force about {:.2g} for an interval as narrow",
@@ -84,7 +84,7 @@ void add_likeliest(std::string& text, const RareSummary& summary) {
     if (!summary.likeliest) {
         return;
     }
-    const RunRow& row = *summary.likeliest;
+    const campaign::RunRow& row = *summary.likeliest;
     fmt::format_to(
         std::back_inserter(text),
         "\nmost likely {}: run {}, {:.2f} sigma from the medians of {} inputs, its noise apart; {} "
@@ -93,7 +93,7 @@ void add_likeliest(std::string& text, const RareSummary& summary) {
         summary.event.figure, summary.event.value(row));
     for (std::size_t i = 0; i < summary.keys.size(); ++i) {
         fmt::format_to(std::back_inserter(text), "  {} = {}\n", summary.keys[i],
-                       value_text(row.sample[i]));
+                       campaign::value_text(row.sample[i]));
     }
 }
 
@@ -126,8 +126,9 @@ RareJson likeliest_json(const RareSummary& summary) {
 
 }  // namespace
 
-RareSummary summarise_rare(Results& results, const RareSearch& search, const SubsetResult& result) {
-    const Campaign& campaign = results.campaign();
+RareSummary summarise_rare(campaign::Results& results, const RareSearch& search,
+                           const SubsetResult& result) {
+    const campaign::Campaign& campaign = results.campaign();
     RareSummary summary{.name = campaign.name,
                         .description = campaign.description,
                         .scenario = campaign.scenario_name,
@@ -137,7 +138,7 @@ RareSummary summarise_rare(Results& results, const RareSearch& search, const Sub
                         .level_runs = search.level_runs,
                         .flown = results.finished(),
                         .result = result,
-                        .keys = names_of(campaign.keys, &VariedKey::key),
+                        .keys = names_of(campaign.keys, &campaign::VariedKey::key),
                         .likeliest = {}};
     if (result.events > 0) {
         summary.likeliest = results.row(result.likeliest);
@@ -145,7 +146,7 @@ RareSummary summarise_rare(Results& results, const RareSearch& search, const Sub
     return summary;
 }
 
-RareSummary summarise_rare(Results& results, const RareSearch& search) {
+RareSummary summarise_rare(campaign::Results& results, const RareSearch& search) {
     return summarise_rare(results, search, evaluate_rare(results, search));
 }
 
@@ -171,7 +172,7 @@ std::string rare_json(const RareSummary& summary) {
     }
     RareJson curve = RareJson::array();
     for (const RarePlace& place : result.curve) {
-        const Interval interval = place.interval();
+        const campaign::Interval interval = place.interval();
         curve.push_back({{"value", finite(summary.event.value_at(place.fall))},
                          {"probability", place.probability},
                          {"low", interval.low},
@@ -202,4 +203,4 @@ std::string rare_json(const RareSummary& summary) {
     return json.dump(2);
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_event.hpp"
+#include "limpet/rare/rare_event.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 constexpr std::string_view kAttempts = "attempts";
@@ -100,8 +100,8 @@ double limit_of(const std::string& text, const std::string& number) {
 
 }  // namespace
 
-double RareEvent::value(const RunRow& row) const {
-    if (row.outcome == kFault) {
+double RareEvent::value(const campaign::RunRow& row) const {
+    if (row.outcome == campaign::kFault) {
         return kNaN;
     }
     if (figure == kAttempts) {
@@ -114,7 +114,7 @@ double RareEvent::value(const RunRow& row) const {
     return row.metrics.*find_named(metrics, figure)->field;
 }
 
-bool RareEvent::happened(const RunRow& row) const {
+bool RareEvent::happened(const campaign::RunRow& row) const {
     if (outcome) {
         return row.outcome == to_string(*outcome);
     }
@@ -122,7 +122,7 @@ bool RareEvent::happened(const RunRow& row) const {
     return (rising ? at > limit : at < limit) || (inclusive && at == limit);
 }
 
-double RareEvent::fall(const RunRow& row) const {
+double RareEvent::fall(const campaign::RunRow& row) const {
     if (outcome && happened(row)) {
         return -kInfinity;
     }
@@ -162,4 +162,4 @@ RareEvent parse_rare_event(const std::string& text, const RareGuide& guide) {
     return event;
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

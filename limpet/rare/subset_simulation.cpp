@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/subset_simulation.hpp"
+#include "limpet/rare/subset_simulation.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 constexpr double kFirstStep = 0.6;          ///< Papaioannou et al.
@@ -333,7 +333,8 @@ private:
     double acceptance_ = kNaN;
 };
 
-Interval lognormal_interval(double probability, double variation2, double quantile = kNormal95) {
+campaign::Interval lognormal_interval(double probability, double variation2,
+                                      double quantile = campaign::kNormal95) {
     const double factor = std::exp(quantile * std::sqrt(std::log1p(variation2)));
     return {probability / factor, std::min(1.0, probability * factor)};
 }
@@ -348,7 +349,7 @@ double RarePoint::distance() const {
     return std::sqrt(squares);
 }
 
-Interval RarePlace::interval() const {
+campaign::Interval RarePlace::interval() const {
     return lognormal_interval(probability, variation2);
 }
 
@@ -368,7 +369,7 @@ double SubsetResult::variation2() const {
     return std::max(sum, lineage_variation2);
 }
 
-Interval SubsetResult::interval() const {
+campaign::Interval SubsetResult::interval() const {
     const boost::math::students_t t(std::max(1.0, lineages - 1.0));
     return lognormal_interval(probability(), variation2(), boost::math::quantile(t, 0.975));
 }
@@ -382,4 +383,4 @@ SubsetResult subset_simulation(const SubsetPlan& plan, const RareJudge& judge) {
     return Search(plan, judge).run();
 }
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -6,7 +6,7 @@
 
 #include "limpet/campaign/results.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 
 /// A rare event, and the figure of a flight by which a search comes nearer to it.
 struct RareEvent {
@@ -18,10 +18,10 @@ struct RareEvent {
     bool inclusive = false;  ///< the limit itself is the event as well
 
     /// NaN: did not come to pass.
-    [[nodiscard]] double value(const RunRow& row) const;
+    [[nodiscard]] double value(const campaign::RunRow& row) const;
     /// What RareSample::fall says: falls towards the event, infinite where there is no value.
-    [[nodiscard]] double fall(const RunRow& row) const;
-    [[nodiscard]] bool happened(const RunRow& row) const;
+    [[nodiscard]] double fall(const campaign::RunRow& row) const;
+    [[nodiscard]] bool happened(const campaign::RunRow& row) const;
     /// The figure's value at a fall.
     [[nodiscard]] double value_at(double fall) const { return rising ? -fall : fall; }
 };
@@ -37,4 +37,4 @@ struct RareGuide {
 /// @throws InputError one line: what is unknown and what is near, or what is missing
 [[nodiscard]] RareEvent parse_rare_event(const std::string& text, const RareGuide& guide = {});
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "limpet/campaign/rare_results.hpp"
+#include "limpet/rare/rare_results.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 
 /// What a search for a rare event has found so far.
 struct RareSummary {
@@ -20,13 +20,13 @@ struct RareSummary {
     std::uint32_t level_runs = 0;
     std::uint32_t flown = 0;
     SubsetResult result;
-    std::vector<std::string> keys;    ///< that vary
-    std::optional<RunRow> likeliest;  ///< the event's run nearest to the medians, if any
+    std::vector<std::string> keys;              ///< that vary
+    std::optional<campaign::RunRow> likeliest;  ///< the event's run nearest to the medians, if any
 };
 
-[[nodiscard]] RareSummary summarise_rare(Results& results, const RareSearch& search);
+[[nodiscard]] RareSummary summarise_rare(campaign::Results& results, const RareSearch& search);
 /// The same where the search's result is known.
-[[nodiscard]] RareSummary summarise_rare(Results& results, const RareSearch& search,
+[[nodiscard]] RareSummary summarise_rare(campaign::Results& results, const RareSearch& search,
                                          const SubsetResult& result);
 
 /// For people: lines of at most a screen's width.
@@ -42,4 +42,4 @@ struct RareSummary {
 std::vector<std::filesystem::path> draw_rare(const RareSummary& summary,
                                              const std::filesystem::path& folder);
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

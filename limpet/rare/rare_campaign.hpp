@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "limpet/campaign/rare_results.hpp"
 #include "limpet/campaign/workers.hpp"
+#include "limpet/rare/rare_results.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 
 /// Checks before anything flies that all that varies is drawn, and that the scenario is sound as
 /// far out as a search draws.
 /// @throws InputError one line: the key and what is wrong with it
-void require_searchable(const Campaign& campaign);
+void require_searchable(const campaign::Campaign& campaign);
 
 /// How far a search has come.
 struct RareProgress {
@@ -23,7 +23,7 @@ struct RareProgress {
 
 /// Empty members do nothing.
 struct RareWatch {
-    std::function<void(const RareProgress&)> on_progress;  ///< as that of CampaignWatch
+    std::function<void(const RareProgress&)> on_progress;  ///< as that of campaign::CampaignWatch
     const std::atomic<bool>* stop = nullptr;
 };
 
@@ -37,7 +37,7 @@ struct RareFlown {
 /// Flies a search to its end, on `jobs` threads, each with several runs side by side; runs whose
 /// rows are there are not flown again.
 /// @throws InputError as run_campaign(), and when a row is not the search's
-[[nodiscard]] RareFlown fly_rare(Results& results, const RareSearch& search, int jobs,
+[[nodiscard]] RareFlown fly_rare(campaign::Results& results, const RareSearch& search, int jobs,
                                  const RareWatch& watch = {});
 
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_event.hpp"
+#include "limpet/rare/rare_event.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 using testing::HasSubstr;
@@ -23,7 +23,7 @@ std::string refusal(const std::string& text, const RareGuide& guide = {}) {
 }
 
 TEST(RareEvent, AThresholdIsAMetricBeyondALimit) {
-    RunRow row;
+    campaign::RunRow row;
     row.metrics.cup_margin_min_N = 2.0;
     const RareEvent less = parse_rare_event("cup_margin_min_N < 2");
     EXPECT_EQ(less.text, "cup_margin_min_N<2");
@@ -40,18 +40,18 @@ TEST(RareEvent, AThresholdIsAMetricBeyondALimit) {
 }
 
 TEST(RareEvent, WhatDidNotComeToPassIsFarAway) {
-    RunRow row;
+    campaign::RunRow row;
     const RareEvent event = parse_rare_event("cup_press_max_N>60");
     EXPECT_TRUE(std::isinf(event.fall(row)));
     EXPECT_FALSE(event.happened(row));
-    row.outcome = kFault;
+    row.outcome = campaign::kFault;
     row.metrics.cup_press_max_N = 70.0;
     EXPECT_TRUE(std::isinf(event.fall(row)));
     EXPECT_FALSE(event.happened(row));
 }
 
 TEST(RareEvent, AnOutcomeHasAFigureThatLeadsToIt) {
-    RunRow row;
+    campaign::RunRow row;
     row.outcome = "perched";
     row.metrics.cup_press_max_N = 50.0;
     const RareEvent failed = parse_rare_event("failed_to_seal");
@@ -83,4 +83,4 @@ TEST(RareEvent, OneLineForWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace limpet::campaign
+}  // namespace limpet::rare

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/campaign/rare_campaign.hpp"
+#include "limpet/rare/rare_campaign.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "campaigns.hpp"
-#include "limpet/campaign/rare_summary.hpp"
+#include "../campaign/campaigns.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/rare/rare_summary.hpp"
 
-namespace limpet::campaign {
+namespace limpet::rare {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,14 +32,15 @@ RareSearch long_hovers(std::uint32_t level_runs = 100,
     return {.event = parse_rare_event(event), .level_runs = level_runs};
 }
 
-Results begun(const Campaign& campaign, const fs::path& folder, const RareSearch& search) {
+campaign::Results begun(const campaign::Campaign& campaign, const fs::path& folder,
+                        const RareSearch& search) {
     fs::create_directories(folder);
-    Results results = begin_results(campaign, folder, false);
+    campaign::Results results = begin_results(campaign, folder, false);
     begin_rare(results, search, {});
     return results;
 }
 
-std::vector<std::vector<std::string>> rare_rows(Results& results) {
+std::vector<std::vector<std::string>> rare_rows(campaign::Results& results) {
     std::vector<std::vector<std::string>> rows;
     SQLite::Statement select(results.database(), "SELECT * FROM rare_runs ORDER BY run");
     while (select.executeStep()) {
@@ -55,7 +56,8 @@ std::vector<std::vector<std::string>> rare_rows(Results& results) {
 TEST(RareCampaign, FlightsFindTheProbabilityThatIsKnown) {
     const Bench bench;
     const RareSearch search = long_hovers(200, "simulated_s>0.42");
-    Results results = begun(campaign_of(bench, kHovers), bench.folder(), search);
+    campaign::Results results =
+        begun(campaign::campaign_of(bench, kHovers), bench.folder(), search);
     const RareFlown flown = fly_rare(results, search, 2);
     ASSERT_EQ(flown.result.ending, RareEnding::estimated);
     EXPECT_LT(flown.result.interval().low, normal_probability(-2.9));   // 1.9e-3
@@ -68,14 +70,14 @@ TEST(RareCampaign, FlightsFindTheProbabilityThatIsKnown) {
 
 TEST(RareCampaign, DoesNotDependOnTheNumberOfWorkersAndIsDrawn) {
     const Bench bench;
-    const Campaign campaign = campaign_of(bench, kHovers);
-    Results one = begun(campaign, bench.folder() / "one", long_hovers());
-    Results three = begun(campaign, bench.folder() / "three", long_hovers());
+    const campaign::Campaign campaign = campaign::campaign_of(bench, kHovers);
+    campaign::Results one = begun(campaign, bench.folder() / "one", long_hovers());
+    campaign::Results three = begun(campaign, bench.folder() / "three", long_hovers());
     const RareFlown first = fly_rare(one, long_hovers(), 1);
     const RareFlown second = fly_rare(three, long_hovers(), 3);
     EXPECT_EQ(first.result.probability(), second.result.probability());
-    EXPECT_EQ(table_of(bench.folder() / "one/results.sqlite"),
-              table_of(bench.folder() / "three/results.sqlite"));
+    EXPECT_EQ(campaign::table_of(bench.folder() / "one/results.sqlite"),
+              campaign::table_of(bench.folder() / "three/results.sqlite"));
     EXPECT_EQ(rare_rows(one), rare_rows(three));
     EXPECT_TRUE(draw_rare(summarise_rare(one, *rare_search(one), {}), bench.folder()).empty());
     const auto files = draw_rare(summarise_rare(one, *rare_search(one)), bench.folder());
@@ -88,10 +90,10 @@ TEST(RareCampaign, DoesNotDependOnTheNumberOfWorkersAndIsDrawn) {
 
 TEST(RareCampaign, GoesOnWhereItWasStopped) {
     const Bench bench;
-    const Campaign campaign = campaign_of(bench, kHovers);
-    Results whole = begun(campaign, bench.folder() / "whole", long_hovers());
+    const campaign::Campaign campaign = campaign::campaign_of(bench, kHovers);
+    campaign::Results whole = begun(campaign, bench.folder() / "whole", long_hovers());
     (void)fly_rare(whole, long_hovers(), 2);
-    Results cut = begun(campaign, bench.folder() / "cut", long_hovers());
+    campaign::Results cut = begun(campaign, bench.folder() / "cut", long_hovers());
     std::atomic<bool> stop = false;
     const RareFlown first = fly_rare(
         cut, long_hovers(), 2,
@@ -103,15 +105,15 @@ TEST(RareCampaign, GoesOnWhereItWasStopped) {
     begin_rare(cut, long_hovers(), {});
     const RareFlown second = fly_rare(cut, long_hovers(), 1);
     EXPECT_EQ(first.flown + second.flown, whole.finished() + 1);
-    EXPECT_EQ(table_of(bench.folder() / "cut/results.sqlite"),
-              table_of(bench.folder() / "whole/results.sqlite"));
+    EXPECT_EQ(campaign::table_of(bench.folder() / "cut/results.sqlite"),
+              campaign::table_of(bench.folder() / "whole/results.sqlite"));
     EXPECT_EQ(rare_rows(cut), rare_rows(whole));
 }
 
 TEST(RareCampaign, RefusesResultsOfSomethingElse) {
     const Bench bench;
-    const Campaign campaign = campaign_of(bench, kHovers);
-    Results results = begun(campaign, bench.folder(), long_hovers());
+    const campaign::Campaign campaign = campaign::campaign_of(bench, kHovers);
+    campaign::Results results = begun(campaign, bench.folder(), long_hovers());
     const auto refusal = [](const auto& act) -> std::string {
         try {
             act();
@@ -125,12 +127,12 @@ TEST(RareCampaign, RefusesResultsOfSomethingElse) {
     EXPECT_THAT(refusal([&] { begin_rare(results, long_hovers(200), {}); }),
                 HasSubstr("100 runs a level"));
     EXPECT_THAT(refusal([&] { require_plain(results); }), HasSubstr("--rare"));
-    RunRow row = fly_run(campaign, 0);
+    campaign::RunRow row = fly_run(campaign, 0);
     results.add({row});
     EXPECT_THAT(refusal([&] { (void)fly_rare(results, long_hovers(), 1); }),
                 HasSubstr("run 0 is not the one"));
     fs::create_directories(bench.folder() / "plain");
-    Results plain = begin_results(campaign, bench.folder() / "plain", false);
+    campaign::Results plain = begin_results(campaign, bench.folder() / "plain", false);
     plain.add({row});
     EXPECT_THAT(refusal([&] { begin_rare(plain, long_hovers(), {}); }),
                 HasSubstr("a campaign without --rare"));
@@ -138,17 +140,19 @@ TEST(RareCampaign, RefusesResultsOfSomethingElse) {
 
 TEST(RareCampaign, ARunIsTheFlightOfItsSampleAndNoise) {
     const Bench bench;
-    const Campaign campaign = campaign_of(bench, kHovers);
-    Results results = begun(campaign, bench.folder(), long_hovers());
+    const campaign::Campaign campaign = campaign::campaign_of(bench, kHovers);
+    campaign::Results results = begun(campaign, bench.folder(), long_hovers());
     (void)fly_rare(results, long_hovers(), 2);
-    const RunRow row = results.row(100);  // the first of the second level
+    const campaign::RunRow row = results.row(100);  // the first of the second level
     const NoiseBlend noise = rare_noise(results, row.run);
     EXPECT_GT(noise.size(), 1U);  // a proposal beside another run
-    const std::string yaml = scenario_of(campaign, row.sample, noise).yaml;
+    const std::string yaml = campaign::scenario_of(campaign, row.sample, noise).yaml;
     const auto model = simulation::build_model(scenario::load_scenario_text(
         yaml, "again", {.overrides = {}, .seed = {}, .data_root = "."}));
-    EXPECT_EQ(hash_text(simulation::fly(model).state_hash), row.state_hash);
-    EXPECT_EQ(hash_text(replay_run(results, row.run, bench.folder() / "flight.mcap").state_hash),
+    EXPECT_EQ(campaign::hash_text(simulation::fly(model).state_hash), row.state_hash);
+    EXPECT_EQ(campaign::hash_text(replay_run(results, row.run, bench.folder() / "flight.mcap", {},
+                                             rare_noise(results, row.run))
+                                      .state_hash),
               row.state_hash);
 }
 
@@ -157,7 +161,7 @@ TEST(RareCampaign, AllThatVariesIsDrawnAndCanBeFlownFarOut) {
     const auto refusal = [&](const std::string& keys) -> std::string {
         try {
             require_searchable(
-                campaign_of(bench, "scenario: hover\nruns: 4\nparameters:\n" + keys));
+                campaign::campaign_of(bench, "scenario: hover\nruns: 4\nparameters:\n" + keys));
         } catch (const InputError& error) {
             return error.what();
         }
@@ -174,20 +178,20 @@ TEST(RareCampaign, AllThatVariesIsDrawnAndCanBeFlownFarOut) {
 
 /// Where a normal stands in a spread: the inverse of its distribution.
 TEST(SampleAt, IsTheInverseOfTheDistribution) {
-    VariedKey key;
-    key.spread = Spread::uniform;
+    campaign::VariedKey key;
+    key.spread = campaign::Spread::uniform;
     key.first = 2.0;
     key.second = 4.0;
     const auto at = [&key](double normal) {
-        return std::get<double>(sample_at({key}, {normal}).front());
+        return std::get<double>(campaign::sample_at({key}, {normal}).front());
     };
     EXPECT_DOUBLE_EQ(at(0.0), 3.0);
     EXPECT_NEAR(at(1.0), 2.0 + 2.0 * 0.841344746, 1e-8);
-    key.spread = Spread::normal;
+    key.spread = campaign::Spread::normal;
     EXPECT_DOUBLE_EQ(at(1.5), 2.0 + 4.0 * 1.5);
-    key.spread = Spread::lognormal;
+    key.spread = campaign::Spread::lognormal;
     EXPECT_DOUBLE_EQ(at(0.5), 2.0 * std::exp(4.0 * 0.5));
-    key.spread = Spread::normal;
+    key.spread = campaign::Spread::normal;
     key.from = 4.0;  // half a sigma out: what is left is shared out
     key.to = 1e300;
     const double left = normal_probability(-0.5);
@@ -199,4 +203,4 @@ TEST(SampleAt, IsTheInverseOfTheDistribution) {
 }
 
 }  // namespace
-}  // namespace limpet::campaign
+}  // namespace limpet::rare
