@@ -8,7 +8,6 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/mcap/reader.hpp"
-#include "limpet/record/scene.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {

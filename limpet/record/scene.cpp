@@ -132,11 +132,6 @@ Marker arrow_of(Stamp at, std::string_view frame, std::string_view name, std::in
 
 }  // namespace
 
-bool is_of_scene(std::string_view topic) {
-    return topic == kDescriptionTopic || topic == kMovingTopic || topic == kStandingTopic ||
-           topic == kMarkersTopic;
-}
-
 CupAngles cup_angles(const Truth& truth) {
     const Vector3 mouth_B = truth.base.q_WF.conjugate() * truth.cup.q_WF * Vector3::UnitX();
     return {.pitch_rad = std::atan2(-mouth_B.z(), mouth_B.x()),

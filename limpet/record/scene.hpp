@@ -13,6 +13,7 @@
 #include "limpet/core/signals/truth.hpp"
 #include "limpet/core/wall.hpp"
 #include "limpet/record/message_writer.hpp"
+#include "limpet/record/topics.hpp"
 
 // What a viewer needs to show a flight in three dimensions: the vehicle as URDF, where its links
 // are at every time, and marks for what cannot be seen.
@@ -28,13 +29,6 @@ inline constexpr std::string_view kCupFrame = "cup";
 inline constexpr std::string_view kLipFrame = "lip";
 inline constexpr std::string_view kWallFrame = "wall";
 inline constexpr std::array<std::string_view, 2> kLidarFrames = {"lidar_left", "lidar_right"};
-
-// Channels beside those in topics.hpp, for viewers: not read back as columns.
-inline constexpr std::string_view kDescriptionTopic = "/robot_description";
-inline constexpr std::string_view kMovingTopic = "/tf";
-inline constexpr std::string_view kStandingTopic = "/tf_static";
-inline constexpr std::string_view kMarkersTopic = "/scene";
-[[nodiscard]] bool is_of_scene(std::string_view topic);
 
 /// What does not change in a flight.
 struct Scene {

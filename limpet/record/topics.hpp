@@ -62,6 +62,15 @@ inline constexpr std::array<TopicInfo, 19> kTopics = {{
 [[nodiscard]] constexpr const TopicInfo& info(Topic topic) {
     return kTopics[static_cast<std::size_t>(topic)];
 }
+// Channels beside them, for viewers (scene.hpp): not read back as columns.
+inline constexpr std::string_view kDescriptionTopic = "/robot_description";
+inline constexpr std::string_view kMovingTopic = "/tf";
+inline constexpr std::string_view kStandingTopic = "/tf_static";
+inline constexpr std::string_view kMarkersTopic = "/scene";
+[[nodiscard]] constexpr bool is_of_scene(std::string_view topic) {
+    return topic == kDescriptionTopic || topic == kMovingTopic || topic == kStandingTopic ||
+           topic == kMarkersTopic;
+}
 static_assert(info(Topic::events).name == "/events", "enum and table in the same order");
 
 }  // namespace limpet::record
