@@ -59,7 +59,9 @@ class Fields {
 public:
     void real(double value) { bytes_ += bytes_of(static_cast<float>(value)); }
     void reals(const Vector3& v) {
-        std::for_each(v.begin(), v.end(), [this](double x) { real(x); });
+        real(v.x());
+        real(v.y());
+        real(v.z());
     }
     void reals(const Quaternion& q) {  // w first
         real(q.w());
