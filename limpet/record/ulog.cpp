@@ -254,10 +254,17 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
         throw InputError(recording.path.string() + ": nothing in it has a place in a PX4 log");
     }
     gather_events(recording, data);
-    std::stable_sort(data.begin(), data.end(),
-                     [](const Timed& a, const Timed& b) { return a.first < b.first; });
+    // by time, and what has one time in the order in which it was gathered
+    std::vector<const Timed*> in_time;
+    in_time.reserve(data.size());
     for (const Timed& one : data) {
-        log += one.second;
+        in_time.push_back(&one);
+    }
+    std::sort(in_time.begin(), in_time.end(), [](const Timed* a, const Timed* b) {
+        return a->first != b->first ? a->first < b->first : a < b;
+    });
+    for (const Timed* one : in_time) {
+        log += one->second;
     }
     std::ofstream out(file, std::ios::binary);
     out << log;
