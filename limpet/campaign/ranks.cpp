@@ -257,7 +257,9 @@ public:
 
     void fail(std::exception_ptr why) noexcept override {
         const std::lock_guard lock(mutex_);
-        failed_ = failed_ ? failed_ : why;
+        if (!stopped_) {
+            failed_ = failure(why);
+        }
         stopped_ = true;
         dealt_.notify_all();
         changed_here_.notify_one();
@@ -266,8 +268,8 @@ public:
     /// What there is to tell rank 0; none: nothing.
     [[nodiscard]] std::optional<std::string> news() {
         const std::lock_guard lock(mutex_);
-        if (failed_) {
-            return failure(std::exchange(failed_, nullptr));
+        if (!failed_.empty()) {
+            return std::exchange(failed_, {});
         }
         const bool ask = !asked_ && !last_ && !stopped_ && runs_.size() < ahead_;
         if (rows_.empty() && !ask) {
@@ -330,7 +332,7 @@ private:
     bool last_ = false;   ///< rank 0 has no more
     bool stopped_ = false;
     std::vector<RunRow> rows_;
-    std::exception_ptr failed_ = nullptr;
+    std::string failed_;  ///< as rank 0 is told; empty: nothing has
 };
 
 /// Joins; @return whether rank 0 lets this rank begin
