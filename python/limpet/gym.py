@@ -93,7 +93,7 @@ class Dock(Task):
     """From 1.2 m before a wall of porous concrete, whose heading, lean and friction nobody tells: so
     that the cup seals and holds.
 
-    action       forward 0..1.6 m/s, right and down -0.4..0.4 m/s of the heading, turn -0.5..0.5 rad/s
+    action       forward 0..2 m/s, right and down -0.4..0.4 m/s of the heading, turn -0.5..0.5 rad/s
     observation  LiDARs left, right [m], velocity forward, right, down [m/s], roll, pitch [rad],
                  heading since the start [rad], force [10 N], cup's vacuum [100 hPa]
     reward       -0.01 a step, +1 attached, -1 crashed; over with either, cut off after 8 s
@@ -119,7 +119,7 @@ class Dock(Task):
 
     def setpoints(self, actions: np.ndarray, seen: np.ndarray) -> np.ndarray:
         yaw = self.of(seen, "yaw_rad")
-        forward, right = 0.8 * (actions[:, 0] + 1.0), 0.4 * actions[:, 1]
+        forward, right = actions[:, 0] + 1.0, 0.4 * actions[:, 1]
         turn = 0.5 * actions[:, 3] * 0.2  # heading a fifth of a second ahead
         north = np.cos(yaw) * forward - np.sin(yaw) * right
         east = np.sin(yaw) * forward + np.cos(yaw) * right

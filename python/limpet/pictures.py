@@ -49,7 +49,7 @@ def plot(result: _core.Result, *others: _core.Result, events: bool = True,
                          for i, event in enumerate(named, 1))
         figure.text(1.005, 0.98, text, va="top", fontsize="small")
     axes[-1, 0].set_xlabel("time [s]")
-    axes[0, 0].set_title(f"{result.outcome.replace('_', ' ')}: {result.reason}", loc="left")
+    axes[0, 0].set_title(f"{result.outcome.replace('_', ' ')}: {result.reason}", loc="left", pad=14)
     if file is not None:
         figure.savefig(file, dpi=150, bbox_inches="tight")
     return figure
@@ -67,7 +67,8 @@ def _number(axis: Any, times_s: Sequence[float]) -> None:
     for group in groups:
         text = str(group[0]) if len(group) == 1 else f"{group[0]}-{group[-1]}"
         axis.annotate(text, (times_s[group[0] - 1], 1.0), xycoords=("data", "axes fraction"),
-                      xytext=(0, -3), textcoords="offset points", fontsize="x-small", va="top")
+                      xytext=(0, 2), textcoords="offset points", fontsize="x-small",
+                      ha="center")
 
 
 def plot_campaign(result: CampaignResult, key: str, bins: int = 10, *, axis: Any = None,
