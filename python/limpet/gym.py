@@ -138,7 +138,7 @@ class Dock(Task):
 
     def judge(self, seen: np.ndarray, before: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         attached = self.of(seen, "cup_phase") == ATTACHED
-        return -0.01 + 1.0 * attached, attached, attached
+        return -0.01 + 1.0 * attached, attached, attached.copy()
 
 
 class Swing(Task):
@@ -231,11 +231,12 @@ class VectorFlights(_VectorEnv):
         reward, over, success = self.task.judge(self.seen, before)
         self.steps += 1
         ended = self.flights.ended
-        crashed = np.array([bool(e) and self.flights.outcome(i) == "crashed" for i, e in enumerate(ended)])
-        reward = np.where(crashed, -1.0, reward)
+        for i in np.flatnonzero(ended):
+            if self.flights.outcome(int(i)) == "crashed":
+                reward[i], success[i] = -1.0, False
         terminated = over | ended
         truncated = ~terminated & (self.steps * TICKS * 1e-3 >= self.task.limit_s)
-        info: dict[str, Any] = {"success": success & ~crashed}
+        info: dict[str, Any] = {"success": success}
         if np.any(terminated | truncated):
             info["final_obs"] = self.task.observe(self.seen).astype(np.float32)
             self._begin(terminated | truncated)
