@@ -108,4 +108,13 @@ build() {
     fi
 }
 
+# find_python_module: a tree that was configured before pybind11 was there is configured anew
+find_python_module() {
+    local cache=$limpet_root/build/release/CMakeCache.txt
+    if grep -q 'pybind11_DIR-NOTFOUND\|_Python_INCLUDE_DIR.*-NOTFOUND' "$cache" 2>/dev/null; then
+        step "configuring (release) ..." cmake -S "$limpet_root" -B "$limpet_root/build/release" \
+            -U 'pybind11*' -U '*Python*'
+    fi
+}
+
 mkdir -p "$limpet_root/build"

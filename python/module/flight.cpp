@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+
+#include "channels.hpp"
+#include "limpet/limpet.hpp"
+#include "stations.hpp"
+
+namespace limpet::python {
+namespace {
+
+/// A flight that has been flown, with its channels.
+struct Flown {
+    Result result;
+    ChannelLog log;
+};
+
+std::size_t channel_index(const std::string& name) {
+    const auto& table = channel_table();
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (name == table[i].name) {
+            return i;
+        }
+    }
+    std::string names;
+    for (const Channel& channel : table) {
+        names += names.empty() ? channel.name : std::string(", ") + channel.name;
+    }
+    throw py::key_error("\"" + name + "\": no channel; there are " + names);
+}
+
+py::dict metrics_of(const Result& result) {
+    py::dict metrics;
+    for (const Metric& metric : result.metrics) {
+        metrics[py::str(metric.name)] = metric.value;
+    }
+    return metrics;
+}
+
+/// Looks for Ctrl-C now and then; flies without the GIL in between.
+class Patience {
+public:
+    void wait() {
+        if (++calls_ % 64 != 0 || Clock::now() < next_) {
+            return;
+        }
+        next_ = Clock::now() + std::chrono::milliseconds(50);
+        const py::gil_scoped_acquire gil;
+        if (PyErr_CheckSignals() != 0) {
+            throw py::error_already_set();
+        }
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(50);
+    unsigned calls_ = 0;
+};
+
+/// @param rate_Hz  of the channels' samples; each instant is a whole tick
+std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
+    if (rate_Hz < 1 || rate_Hz > kTicksPerSecond) {
+        throw py::value_error("rate_Hz: 1..1000");
+    }
+    auto flown = std::make_shared<Flown>();
+    const py::gil_scoped_release fly_freely;
+    const int every = kTicksPerSecond / rate_Hz;
+    Patience patience;
+    flown->log.sample(flight);
+    for (long long tick = 1; flight.tick(); ++tick) {
+        if (tick % every == 0) {
+            flown->log.sample(flight);
+        }
+        patience.wait();
+    }
+    flown->result = flight.result();
+    return flown;
+}
+
+bool ticks(Flight& flight, long long count) {
+    const py::gil_scoped_release fly_freely;
+    Patience patience;
+    bool goes_on = !flight.ended();
+    for (long long i = 0; i < count && goes_on; ++i) {
+        goes_on = flight.tick();
+        patience.wait();
+    }
+    return goes_on;
+}
+
+void add_scenario(py::module_& module) {
+    py::class_<Scenario>(module, "Scenario",
+                         "One experiment, read and checked: what flies, against what. Immutable.")
+        .def_property_readonly("name", &Scenario::name)
+        .def_property_readonly("description", &Scenario::description)
+        .def_property_readonly("seed", &Scenario::seed)
+        .def_property_readonly("yaml", &Scenario::yaml, "flies the same again")
+        .def("_changed", &Scenario::with)
+        .def("__repr__", [](const Scenario& s) { return "<limpet.Scenario " + s.name() + ">"; });
+    module.def("_load", &load, py::arg("wanted"), py::arg("changes"));
+    module.def("scenarios", &scenario_names, "Names of all scenarios that are installed.");
+    module.def(
+        "channels",
+        [] {
+            py::dict table;
+            for (const Channel& channel : channel_table()) {
+                table[channel.name] = channel.what;
+            }
+            return table;
+        },
+        "What a flight is sampled into: {name with SI unit: what it is}.");
+}
+
+void add_result(py::module_& module) {
+    py::class_<Flown, std::shared_ptr<Flown>>(
+        module, "Result",
+        "A flight that has been flown. r[\"cup_pressure_Pa\"] "
+        "is a channel against r[\"time_s\"], read-only, not "
+        "copied; channels() tells them.")
+        .def_property_readonly(
+            "outcome", [](const Flown& f) { return std::string(to_string(f.result.outcome)); },
+            "released, perched, failed_to_seal, crashed, ...")
+        .def_property_readonly("reason", [](const Flown& f) { return f.result.reason; })
+        .def_property_readonly(
+            "simulated_s", [](const Flown& f) { return f.result.simulated_s; }, "[s]")
+        .def_property_readonly(
+            "attempts", [](const Flown& f) { return f.result.attempts; }, "docking runs")
+        .def_property_readonly("events", [](const Flown& f) { return f.result.events; })
+        .def_property_readonly(
+            "metrics", [](const Flown& f) { return metrics_of(f.result); },
+            "{name with unit: number}; NaN: did not come to pass")
+        .def_property_readonly(
+            "state_hash", [](const Flown& f) { return f.result.state_hash; },
+            "digest of the trajectory: equal bits, equal hash")
+        .def("__getitem__",
+             [](const py::object& self, const std::string& name) {
+                 const auto& flown = self.cast<const Flown&>();
+                 return view_of(flown.log.columns[channel_index(name)], self);
+             })
+        .def("keys",
+             [](const Flown&) {
+                 std::vector<std::string> names;
+                 for (const Channel& channel : channel_table()) {
+                     names.emplace_back(channel.name);
+                 }
+                 return names;
+             })
+        .def("__repr__", [](const Flown& f) {
+            return "<limpet.Result " + std::string(to_string(f.result.outcome)) + " after " +
+                   std::to_string(f.result.simulated_s) + " s>";
+        });
+}
+
+void add_flight_class(py::module_& module) {
+    py::class_<Moment>(module, "Moment", "A flight at one instant, to branch from.");
+    const auto inside = py::return_value_policy::reference_internal;
+    py::class_<Flight>(module, "Flight",
+                       "One flight, to be flown to its end or stepped. Same scenario, run and "
+                       "stations: the same bits. It belongs to one thread at a time.")
+        .def(py::init([](const Scenario& scenario, std::uint32_t run, const Moment* start,
+                         const py::object& guidance, const py::object& autopilot,
+                         const py::object& cup) {
+                 const Stations stations = stations_of(guidance, autopilot, cup);
+                 return start != nullptr ? Flight(scenario, *start, stations)
+                                         : Flight(scenario, stations, run);
+             }),
+             py::arg("scenario"), py::arg("run") = 0, py::kw_only(), py::arg("start") = nullptr,
+             py::arg("guidance") = py::none(), py::arg("autopilot") = py::none(),
+             py::arg("cup") = py::none())
+        .def("record", &Flight::record, py::arg("file"),
+             "Writes all signals from here on into an MCAP file.")
+        .def("tick", &ticks, py::arg("count") = 1,
+             "Milliseconds of the loop. Returns whether the flight goes on.")
+        .def("fly", &fly, py::arg("rate_Hz") = 100, "To the end; channels at this rate.")
+        .def_property_readonly("ended", &Flight::ended)
+        .def_property_readonly("time_s", &Flight::time_s, "[s]")
+        .def_property_readonly("truth", &Flight::truth, inside)
+        .def_property_readonly("readings", &Flight::readings, inside)
+        .def_property_readonly("estimate", &Flight::estimate, inside)
+        .def_property_readonly("setpoint", &Flight::setpoint, inside)
+        .def_property_readonly("rotor_commands",
+                               [](const Flight& f) { return array_of(f.rotors().command); })
+        .def_property_readonly("phase", [](const Flight& f) { return std::string(f.phase()); })
+        .def_property_readonly(
+            "events",
+            [](const Flight& f) {
+                return std::vector<Event>(f.events().begin(), f.events().end());
+            },
+            "of the last tick")
+        .def("save", &Flight::save,
+             "To go on from here later, on other walls or with other stations.");
+}
+
+void add_recording(py::module_& module) {
+    py::class_<PastEvent>(module, "PastEvent", "An event as it was recorded.")
+        .def_readonly("time_s", &PastEvent::time_s)
+        .def_readonly("station", &PastEvent::station)
+        .def_readonly("name", &PastEvent::name)
+        .def_readonly("reason", &PastEvent::reason)
+        .def_property_readonly("values", [](const PastEvent& e) {
+            py::dict values;
+            for (const auto& [name, value] : e.values) {
+                values[py::str(name)] = value;
+            }
+            return values;
+        });
+    py::class_<Recording>(module, "Recording", "A flight's MCAP file, read back.")
+        .def(py::init<const std::filesystem::path&>(), py::arg("file"))
+        .def_property_readonly("topics", &Recording::topics)
+        .def("columns", &Recording::columns, py::arg("topic"))
+        .def(
+            "series",
+            [](const py::object& self, const std::string& topic, const std::string& column) {
+                const Series series = self.cast<const Recording&>().series(topic, column);
+                const auto view = [&](std::span<const double> numbers) {
+                    return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()),
+                                               numbers.data(), self);
+                };
+                return py::make_tuple(view(series.time_s), view(series.values));
+            },
+            py::arg("topic"), py::arg("column"), "(time_s, values), not copied")
+        .def_property_readonly("events", &Recording::events)
+        .def_property_readonly("scenario_yaml", &Recording::scenario_yaml)
+        .def_property_readonly("damage", &Recording::damage, "empty when whole");
+}
+
+}  // namespace
+
+void add_flight(py::module_& module) {
+    add_scenario(module);
+    add_result(module);
+    add_flight_class(module);
+    add_recording(module);
+}
+
+}  // namespace limpet::python

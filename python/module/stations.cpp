@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stations.hpp"
+
+#include <pybind11/stl.h>
+
+#include <map>
+#include <mutex>
+#include <set>
+
+namespace limpet::python {
+namespace {
+
+/// A Python object that flights hold. They may let go of it on any thread.
+class Held {
+public:
+    Held(py::object object, const char* method) : object_(std::move(object)) {
+        if (!py::hasattr(object_, method)) {
+            throw py::type_error(std::string(py::str(py::type::of(object_))) + " has no method " +
+                                 method + "()");
+        }
+        memory_size_ = py::getattr(object_, "memory_size", py::int_(0)).cast<std::size_t>();
+    }
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+    ~Held() {
+        const py::gil_scoped_acquire gil;
+        object_ = py::object();
+    }
+    [[nodiscard]] std::size_t memory_size() const { return memory_size_; }
+    template <class... Arguments>
+    [[nodiscard]] py::object call(const char* method, Arguments&&... arguments) const {
+        return object_.attr(method)(std::forward<Arguments>(arguments)...);
+    }
+
+private:
+    py::object object_;
+    std::size_t memory_size_ = 0;
+};
+
+/// The flight's own numbers, which the station may write.
+py::array_t<double> lent(std::span<double> memory) {
+    return py::array_t<double>(static_cast<py::ssize_t>(memory.size()), memory.data(), py::none());
+}
+
+/// Reasons are literals elsewhere: those of Python live as long as the program.
+std::string_view kept(const std::string& text) {
+    static std::mutex mutex;
+    static std::set<std::string> texts;
+    const std::lock_guard lock(mutex);
+    return *texts.insert(text).first;
+}
+
+class PythonGuidance final : public Guidance {
+public:
+    explicit PythonGuidance(py::object object) : held_(std::move(object), "update") {}
+    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    [[nodiscard]] GuidanceOutput update(const GuidanceInput& input,
+                                        std::span<double> memory) const override {
+        const py::gil_scoped_acquire gil;
+        const py::object said = held_.call(
+            "update", py::cast(input.readings, py::return_value_policy::copy),
+            py::cast(input.estimate, py::return_value_policy::copy), input.time_s, lent(memory));
+        if (!py::isinstance<py::tuple>(said)) {
+            return {.setpoint = said.cast<Setpoint>()};
+        }
+        const auto all = said.cast<py::tuple>();
+        if (all.size() != 3) {
+            throw py::value_error("update() returns a Setpoint, or (Setpoint, outcome, reason)");
+        }
+        return {.setpoint = all[0].cast<Setpoint>(),
+                .outcome = outcome_named(all[1].cast<std::string>()),
+                .reason = kept(all[2].cast<std::string>())};
+    }
+
+private:
+    Held held_;
+};
+
+class PythonAutopilot final : public Autopilot {
+public:
+    explicit PythonAutopilot(py::object object) : held_(std::move(object), "control") {}
+    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    [[nodiscard]] AutopilotOutput control(const AutopilotInput& input,
+                                          std::span<double> memory) const override {
+        const py::gil_scoped_acquire gil;
+        const auto said =
+            held_
+                .call("control", py::cast(input.estimate, py::return_value_policy::copy),
+                      py::cast(input.setpoint, py::return_value_policy::copy),
+                      py::cast(input.vehicle, py::return_value_policy::copy), input.time_s,
+                      input.dt_s, lent(memory))
+                .cast<py::tuple>();
+        if (said.size() == 2) {
+            return {.thrust = said[0].cast<double>(), .torque = vector_from(said[1], "torque")};
+        }
+        if (said.size() != kRotors) {
+            throw py::value_error("control() returns (thrust, torque) or four rotor commands");
+        }
+        AutopilotOutput output;
+        output.rotors.emplace();
+        for (std::size_t i = 0; i < kRotors; ++i) {
+            (*output.rotors)[i] = said[i].cast<double>();
+        }
+        return output;
+    }
+
+private:
+    Held held_;
+};
+
+class PythonCup final : public CupPressure {
+public:
+    explicit PythonCup(py::object object) : held_(std::move(object), "next_Pa") {}
+    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    [[nodiscard]] double next_Pa(const CupPressureInput& air,
+                                 std::span<double> memory) const override {
+        const py::gil_scoped_acquire gil;
+        return held_.call("next_Pa", py::cast(air, py::return_value_policy::copy), lent(memory))
+            .cast<double>();
+    }
+
+private:
+    Held held_;
+};
+
+/// One station an object, so that a branch knows whose memory it has.
+template <class Station, class Made>
+std::shared_ptr<const Station> station_of(const py::object& object) {
+    static std::map<PyObject*, std::weak_ptr<const Station>> known;  // guarded by the GIL
+    if (object.is_none()) {
+        return nullptr;
+    }
+    std::erase_if(known, [](const auto& one) { return one.second.expired(); });
+    std::weak_ptr<const Station>& last = known[object.ptr()];
+    std::shared_ptr<const Station> station = last.lock();
+    if (station == nullptr) {
+        station = std::make_shared<Made>(object);
+        last = station;
+    }
+    return station;
+}
+
+}  // namespace
+
+Stations stations_of(const py::object& guidance, const py::object& autopilot,
+                     const py::object& cup) {
+    return {.autopilot = station_of<Autopilot, PythonAutopilot>(autopilot),
+            .guidance = station_of<Guidance, PythonGuidance>(guidance),
+            .cup = station_of<CupPressure, PythonCup>(cup)};
+}
+
+Outcome outcome_named(const std::string& name) {
+    if (const auto outcome = outcome_from(name)) {
+        return *outcome;
+    }
+    throw py::value_error("\"" + name + "\": no outcome");
+}
+
+void add_stations(py::module_& module) {
+    py::class_<AutopilotVehicle>(module, "Vehicle", "What an autopilot may know of its vehicle.")
+        .def_readonly("mass_kg", &AutopilotVehicle::mass_kg)
+        .def_property_readonly(
+            "inertia_kg_m2", [](const AutopilotVehicle& v) { return array_of(v.inertia_kg_m2); },
+            "diagonal, about B")
+        .def_readonly("hover_thrust", &AutopilotVehicle::hover_thrust,
+                      "collective that carries the weight, 0..1");
+    py::class_<CupPressureInput>(module, "CupAir", "A sealed cup at the beginning of a step.")
+        .def_readonly("pressure_Pa", &CupPressureInput::pressure_Pa, "absolute [Pa]")
+        .def_readonly("pump_running", &CupPressureInput::pump_running)
+        .def_readonly("valve_open", &CupPressureInput::valve_open)
+        .def_readonly("press_N", &CupPressureInput::press_N, "on the wall, < 0 pulled off [N]")
+        .def_readonly("radius_m", &CupPressureInput::radius_m, "of the sealed area [m]")
+        .def_readonly("vacuum_pressure_Pa", &CupPressureInput::vacuum_pressure_Pa,
+                      "what pump and surface come to [Pa]")
+        .def_readonly("sealing_time_constant_s", &CupPressureInput::sealing_time_constant_s, "[s]")
+        .def_readonly("unsealing_time_constant_s", &CupPressureInput::unsealing_time_constant_s,
+                      "[s]")
+        .def_readonly("dt_s", &CupPressureInput::dt_s, "length of the step [s]");
+}
+
+}  // namespace limpet::python

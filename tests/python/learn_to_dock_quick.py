@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The example learns: after a few generations it seals clearly more often than as it began."""
+import sys
+
+sys.path.insert(0, sys.argv[1] + "/examples/python")
+import learn_to_dock as example
+from limpet import gym
+
+example.EPISODES, example.CANDIDATES = 12, 10
+learnt, curve = example.learn(4, 2)
+fresh = gym.make_vec("limpet/Dock-v0", 40, jobs=2)
+before = example.fly_all(fresh, example.first_policy(), 1000003)[1]
+after = example.fly_all(fresh, learnt, 1000003)[1]
+print(example.share_text(before), example.share_text(after))
+assert example.interval(after)[0] > example.interval(before)[1], "has learnt nothing"

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import limpet
+
+PROGRAM = Path(limpet.__file__).parents[2] / "apps/limpet/limpet"
+
+
+def test_flies_what_the_program_flies():
+    said = json.loads(subprocess.run(
+        [PROGRAM, "fly", "perch_concrete", "--set", "guidance.dock_speed_m_s=1.0", "--set", "seed=3",
+         "--no-record", "--json"], capture_output=True, check=True).stdout)
+    flown = limpet.fly("perch_concrete", {"guidance.dock_speed_m_s": 1.0}, seed=3)
+    assert flown.outcome == said["outcome"] == "released"
+    assert f"{flown.state_hash:016x}" == said["state_hash"]
+    for name in ("impact_force_N", "release_s", "energy_flying_Wh"):
+        assert flown.metrics[name] == said["metrics"][name]
+
+
+def test_channels_are_arrays_over_the_flight_itself():
+    flown = limpet.fly("hover", rate_Hz=50)
+    height = flown["down_m"]
+    assert height.shape == flown["time_s"].shape
+    assert np.allclose(np.diff(flown["time_s"]), 0.02)
+    assert not height.flags.writeable and not height.flags.owndata
+    assert height.__array_interface__["data"] == flown["down_m"].__array_interface__["data"]
+    assert flown.keys() == list(limpet.channels())
+    del flown
+    assert 0.0 < np.max(np.abs(height)) < 0.2  # still there
+    with pytest.raises(KeyError, match="there are time_s, north_m"):
+        limpet.fly("hover", {"simulation.time_limit_s": 1.0})["height"]
+
+
+def test_bad_input_is_one_line():
+    with pytest.raises(limpet.InputError) as caught:
+        limpet.load("perch_concrete", {"guidance.dock_sped_m_s": 1.0})
+    assert str(caught.value) == ("--set guidance.dock_sped_m_s=1.0: unknown key, did you mean "
+                                 "dock_speed_m_s?")
+    assert isinstance(caught.value, ValueError)
+    with pytest.raises(limpet.InputError, match="no such scenario"):
+        limpet.load("perch_concret")
+    with pytest.raises(ValueError, match="1..1000"):
+        limpet.fly("hover", rate_Hz=0)
+
+
+def test_values_of_every_kind_are_told_as_yaml_reads_them():
+    scenario = limpet.load("perch_concrete", {"wall.surface": "metal", "guidance.altitude_hold": True,
+                                              "guidance.attempts": np.int64(2),
+                                              "guidance.dock_speed_m_s": np.float64(0.1) * 3})
+    assert "0.30000000000000004" in scenario.yaml
+    again = limpet.load(scenario, {"guidance.attempts": 1}, seed=5)
+    assert again.seed == 5 and "0.30000000000000004" in again.yaml
+
+
+def test_a_flight_is_stepped_saved_and_branched():
+    scenario = limpet.load("perch_concrete")
+    flight = limpet.Flight(scenario)
+    while not any(event.name == "impact" for event in flight.events):
+        assert flight.tick()
+    moment = flight.save()
+    assert flight.truth.cup.phase in ("touching", "sealing")
+    assert flight.estimate.p_WB_m.shape == (3,) and flight.estimate.variance.shape == (15,)
+    on_metal = limpet.Flight(limpet.load(scenario, {"wall.surface": "metal"}), start=moment).fly()
+    went_on = limpet.Flight(scenario, start=moment).fly()
+    assert went_on.state_hash == flight.fly().state_hash != on_metal.state_hash
+
+
+def test_a_recording_is_read_back(tmp_path):
+    flown = limpet.fly("hover", {"simulation.time_limit_s": 2.0}, record=tmp_path / "a.mcap")
+    recording = limpet.Recording(tmp_path / "a.mcap")
+    assert "/truth/vehicle" in recording.topics and recording.damage == ""
+    times, pitch = recording.series("/truth/vehicle", "pitch_rad")
+    same = np.searchsorted(flown["time_s"], times[10])
+    assert math.isclose(flown["pitch_rad"][same], pitch[10], abs_tol=1e-9)
+    with pytest.raises(limpet.InputError):
+        limpet.Recording(tmp_path / "none.mcap")
+
+
+def test_threads_fly_beside_each_other():
+    seen = {}
+
+    def fly(seed):
+        seen[seed] = limpet.fly("hover", seed=seed).state_hash
+    threads = [threading.Thread(target=fly, args=(seed,)) for seed in (1, 2, 3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert seen == {seed: limpet.fly("hover", seed=seed).state_hash for seed in (1, 2, 3)}
+
+
+def test_ctrl_c_ends_a_flight():
+    script = """import limpet
+class Stay:
+    def update(self, *_):
+        return limpet.Setpoint.position([0, 0, 0])
+try:
+    limpet.fly("hover", {"simulation.time_limit_s": 3600}, guidance=Stay())
+except KeyboardInterrupt:
+    print("ended")
+"""
+    child = subprocess.Popen([sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, "
+                              "signal.default_int_handler); print('begun', flush=True)\n" + script],
+                             stdout=subprocess.PIPE, text=True, env=dict(os.environ))
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(1.0)  # no harm when it has not begun to fly
+    child.send_signal(signal.SIGINT)
+    assert child.communicate(timeout=60)[0] == "ended\n"
