@@ -101,6 +101,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 option(LIMPET_WERROR "warnings are errors" ${LIMPET_WERROR_DEFAULT})
 
+# A state is made and copied in vectors: x86's string instructions take longer to begin.
+set(LIMPET_COPY_IN_VECTORS)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(LIMPET_COPY_IN_VECTORS -mmemset-strategy=vector_loop:1024:noalign,libcall:-1:noalign
+                             -mmemcpy-strategy=vector_loop:1024:noalign,libcall:-1:noalign)
+endif()
+
 # Warnings are errors on our code. No contraction to fused multiply-adds and no fast-math: the same
 # scenario and seed must give the same bytes (docs/decisions/0006-determinism.md). errno of sqrt and
 # the like is never read; not setting it changes no result and lets them be instructions.
@@ -113,6 +120,9 @@ function(limpet_compile_options target)
     # Of a few files as one it takes each for a header.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage\;-Wno-restrict\;-Wno-array-bounds\;-Wno-stringop-overread\;-Wno-stringop-overflow\;-Wno-psabi>
     $<$<BOOL:${LIMPET_WERROR}>:-Werror> -ffp-contract=off -fno-math-errno
+    # Our functions are nobody's to replace when the library is loaded: they may be inlined.
+    -fno-semantic-interposition
+    ${LIMPET_COPY_IN_VECTORS}
     # What is installed names files as the repository does, not where it was built.
     -fmacro-prefix-map=${LIMPET_ROOT}/=
     $<$<STREQUAL:${ARGN},tests>:-O1>)
