@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/core/lanes.hpp"
+#include "limpet/core/machines.hpp"
+
 namespace limpet {
 namespace {
 
 /// Ratio of two polynomials of degree 7, coefficients from the constant up; the lower one's is 1.
-double ratio(const double (&over)[8], const double (&under)[7], double x) {
-    double numerator = over[7];
-    double denominator = under[6];
+template <class T>
+[[gnu::always_inline]] inline T ratio(const double (&over)[8], const double (&under)[7],
+                                      const T& x) {
+    T numerator = over[7];
+    T denominator = under[6];
     for (int i = 6; i > 0; --i) {
         numerator = numerator * x + over[i];
         denominator = denominator * x + under[i - 1];
@@ -47,17 +52,69 @@ constexpr double kTailUnder[7] = {5.99832206555887937690e-1, 1.36929880922735805
 
 constexpr double kHalfStep = 0x1.0p-54;           ///< of the grid of uniform()
 constexpr double kLastUniform = 1.0 - 0x1.0p-52;  ///< half a step above it is still below 1
+constexpr double kCentre = 0.425;                 ///< nearer to the median: most
+
+/// The quantile near the median.
+/// @param q  probability less a half
+template <class T>
+[[gnu::always_inline]] inline T centre_quantile(const T& q) {
+    return q * ratio<T>(kCentreOver, kCentreUnder, 0.180625 - q * q);
+}
+
+/// The uniform numbers of eight counters that follow each other, two each.
+LIMPET_FOR_MACHINES [[gnu::flatten]] void draw(std::uint64_t seed, std::uint64_t counter,
+                                               std::uint32_t run, std::uint32_t stream,
+                                               double (&uniforms)[16]) {
+    constexpr std::size_t kBlocks = 8;
+    const r123::Philox4x32::key_type key = {
+        {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}};
+    std::uint32_t words[4][kBlocks];
+    for (std::size_t i = 0; i < kBlocks; ++i) {
+        const std::uint64_t at = counter + i;
+        const r123::Philox4x32::ctr_type block = r123::Philox4x32{}(
+            {{static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at >> 32U), run, stream}},
+            key);
+        for (std::size_t k = 0; k < 4; ++k) {
+            words[k][i] = block.v[k];
+        }
+    }
+    for (std::size_t i = 0; i < 2 * kBlocks; ++i) {
+        const std::size_t high = 2 * (i % 2);
+        const std::uint64_t bits =
+            (static_cast<std::uint64_t>(words[high][i / 2]) << 32U) | words[high + 1][i / 2];
+        uniforms[i] = static_cast<double>(static_cast<std::int64_t>(bits >> 11U)) * 0x1.0p-53;
+    }
+}
+
+/// normal_quantile() of several uniforms, half a step off their grid: neither 0 nor 1 can come out,
+/// and the draws are even about the median.
+LIMPET_FOR_MACHINES [[gnu::flatten]] void normals_of(const double (&uniforms)[16],
+                                                     double (&normals)[16]) {
+    constexpr int kWidth = 8;
+    for (std::size_t at = 0; at < 16; at += kWidth) {
+        Lanes<kWidth> q;
+        for (int i = 0; i < kWidth; ++i) {
+            q.set(i, (uniforms[at + static_cast<std::size_t>(i)] + kHalfStep) - 0.5);
+        }
+        const Lanes<kWidth> z = centre_quantile(q);
+        for (int i = 0; i < kWidth; ++i) {
+            const std::size_t k = at + static_cast<std::size_t>(i);
+            normals[k] =
+                std::abs(q[i]) <= kCentre ? z[i] : normal_quantile(uniforms[k] + kHalfStep);
+        }
+    }
+}
 
 }  // namespace
 
 double normal_quantile(double probability) {
     const double q = probability - 0.5;
-    if (std::abs(q) <= 0.425) {
-        return q * ratio(kCentreOver, kCentreUnder, 0.180625 - q * q);
+    if (std::abs(q) <= kCentre) {
+        return centre_quantile(q);
     }
     const double r = std::sqrt(-std::log(q < 0.0 ? probability : 1.0 - probability));
-    const double z =
-        r <= 5.0 ? ratio(kFlankOver, kFlankUnder, r - 1.6) : ratio(kTailOver, kTailUnder, r - 5.0);
+    const double z = r <= 5.0 ? ratio<double>(kFlankOver, kFlankUnder, r - 1.6)
+                              : ratio<double>(kTailOver, kTailUnder, r - 5.0);
     return q < 0.0 ? -z : z;
 }
 
@@ -82,51 +139,32 @@ RandomStream::RandomStream(std::uint64_t seed, std::uint32_t run, Stream stream,
     }
 }
 
-void RandomStream::refill() {
+void RandomStream::look_ahead() {
+    ahead_.from = drawn_ & ~std::uint64_t{1};
+    ahead_.there = true;
+    ahead_.normal = false;
+    const std::uint64_t counter = ahead_.from / 2;
     if (blend_.empty()) {
-        draw(seed_, uniforms_);
-    } else {
-        double normals[2] = {0.0, 0.0};
-        for (const NoiseTerm& term : blend_) {
-            double uniforms[2];
-            draw(term.seed, uniforms);
-            for (std::size_t i = 0; i < 2; ++i) {
-                normals[i] += term.weight * normal_quantile(uniforms[i] + kHalfStep);
-            }
-        }
-        for (std::size_t i = 0; i < 2; ++i) {
-            uniforms_[i] = std::min(normal_probability(normals[i]), kLastUniform);
+        draw(seed_, counter, run_, stream_, ahead_.uniforms);
+        return;
+    }
+    double sums[Ahead::kCount] = {};
+    for (const NoiseTerm& term : blend_) {
+        draw(term.seed, counter, run_, stream_, ahead_.uniforms);
+        find_normals();
+        for (std::size_t i = 0; i < Ahead::kCount; ++i) {
+            sums[i] += term.weight * ahead_.normals[i];
         }
     }
-    uniforms_left_ = 2;
-    ++counter_;
-}
-
-void RandomStream::draw(std::uint64_t seed, double (&uniforms)[2]) const {
-    const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(counter_),
-                                                 static_cast<std::uint32_t>(counter_ >> 32U), run_,
-                                                 stream_}};
-    const r123::Philox4x32::key_type key = {
-        {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}};
-    const auto block = r123::Philox4x32{}(counter, key);
-    for (std::size_t i = 0; i < 2; ++i) {
-        const std::uint64_t bits =
-            (static_cast<std::uint64_t>(block[2 * i]) << 32U) | block[2 * i + 1];
-        uniforms[i] = static_cast<double>(bits >> 11U) * 0x1.0p-53;
+    for (std::size_t i = 0; i < Ahead::kCount; ++i) {
+        ahead_.uniforms[i] = std::min(normal_probability(sums[i]), kLastUniform);
     }
+    ahead_.normal = false;
 }
 
-double RandomStream::uniform() {
-    if (uniforms_left_ == 0) {
-        refill();
-    }
-    return uniforms_[--uniforms_left_];
-}
-
-double RandomStream::normal() {
-    // Half a step off the grid of uniform(): neither 0 nor 1 can come out, and the draws are even
-    // about the median.
-    return normal_quantile(uniform() + kHalfStep);
+void RandomStream::find_normals() {
+    normals_of(ahead_.uniforms, ahead_.normals);
+    ahead_.normal = true;
 }
 
 Vector3 RandomStream::normal3() {

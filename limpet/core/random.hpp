@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "limpet/core/frames.hpp"
@@ -62,33 +63,58 @@ public:
                  const NoiseBlend& blend = {});
 
     /// @return uniform on [0, 1), 53 bits
-    [[nodiscard]] double uniform();
+    [[nodiscard]] double uniform() { return ahead_.uniforms[next()]; }
     /// @return standard normal, of one uniform number (normal_quantile)
-    [[nodiscard]] double normal();
+    [[nodiscard]] double normal() {
+        const std::size_t at = next();
+        if (!ahead_.normal) {
+            find_normals();
+        }
+        return ahead_.normals[at];
+    }
     /// @return three independent standard normals
     [[nodiscard]] Vector3 normal3();
     /// @param median  of the result, > 0
     /// @param sigma   standard deviation of its logarithm, >= 0
     [[nodiscard]] double lognormal(double median, double sigma);
 
+    /// What follows from the rest and is not visited: numbers are made several at once, ahead of
+    /// need, in the machine's vectors.
+    struct Ahead {
+        static constexpr std::size_t kCount = 16;
+        bool there = false;
+        bool normal = false;     ///< normals too
+        std::uint64_t from = 0;  ///< numbers before these
+        double uniforms[kCount] = {};
+        double normals[kCount] = {};
+    };
+
     template <class Self, class Each>
     static void visit_members(Self& self, Each&& each) {
-        each(self.seed_, self.run_, self.stream_, self.counter_, self.uniforms_,
-             self.uniforms_left_, self.blend_);
+        each(self.seed_, self.run_, self.stream_, self.drawn_, self.blend_);
+        if constexpr (!std::is_const_v<Self>) {
+            self.ahead_.there = false;  // it may be another stream now
+        }
     }
 
 private:
-    void refill();
-    /// The two of the counter as it stands.
-    void draw(std::uint64_t seed, double (&uniforms)[2]) const;
+    /// @return where the next number is, among those of ahead_
+    [[nodiscard]] std::size_t next() {
+        if (!ahead_.there || drawn_ - ahead_.from >= Ahead::kCount) {
+            look_ahead();
+        }
+        return (drawn_++ - ahead_.from) ^ 1U;  // a block's second comes first
+    }
+    void look_ahead();
+    void find_normals();
 
     std::uint64_t seed_ = 0;
     std::uint32_t run_ = 0;
     std::uint32_t stream_ = 0;
-    std::uint64_t counter_ = 0;
-    double uniforms_[2] = {0.0, 0.0};
-    std::uint32_t uniforms_left_ = 0;
-    NoiseBlend blend_;  ///< squared weights add up to 1; empty: seed_ alone
+    std::uint64_t drawn_ = 0;  ///< so many numbers
+    NoiseBlend blend_;         ///< squared weights add up to 1; empty: seed_ alone
+
+    Ahead ahead_;
 };
 
 }  // namespace limpet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/core/random.hpp"
 
+#include <Random123/philox.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,6 +24,34 @@ TEST(Random, SeedRunAndStreamEachChangeTheNumbers) {
     EXPECT_NE(reference, RandomStream(7, 4, Stream::test).uniform());
     EXPECT_NE(reference, RandomStream(7, 3, Stream::imu).uniform());
     EXPECT_NE(reference, RandomStream(7 + (1ULL << 32U), 3, Stream::test).uniform());
+}
+
+/// As the stream made them one block at a time: a block's second number first.
+TEST(Random, TheNumbersAreThoseOfCountersInTurn) {
+    constexpr std::uint64_t kSeed = 7 + (5ULL << 32U);
+    RandomStream stream(kSeed, 3, Stream::test);
+    for (std::uint32_t counter = 0; counter < 50; ++counter) {
+        const auto block = r123::Philox4x32{}(
+            {{counter, 0, 3, static_cast<std::uint32_t>(Stream::test)}}, {{7, 5}});
+        for (const std::size_t word : {2U, 0U}) {
+            const std::uint64_t bits = (std::uint64_t{block.v[word]} << 32U) | block.v[word + 1];
+            EXPECT_EQ(stream.uniform(), static_cast<double>(bits >> 11U) * 0x1.0p-53) << counter;
+        }
+    }
+}
+
+/// Normals are found several at once; in what order the two kinds are asked for is all the same.
+TEST(Random, EveryNormalIsTheQuantileOfItsUniform) {
+    RandomStream uniform(7, 3, Stream::test);
+    RandomStream normal = uniform;
+    for (int i = 0; i < 1000; ++i) {
+        const double probability = uniform.uniform();
+        if (i % 3 == 1) {
+            EXPECT_EQ(normal.uniform(), probability);
+        } else {
+            EXPECT_EQ(normal.normal(), normal_quantile(probability + 0x1.0p-54));
+        }
+    }
 }
 
 TEST(NormalQuantile, InvertsTheDistributionInCentreFlankAndTail) {
