@@ -61,6 +61,9 @@ enum class Sign {
 
 void desaturate(RotorVector& command, const RotorVector& direction, Sign sign,
                 double highest = 1.0) {
+    if (command.minCoeff() >= 0.0 && command.maxCoeff() <= highest) {
+        return;  // nothing is overdriven, as nearly always
+    }
     const double gain = desaturation_gain(direction, command, highest);
     if (sign == Sign::decrease_only && gain > 0.0) {
         return;

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "limpet/autopilot/attitude_control.hpp"
+#include "limpet/core/machines.hpp"
 
 namespace limpet::autopilot {
 namespace {
@@ -89,7 +90,9 @@ void start_memory(const AutopilotModel& model, AutopilotState& state) {
     }
 }
 
-void estimate(const AutopilotModel& model, AutopilotState& state, const Readings& readings) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void estimate(const AutopilotModel& model,
+                                                   AutopilotState& state,
+                                                   const Readings& readings) {
     update_estimator(model.parameters, state.estimator, readings);
     state.estimate = estimate_from(model.parameters, state.estimator);
     if (model.own != nullptr) {
@@ -97,8 +100,9 @@ void estimate(const AutopilotModel& model, AutopilotState& state, const Readings
     }
 }
 
-RotorCommand control(const AutopilotModel& model, AutopilotState& state, const Setpoint& setpoint,
-                     double time_s) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] RotorCommand control(const AutopilotModel& model,
+                                                          AutopilotState& state,
+                                                          const Setpoint& setpoint, double time_s) {
     const double dt_s = interval(state, time_s);
     if (dt_s > 0.0) {
         filter_acceleration(model.parameters, state.position, state.estimate, dt_s);

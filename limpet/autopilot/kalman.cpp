@@ -8,67 +8,98 @@
 namespace limpet::autopilot {
 namespace {
 
-/// Columns to, to + 1, to + 2 of M += those from `from` on times B'. Plain loops over columns,
-/// which compilers turn into vectors whatever the column's alignment.
+/// The first kRows rows of columns to, to + 1, to + 2 of M += those from `from` on times B'. Plain
+/// loops over columns, which compilers turn into vectors whatever the column's alignment.
+template <int kRows>
 void add_product(Covariance& matrix, int to, int from, const Matrix3& B) {
     const double* x = matrix.col(from).data();
     const double* y = matrix.col(from + 1).data();
     const double* z = matrix.col(from + 2).data();
     for (int k = 0; k < 3; ++k) {
         double* __restrict sum = matrix.col(to + k).data();
-        for (int i = 0; i < kErrors; ++i) {
+        for (int i = 0; i < kRows; ++i) {
             sum[i] += B(k, 0) * x[i] + B(k, 1) * y[i] + B(k, 2) * z[i];
+        }
+    }
+}
+
+/// The first kRows rows of three columns += factor times those from `from` on.
+template <int kRows>
+void add_columns(Covariance& matrix, int to, int from, double factor) {
+    for (int k = 0; k < 3; ++k) {
+        const double* x = matrix.col(from + k).data();
+        double* __restrict sum = matrix.col(to + k).data();
+        for (int i = 0; i < kRows; ++i) {
+            sum[i] += factor * x[i];
         }
     }
 }
 
 /// M = M F', three columns at a time: F is the identity but for a few 3x3 blocks. Positions take
 /// the old velocities, velocities the old attitudes, attitudes the old biases.
+/// @tparam kPositions, kVelocities, kAttitudes  as many rows of these columns are asked for
+template <int kPositions, int kVelocities, int kAttitudes>
 void multiply_by_transposed(Covariance& matrix, const Transition& f) {
-    matrix.middleCols<3>(kPosition) += f.dt_s * matrix.middleCols<3>(kVelocity);
-    add_product(matrix, kVelocity, kAttitude, f.velocity_by_attitude);
-    add_product(matrix, kVelocity, kAccelerometerBias, f.velocity_by_bias);
-    const Eigen::Matrix<double, kErrors, 3> attitude = matrix.middleCols<3>(kAttitude);
-    matrix.middleCols<3>(kAttitude).noalias() = attitude * f.turn.transpose();
-    matrix.middleCols<3>(kAttitude) -= f.dt_s * matrix.middleCols<3>(kGyroBias);
+    add_columns<kPositions>(matrix, kPosition, kVelocity, f.dt_s);
+    add_product<kVelocities>(matrix, kVelocity, kAttitude, f.velocity_by_attitude);
+    add_product<kVelocities>(matrix, kVelocity, kAccelerometerBias, f.velocity_by_bias);
+    auto turned = matrix.template topRows<kAttitudes>().template middleCols<3>(kAttitude);
+    const Eigen::Matrix<double, kAttitudes, 3> attitude = turned;
+    turned.noalias() = attitude * f.turn.transpose();
+    add_columns<kAttitudes>(matrix, kAttitude, kGyroBias, -f.dt_s);
 }
 
 void add_noise(Covariance& covariance, int first, double density, double dt_s) {
     covariance.diagonal().segment<3>(first).array() += density * density * dt_s;
 }
 
-/// P h, skipping the zeros that make up most of h.
-ErrorVector times(const Covariance& covariance, const ErrorVector& h) {
-    ErrorVector product = ErrorVector::Zero();
-    for (int i = 0; i < kErrors; ++i) {
-        if (h[i] != 0.0) {
-            const double* column = covariance.col(i).data();
-            for (int k = 0; k < kErrors; ++k) {
-                product[k] += h[i] * column[k];
+/// Where a row of a Jacobian, that is mostly zeros, has none.
+class Row {
+public:
+    explicit Row(const ErrorVector& h) : h_(h) {
+        for (int i = 0; i < kErrors; ++i) {
+            at_[count_] = i;
+            count_ += h[i] != 0.0 ? 1 : 0;
+        }
+    }
+    [[nodiscard]] double dot(const ErrorVector& v) const {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < count_; ++k) {
+            sum += h_[at_[k]] * v[at_[k]];
+        }
+        return sum;
+    }
+    /// P h
+    [[nodiscard]] ErrorVector times(const Covariance& covariance) const {
+        ErrorVector product = ErrorVector::Zero();
+        for (std::size_t k = 0; k < count_; ++k) {
+            const double factor = h_[at_[k]];
+            const double* column = covariance.col(at_[k]).data();
+            for (int i = 0; i < kErrors; ++i) {
+                product[i] += factor * column[i];
             }
         }
+        return product;
     }
-    return product;
-}
+    /// h' P h
+    [[nodiscard]] double variance(const Covariance& covariance) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double* column = covariance.col(at_[i]).data();
+            double cross = 0.0;
+            for (std::size_t k = 0; k < i; ++k) {
+                cross += column[at_[k]] * h_[at_[k]];
+            }
+            sum += h_[at_[i]] * (2.0 * cross + column[at_[i]] * h_[at_[i]]);
+        }
+        return sum;
+    }
 
-/// h' P h, skipping them twice.
-double variance_along(const Covariance& covariance, const ErrorVector& h) {
-    std::array<int, kErrors> others;
-    std::size_t count = 0;
-    double sum = 0.0;
-    for (int i = 0; i < kErrors; ++i) {
-        if (h[i] == 0.0) {
-            continue;
-        }
-        double cross = 0.0;
-        for (std::size_t k = 0; k < count; ++k) {
-            cross += covariance(others[k], i) * h[others[k]];
-        }
-        sum += h[i] * (2.0 * cross + covariance(i, i) * h[i]);
-        others[count++] = i;
-    }
-    return sum;
-}
+private:
+    const ErrorVector& h_;
+    std::array<int, kErrors + 1> at_;
+    std::size_t count_ = 0;
+};
 
 /// P -= the squares of some vectors, all in one pass; symmetric to the last bit.
 template <std::size_t kRows>
@@ -90,10 +121,13 @@ void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& 
 LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
                                                     const Transition& transition,
                                                     const ProcessNoise& noise) {
-    // P is symmetric: F P F' = ((P F')' F')'
-    multiply_by_transposed(covariance, transition);
-    covariance.transposeInPlace();
-    multiply_by_transposed(covariance, transition);
+    // P is symmetric: F P F' = ((P F')' F')', of which the upper half is found and mirrored.
+    multiply_by_transposed<kErrors, kErrors, kErrors>(covariance, transition);
+    const Matrix3 attitude = covariance.block<3, 3>(kAttitude, kAttitude);  // all of it turns
+    covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
+    covariance.block<3, 3>(kAttitude, kAttitude) = attitude.transpose();
+    // One row more than the upper half has: of an odd one Eigen's sums would go in another order.
+    multiply_by_transposed<kVelocity, kAttitude, kGyroBias + 1>(covariance, transition);
     covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
     add_noise(covariance, kVelocity, noise.accelerometer_m_s2_rtHz, transition.dt_s);
     add_noise(covariance, kAttitude, noise.gyro_rad_s_rtHz, transition.dt_s);
@@ -114,9 +148,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] bool passes(const Covariance& covariance,
                                                  const Measurement& measurement, double gate) {
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
-        const ErrorVector& h = measurement.jacobian[row];
+        const Row h(measurement.jacobian[row]);
         const double innovation = measurement.innovation[row] - h.dot(correction);
-        const double variance = variance_along(covariance, h) + measurement.variance[row];
+        const double variance = h.variance(covariance) + measurement.variance[row];
         if (!(innovation * innovation <= gate * gate * variance)) {
             return false;
         }
@@ -129,10 +163,10 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVe
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
     for (std::size_t row = 0; row < rows; ++row) {
-        const ErrorVector& h = measurement.jacobian[row];
-        ErrorVector Ph = times(covariance, h);
+        const Row h(measurement.jacobian[row]);
+        ErrorVector Ph = h.times(covariance);
         for (std::size_t earlier = 0; earlier < row; ++earlier) {
-            Ph -= scaled[earlier] * scaled[earlier].dot(h);
+            Ph -= scaled[earlier] * h.dot(scaled[earlier]);
         }
         const double deviation = std::sqrt(h.dot(Ph) + measurement.variance[row]);
         scaled[row] = Ph / deviation;
