@@ -83,8 +83,10 @@ public:
         if (body == Body::base) {
             return seen(base.p_WB_m, base.q_WB, base.v_WB_W_m_s, base.w_WB_B_rad_s);
         }
-        const Motion<T> moves = body == Body::cup ? cup_ : motion(body);
-        return seen(moves.p_WF_m, moves.q_WF, moves.v_WF_W_m_s, moves.w_WF_F_rad_s);
+        const auto of = [&seen](const Motion<T>& moves) {
+            return seen(moves.p_WF_m, moves.q_WF, moves.v_WF_W_m_s, moves.w_WF_F_rad_s);
+        };
+        return body == Body::cup ? of(cup_) : of(motion(body));
     }
 
 private:

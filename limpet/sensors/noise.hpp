@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "limpet/core/time.hpp"
 
@@ -28,7 +29,10 @@ struct GaussMarkov {
 
 /// due() for a rate that comes from a parameter; one below 1 Hz is never due.
 [[nodiscard]] inline bool sampled(Tick tick, int rate_Hz) {
-    return rate_Hz >= 1 && due(tick, rate_Hz);
+    constexpr auto kSecond = static_cast<std::uint32_t>(kTicksPerSecond);
+    const auto within = static_cast<std::uint32_t>(tick % kTicksPerSecond);  // one for all sensors
+    const auto rate = static_cast<std::uint32_t>(rate_Hz);
+    return rate_Hz >= 1 && within * rate % kSecond < rate;
 }
 
 }  // namespace limpet::sensors

@@ -113,18 +113,18 @@ template <class Sensor>
 template <class Sensor>
 void sense(const typename Sensor::Parameters& parameters, SensorUnit<Sensor>& unit,
            const SensorView& view, Tick tick, Sample<typename Sensor::Reading>& latest) {
-    std::optional<typename Sensor::Reading> measured;
     if (sampled(tick, parameters.*Sensor::kRate_Hz)) {
-        measured = Sensor::measure(parameters, unit.state, view);
+        if (const auto measured = Sensor::measure(parameters, unit.state, view)) {
+            if constexpr (kIsLate<Sensor>) {
+                unit.line.send({.time_s = view.truth.time_s, .value = *measured},
+                               arrival(tick, parameters.*Sensor::kLatency_s));
+            } else {
+                latest = {.time_s = view.truth.time_s, .value = *measured};
+            }
+        }
     }
     if constexpr (kIsLate<Sensor>) {
-        if (measured) {
-            unit.line.send({.time_s = view.truth.time_s, .value = *measured},
-                           arrival(tick, parameters.*Sensor::kLatency_s));
-        }
         unit.line.deliver(tick, latest);
-    } else if (measured) {
-        latest = {.time_s = view.truth.time_s, .value = *measured};
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/sensors/suite.hpp"
 
+#include "limpet/core/machines.hpp"
+
 namespace limpet::sensors {
 namespace {
 
@@ -28,8 +30,8 @@ SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t 
     return state;
 }
 
-void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
-           const plant::Plant& plant, Tick tick) {
+LIMPET_FOR_MACHINES void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
+                               const plant::Plant& plant, Tick tick) {
     for_each_unit(state.sensors, [&](auto type, auto& unit, std::size_t k) {
         using Sensor = typename decltype(type)::type;
         if (Sensor::kOnCup && !model.has_cup) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/core/machines.hpp"
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/rig.hpp"
 
@@ -105,8 +106,9 @@ void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plan
     }
 }
 
-void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
-             ExternalCup* external_cup) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, FlightState& state,
+                                                  plant::Plant& plant, TickReport& report,
+                                                  ExternalCup* external_cup) {
     const bool has_cup = model.airframe.has_cup;
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;

@@ -47,10 +47,11 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     if (!model.has_wall) {
         return std::nullopt;
     }
-    const TangentFrame spot = tangent_frame(model.cup.wall, p_WB_m);
-    if (std::abs(spot.gap_m) > airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m) {
+    const double reaches_m = airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m;
+    if (std::abs(before_wall_m(model.cup.wall, p_WB_m)) > reaches_m) {
         return std::nullopt;
     }
+    const TangentFrame spot = tangent_frame(model.cup.wall, p_WB_m);
     const Vector3 n_B = truth.base.q_WF.conjugate() * spot.into_W();
     // A disc reaches its radius times the sine of the angle between its axis and the direction.
     const double reach_m =

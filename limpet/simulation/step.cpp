@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/step.hpp"
 
+#include "limpet/core/machines.hpp"
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/rig.hpp"
@@ -44,8 +45,9 @@ RotorCommand control(const FlightModel& model, FlightState& state,
 
 }  // namespace
 
-void step(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
-          const Outside& outside) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightState& state,
+                                               plant::Plant& plant, TickReport& report,
+                                               const Outside& outside) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const double time_s = seconds(state.tick);
     const bool controls = due(state.tick, model.control_rate_Hz);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/machines.hpp"
 
 namespace limpet::suction {
 namespace {
@@ -18,6 +19,12 @@ LipLoad load_on(const CupModel& model, CupState& state, const Surface& surface,
         return held_load(lip, *input.held_T, surface.friction, vacuum_N);
     }
     return lip_load(lip, motion, state.anchor, surface.friction, vacuum_N, sealed, input.bearer);
+}
+
+/// And once the phase is another, seldom.
+[[gnu::noinline]] void load_anew(const CupModel& model, CupState& state, const Surface& surface,
+                                 LipNow& lip, const CupInput& input) {
+    lip.load = load_on(model, state, surface, lip.motion, input);
 }
 
 /// The rows of the table that keep the contact.
@@ -122,7 +129,8 @@ bool is_sealed(CupPhase phase) {
            phase == CupPhase::unsealing;
 }
 
-std::optional<Event> let_go(CupState& state, const LipContact& contact, double time_s) {
+[[gnu::noinline]] std::optional<Event> let_go(CupState& state, const LipContact& contact,
+                                              double time_s) {
     const CupPhase before = state.status.phase;
     const bool lifted = contact.gap_m > 0.0;
     state.status.phase = lifted ? CupPhase::free : CupPhase::touching;
@@ -181,7 +189,7 @@ Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
     LipLoad& load = lip.load;
     if (load.let_go != LetGo::no) {
         if (status.phase != CupPhase::free) {
-            load = load_on(model, state, surface, lip.motion, input);
+            load_anew(model, state, surface, lip, input);
         } else {
             load = {};
             if (input.bearer != nullptr) {
@@ -209,11 +217,14 @@ std::optional<Event> step(const CupParameters& parameters, CupState& state, cons
     return event;
 }
 
-CupOutput step(const CupModel& model, CupState& state, const Surface& surface,
-               const Kinematics& cup, const CupInput& input, double dt_s) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] CupOutput step(const CupModel& model, CupState& state,
+                                                    const Surface& surface, const Kinematics& cup,
+                                                    const CupInput& input, double dt_s) {
     CupOutput output;
     LipNow lip = feel_lip(model, state, surface, cup, input);
-    output.event = advance_contact(model.parameters, state, surface, lip.contact, input);
+    if (auto event = advance_contact(model.parameters, state, surface, lip.contact, input)) {
+        output.event = event;  // seldom, and large
+    }
     output.wrench_W = load_cup(model, state, surface, input, lip);
     advance_pressure(model.parameters, state, surface, input, dt_s);
     return output;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/machines.hpp"
 #include "limpet/core/within_step.hpp"
 
 namespace limpet::suction {
@@ -138,7 +137,7 @@ double shorten(Vector6& w, int first, double limit) {
 
 /// Where some give way the others have to do with what is left, and turn to where it leads: swept
 /// through in turn until all agree (projected Gauss-Seidel).
-LipDemand give_way(const LipStep& step, const LipLimits& limits, Vector6& w) {
+[[gnu::noinline]] LipDemand give_way(const LipStep& step, const LipLimits& limits, Vector6& w) {
     constexpr int kSweeps = 40;
     constexpr double kAgree_N = 1e-9;
     LipDemand demand(w);
@@ -220,7 +219,6 @@ std::string_view to_string(LetGo reason) {
     throw InternalError("reason of letting go out of range");
 }
 
-LIMPET_FOR_MACHINES
 LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
     const TangentFrame spot = tangent_frame(wall, cup.p_WF_m);
     LipMotion motion{.R_WT = spot.R_WT, .gap_m = spot.gap_m, .y_m = spot.y_m, .z_m = spot.z_m};
@@ -248,10 +246,8 @@ double vacuum_force_N(double pressure_Pa, double radius_m) {
     return std::max(0.0, kAtmosphere_Pa - pressure_Pa) * kPi * radius_m * radius_m;
 }
 
-LIMPET_FOR_MACHINES [[gnu::flatten]] LipLoad lip_load(const LipParameters& lip,
-                                                      const LipMotion& motion, Anchor& anchor,
-                                                      double friction, double vacuum_N, bool sealed,
-                                                      CupBearer* bearer) {
+LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,
+                 double vacuum_N, bool sealed, CupBearer* bearer) {
     const LipForces forces = within_step_of(springs_of(lip, motion, anchor, sealed), bearer);
     const LipLimits limits{vacuum_N, friction, lip.radius_m, sealed};
     CupBearer::Held held{.change = Vector6::Zero()};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/lanes.hpp"
 #include "limpet/core/machines.hpp"
 
 namespace limpet::vehicle {
@@ -12,6 +13,20 @@ namespace {
 
 double steady_speed_rad_s(const RotorParameters& rotor, double command) {
     return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * std::clamp(command, 0.0, 1.0);
+}
+
+using EachRotor = Lanes<static_cast<int>(kRotors)>;
+
+EachRotor magnitude(EachRotor a) {
+    return select(a < 0.0, -a, a);
+}
+/// One after the other.
+double sum_of(EachRotor a) {
+    double sum = 0.0;
+    for (int i = 0; i < EachRotor::kCount; ++i) {
+        sum += a[i];
+    }
+    return sum;
 }
 
 }  // namespace
@@ -67,35 +82,44 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
     }
 }
 
-LIMPET_FOR_MACHINES
-Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
-                      const Kinematics& base, const Vector3& wind_W_m_s) {
+LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
+                                                           const RotorsState& state,
+                                                           const Kinematics& base,
+                                                           const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
-    Wrench sum;
+    const Vector3& w = base.w_WF_F_rad_s;
+    // All rotors at once, one a lane.
+    EachRotor speed_rad_s, direction, x_m, y_m, z_m;
     for (std::size_t i = 0; i < kRotors; ++i) {
-        const double speed_rad_s = state.speed_rad_s[i];
-        const double direction = airframe.rotor_direction[i];
-        const Vector3& p_B_m = airframe.rotor_p_B_m[i];
-        const Vector3 v_m_s = v_air_B_m_s + base.w_WF_F_rad_s.cross(p_B_m);
-        const Vector3 v_perp_m_s(v_m_s.x(), v_m_s.y(), 0.0);
-
-        const double still_thrust_N =
-            rotor.motor_constant_kg_m * speed_rad_s * std::abs(speed_rad_s);
-        const double left =
-            std::clamp(1.0 - std::abs(v_m_s.z()) / rotor.axial_loss_speed_m_s, 0.0, 1.0);
-        Vector3 force_N = -std::abs(speed_rad_s) * rotor.drag_constant_kg * v_perp_m_s;
-        force_N.z() = -still_thrust_N * left;
-
-        // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
-        Vector3 moment_N_m =
-            -std::abs(speed_rad_s) * direction * rotor.rolling_constant_kg_m * v_perp_m_s;
-        moment_N_m.z() = direction * rotor.moment_constant_m * still_thrust_N;
-
-        sum.force_N += force_N;
-        sum.moment_N_m += p_B_m.cross(force_N) + moment_N_m;
+        const int lane = static_cast<int>(i);
+        speed_rad_s.set(lane, state.speed_rad_s[i]);
+        direction.set(lane, airframe.rotor_direction[i]);
+        x_m.set(lane, airframe.rotor_p_B_m[i].x());
+        y_m.set(lane, airframe.rotor_p_B_m[i].y());
+        z_m.set(lane, airframe.rotor_p_B_m[i].z());
     }
-    return sum;
+    const EachRotor vx_m_s = v_air_B_m_s.x() + (w.y() * z_m - w.z() * y_m);
+    const EachRotor vy_m_s = v_air_B_m_s.y() + (w.z() * x_m - w.x() * z_m);
+    const EachRotor vz_m_s = v_air_B_m_s.z() + (w.x() * y_m - w.y() * x_m);
+
+    const EachRotor turning_rad_s = magnitude(speed_rad_s);
+    const EachRotor still_thrust_N = rotor.motor_constant_kg_m * speed_rad_s * turning_rad_s;
+    const EachRotor left = 1.0 - magnitude(vz_m_s) / rotor.axial_loss_speed_m_s;
+    const EachRotor some = select(left > 0.0, left, 0.0);
+    const EachRotor drag = -turning_rad_s * rotor.drag_constant_kg;
+    const EachRotor fx_N = drag * vx_m_s;
+    const EachRotor fy_N = drag * vy_m_s;
+    const EachRotor fz_N = -still_thrust_N * some;
+
+    // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
+    const EachRotor rolling = -turning_rad_s * direction * rotor.rolling_constant_kg_m;
+    const EachRotor mx_N_m = (y_m * fz_N - z_m * fy_N) + rolling * vx_m_s;
+    const EachRotor my_N_m = (z_m * fx_N - x_m * fz_N) + rolling * vy_m_s;
+    const EachRotor mz_N_m =
+        (x_m * fy_N - y_m * fx_N) + direction * rotor.moment_constant_m * still_thrust_N;
+    return {.force_N = {sum_of(fx_N), sum_of(fy_N), sum_of(fz_N)},
+            .moment_N_m = {sum_of(mx_N_m), sum_of(my_N_m), sum_of(mz_N_m)}};
 }
 
 double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state) {
