@@ -13,7 +13,7 @@ namespace {
 using Mark = ChartSeries::Mark;
 
 constexpr double kSample_px = 64.0;   ///< of the key: a stroke and the air around it and its name
-constexpr double kMarkGap_px = 20.0;  ///< between numbers that stand for names
+constexpr double kMarkGap_px = 24.0;  ///< between numbers that stand for names
 constexpr double kLevelLine_px = 18.0;
 constexpr double kLevelNames_px = 150.0;  ///< most that names of levels take
 constexpr double kMostBar_px = 80.0;
@@ -262,7 +262,7 @@ private:
         const double beside_px = panel_.y_label.empty() ? top_px - kLine_px : box_.top_px - 27.0;
         const bool beside = key.rows == 0;
         sketch_.add(
-            "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing 1.2 "
+            "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing KEY_ROW "
             "noenhanced font "
             "'DejaVu Sans,{}' textcolor rgb '{}'\n",
             sketch_.at(beside ? box_.right_px : box_.left_px - 8.0, beside ? beside_px : top_px),

@@ -94,14 +94,16 @@ draw::Chart flight_chart(const record::Recording& recording, const record::Chapt
     return chart;
 }
 
-draw::Pictures plot(const record::Recording& recording, const std::filesystem::path& folder) {
-    const draw::gnuplot::TemporaryFolder work;
+draw::Pictures plot(const record::Recording& recording, const std::filesystem::path& folder,
+                    const Work& work) {
+    const draw::gnuplot::TemporaryFolder scratch;
     std::vector<std::filesystem::path> drawn;
     for (const record::Chapter& chapter : chapters(recording)) {
+        work.say("drawing " + chapter.file);
         if (chapter.window.span_s() > 0.0) {
             const draw::Chart chart = flight_chart(recording, chapter);
             if (!chart.panels.empty()) {
-                const auto files = draw_chart(chart, chapter.file, work.path() / "drawn").files;
+                const auto files = draw_chart(chart, chapter.file, scratch.path() / "drawn").files;
                 drawn.insert(drawn.end(), files.begin(), files.end());
             }
         }
@@ -112,6 +114,7 @@ draw::Pictures plot(const record::Recording& recording, const std::filesystem::p
                                                                 "or distance was recorded"
                                                               : recording.damage));
     }
+    work.say();
     return {draw::publish(drawn, folder), missing_topics(recording)};
 }
 

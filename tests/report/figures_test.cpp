@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+
 #include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
@@ -133,6 +135,14 @@ TEST(Plot, of_nothing_is_an_error_that_leaves_no_file) {
     recording.path = "empty.mcap";
     EXPECT_THAT([&] { (void)plot(recording, folder.path() / "out"); },
                 Throws<InputError>(Property(&InputError::what, HasSubstr("empty.mcap"))));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Plot, that_is_stopped_leaves_no_file) {
+    const test::Folder folder;
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW((void)plot(test::fly({.to_s = 1.0}), folder.path() / "out", {.stop = &stop}),
+                 Interrupted);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 
