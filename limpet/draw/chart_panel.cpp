@@ -305,10 +305,10 @@ private:
     void moments(double top_px) {
         for (std::size_t i = 0; i < names_.list.size(); ++i) {
             const auto column = static_cast<double>(i % names_.list_columns);
-            const auto row = static_cast<double>(i / names_.list_columns);
+            const std::size_t row = i / names_.list_columns;
             sketch_.label(box_.left_px + column * names_.list_column_px,
-                          top_px + (row + 0.5) * kLine_px, names_.list[i], kChartSmall_px,
-                          colours::kInk);
+                          top_px + (static_cast<double>(row) + 0.5) * kLine_px, names_.list[i],
+                          kChartSmall_px, colours::kInk);
         }
         const double foot = top_px + names_.height_px();
         std::vector<double> named;
