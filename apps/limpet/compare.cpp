@@ -11,8 +11,10 @@
 
 #include "command_line.hpp"
 #include "limpet/compare/figures.hpp"
+#include "limpet/compare/page.hpp"
 #include "limpet/compare/text.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/work.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -76,8 +78,12 @@ ExitCode compare_flights(const CompareOptions& options) {
     for (const std::string& limit : options.limits) {
         limits.push_back(compare::parse_limit(limit));
     }
+    Terminal terminal(Terminal::Voice::machine);
+    const Work work{.tell = [&terminal](const std::string& what) { terminal.progress(what); },
+                    .stop = stop_on_signals()};
     std::vector<record::Recording> recordings;
     for (const std::string& path : options.recordings) {
+        work.say("reading " + path);
         recordings.push_back(whole_recording(path));
     }
     compare::StateNumbers numbers;
@@ -108,10 +114,15 @@ ExitCode compare_flights(const CompareOptions& options) {
     }
     if (!options.out.empty()) {
         const fs::path folder = make_folder(options.out);
-        const draw::Pictures pictures = draw_comparison(reference, others, comparisons, folder);
+        const draw::Pictures pictures =
+            draw_comparison(reference, others, comparisons, folder / "figures", work);
         write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
+        write_file(
+            folder / "index.html",
+            comparison_html(comparisons, checked, pictures.files, folder,
+                            fmt::format("limpet compare {}", fmt::join(options.recordings, " "))));
         if (!options.json && !options.markdown) {
-            print_files(pictures.files);
+            print_files({folder / "index.html", folder / "compare.json"});
         }
     }
     bool exceeded = false;
@@ -138,7 +149,7 @@ OptionList options_of(CompareOptions& options) {
          "exit 1 when NAME is further off: a channel, a figure, event, outcome,\n"
          "contact_pressure_hPa",
          value_each_time()},
-        {"--out DIR", &options.out, "folder for figures and compare.json"},
+        {"--out DIR", &options.out, "folder for a page, its figures and compare.json"},
         {"--json", &options.json, "one JSON object"},
         {"--markdown", &options.markdown, "a table, a column a flight", not_with("--json")}};
 }

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "limpet/campaign/summary.hpp"
 #include "limpet/draw/chart.hpp"
@@ -45,8 +48,41 @@ draw::ChartSeries fitted(const LogisticFit& fit, const draw::Range& range) {
     return curve;
 }
 
+/// How keys end that carry a unit, the longest first, and how people write it.
+constexpr std::pair<std::string_view, const char*> kUnits[] = {
+    {"_kg_m2", "kg m²"}, {"_N_m_rad", "N m/rad"},
+    {"_N_s_m", "N s/m"}, {"_m_s_s", "m/s²"},
+    {"_m_s2", "m/s²"},   {"_rad_s", "rad/s"},
+    {"_deg_s", "deg/s"}, {"_N_m", "N m"},
+    {"_m_s", "m/s"},     {"_deg", "deg"},
+    {"_rad", "rad"},     {"_Pa", "Pa"},
+    {"_hPa", "hPa"},     {"_mm", "mm"},
+    {"_Hz", "Hz"},       {"_ms", "ms"},
+    {"_kg", "kg"},       {"_Wh", "Wh"},
+    {"_N", "N"},         {"_m", "m"},
+    {"_s", "s"},         {"_V", "V"},
+    {"_A", "A"},         {"_W", "W"}};
+
+/// "impact speed  [m/s], pendulum" of pendulum.impact_speed_m_s.
+std::string label_of(std::string_view key) {
+    const std::size_t dot = key.rfind('.');
+    const std::string_view section = dot == key.npos ? "" : key.substr(0, dot);
+    std::string_view name = dot == key.npos ? key : key.substr(dot + 1);
+    std::string unit;
+    for (const auto& [ending, written] : kUnits) {
+        if (unit.empty() && name.size() > ending.size() &&
+            name.substr(name.size() - ending.size()) == ending) {
+            name.remove_suffix(ending.size());
+            unit = fmt::format("  [{}]", written);
+        }
+    }
+    std::string place(section);
+    std::replace(place.begin(), place.end(), '.', ' ');
+    return record::words(name) + unit + (place.empty() ? "" : ", " + record::words(place));
+}
+
 draw::ChartPanel success_against(const KeySummary& key) {
-    draw::ChartPanel panel{.x_label = key.key,
+    draw::ChartPanel panel{.x_label = label_of(key.key),
                            .y_label = "probability of success",
                            .y_range = draw::Range{-0.02, 1.02}};
     draw::ChartSeries points{.mark = Mark::points, .colour = draw::colours::kDarkBlue};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -33,6 +34,7 @@ struct ChannelSource {
     std::string_view column;
     double scale = 1.0;
     ChannelKind kind = ChannelKind::number;
+    std::string_view names = {};  ///< of a state's values from 0 on, with blanks between
 };
 
 constexpr auto kAngle = ChannelKind::angle;
@@ -47,9 +49,10 @@ constexpr ChannelSource kChannelSources[] = {
     {"cup_pull_N", "cup", "pull on the cup", "N", "/cup", "pull_N"},
     {"cup_shear_N", "cup", "shear on the cup", "N", "/cup", "shear_N"},
     {"cup_peel_N_m", "cup", "peel on the cup", "N m", "/cup", "peel_N_m"},
-    {"cup_phase", "cup", "phase of the cup", "", "/cup", "phase", 1.0, kState},
-    {"pump_running", "cup", "pump", "", "/cup", "pump_running", 1.0, kState},
-    {"valve_open", "cup", "valve", "", "/cup", "valve_open", 1.0, kState},
+    {"cup_phase", "cup", "phase of the cup", "", "/cup", "phase", 1.0, kState,
+     "free touching sealing attached unsealing"},
+    {"pump_running", "cup", "pump", "", "/cup", "pump_running", 1.0, kState, "off running"},
+    {"valve_open", "cup", "valve", "", "/cup", "valve_open", 1.0, kState, "closed open"},
     {"slider_force_N", "force", "force through the slider", "N", "/truth/vehicle",
      "slider_force_N"},
     {"slider_force_measured_N", "force", "force through the slider, measured", "N",
@@ -110,10 +113,13 @@ constexpr ChannelSource kChannelSources[] = {
      kAngle},
     {"setpoint_yaw_deg", "setpoint", "asked: yaw", "deg", "/setpoint", "yaw_rad", kDeg, kAngle},
     {"setpoint_thrust", "setpoint", "asked: thrust", "share", "/setpoint", "thrust"},
-    {"setpoint_mode", "setpoint", "mode", "", "/setpoint", "mode", 1.0, kState},
-    {"setpoint_armed", "setpoint", "armed", "", "/setpoint", "armed", 1.0, kState},
-    {"setpoint_pump", "setpoint", "asked: pump", "", "/setpoint", "pump_on", 1.0, kState},
-    {"setpoint_valve", "setpoint", "asked: valve", "", "/setpoint", "valve_open", 1.0, kState},
+    {"setpoint_mode", "setpoint", "mode", "", "/setpoint", "mode", 1.0, kState,
+     "idle position velocity attitude"},
+    {"setpoint_armed", "setpoint", "armed", "", "/setpoint", "armed", 1.0, kState,
+     "disarmed armed"},
+    {"setpoint_pump", "setpoint", "asked: pump", "", "/setpoint", "pump_on", 1.0, kState, "off on"},
+    {"setpoint_valve", "setpoint", "asked: valve", "", "/setpoint", "valve_open", 1.0, kState,
+     "closed open"},
 };
 
 /// Times ascend, gap_s is known. Recorders write in order; other people's files need not.
@@ -164,6 +170,10 @@ FlightChannel channel_of(const record::Table& table, const ChannelSource& source
     for (double& value : channel.values) {
         value *= source.scale;
     }
+    std::istringstream names{std::string(source.names)};
+    for (std::string name; names >> name;) {
+        channel.names.emplace(static_cast<double>(channel.names.size()), name);
+    }
     return channel;
 }
 
@@ -207,10 +217,13 @@ void add_guidance_state(std::vector<FlightChannel>& channels, const record::Reco
         const auto next = static_cast<double>(numbers.size());
         values.push_back(numbers.try_emplace(state, next).first->second);
     }
-    add(channels,
-        channel_of(*table,
-                   {"guidance_state", "setpoint", "state of guidance", "", {}, {}, 1.0, kState},
-                   values));
+    FlightChannel channel = channel_of(
+        *table, {"guidance_state", "setpoint", "state of guidance", "", {}, {}, 1.0, kState},
+        values);
+    for (const auto& [state, number] : numbers) {
+        channel.names.emplace(number, record::words(state));
+    }
+    add(channels, std::move(channel));
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ struct FlightChannel {
     ChannelKind kind = ChannelKind::number;
     std::vector<double> time_s;
     std::vector<double> values;
-    double gap_s = 0.0;  ///< samples further apart have a gap between them
+    std::map<double, std::string> names = {};  ///< of a state's values
+    double gap_s = 0.0;                        ///< samples further apart have a gap between them
 };
 
 /// Numbers for states that were recorded as words, the same in all recordings compared.

@@ -174,6 +174,37 @@ Differences differences(const FlightChannel& reference, const FlightChannel& oth
     return found;
 }
 
+Differences beyond_shift(const FlightChannel& reference, const FlightChannel& other,
+                         const std::vector<Piece>& pieces, double shift_s) {
+    Differences found;
+    const auto& t = reference.time_s;
+    for (const Piece& piece : pieces) {
+        const auto first = std::lower_bound(t.begin(), t.end(), piece.window.from_s);
+        for (auto i = static_cast<std::size_t>(first - t.begin());
+             i < t.size() && t[i] < piece.window.to_s; ++i) {
+            const double at_s = t[i] + piece.shift_s;
+            const auto off = [&](double value) {
+                return difference_of(reference.kind, reference.values[i], value);
+            };
+            double least = off(value_at(other, at_s)), low = least, high = least;
+            const auto look = [&](double difference) {
+                least = std::abs(difference) < std::abs(least) ? difference : least;
+                low = std::min(low, difference);
+                high = std::max(high, difference);
+            };
+            auto near = std::lower_bound(other.time_s.begin(), other.time_s.end(), at_s - shift_s);
+            for (; near != other.time_s.end() && *near <= at_s + shift_s; ++near) {
+                look(off(other.values[static_cast<std::size_t>(near - other.time_s.begin())]));
+            }
+            look(off(value_at(other, at_s - shift_s)));
+            look(off(value_at(other, at_s + shift_s)));
+            found.time_s.push_back(t[i]);
+            found.values.push_back(low <= 0.0 && high >= 0.0 ? 0.0 : least);
+        }
+    }
+    return found;
+}
+
 double FlightComparison::event_difference_s(const EventPair& event) const {
     return event.other_s - event.reference_s - base_shift_s;
 }

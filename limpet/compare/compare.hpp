@@ -82,6 +82,11 @@ struct Differences {
 [[nodiscard]] Differences differences(const FlightChannel& reference, const FlightChannel& other,
                                       const std::vector<Piece>& pieces);
 
+/// The same, less what a shift of the other by at most so much to either side explains: 0 where it
+/// passes the reference's value on the way, else how far it stays off.
+[[nodiscard]] Differences beyond_shift(const FlightChannel& reference, const FlightChannel& other,
+                                       const std::vector<Piece>& pieces, double shift_s);
+
 /// @throws InputError when there is no common event to align at, or no common channel
 [[nodiscard]] FlightComparison compare(const FlightTrace& reference, const FlightTrace& other,
                                        const Alignment& alignment);

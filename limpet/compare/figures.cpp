@@ -5,22 +5,41 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "limpet/core/find_by.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
+#include "limpet/draw/gnuplot.hpp"
 
 namespace limpet::compare {
 namespace {
 
 constexpr double kPanel_px = 200.0;
-/// Events closer than this share of the flight to the one before are not named a second time.
-constexpr double kNameApart = 0.045;
-/// Names so close to the end of the flight would not fit on the page.
-constexpr double kLastName = 0.12;
+constexpr double kColumn_px = 720.0;
+/// Two flights of one scenario may do the same a sample or two apart; of a force that jumps such a
+/// shift makes as large a difference as the jump.
+constexpr double kShift_s = 0.02;
+
+/// Less than this of a unit is of no interest, least of all the last bits of a number that is 0.
+struct LeastSpan {
+    std::string_view unit;
+    double span;
+};
+constexpr LeastSpan kLeastSpans[] = {
+    {"hPa", 2.0}, {"N", 0.5},    {"N m", 0.05},  {"mm", 0.5}, {"deg", 0.2}, {"deg/s", 1.0},
+    {"m", 0.01},  {"m/s", 0.02}, {"rad/s", 2.0}, {"V", 0.05}, {"A", 0.2},   {"share", 0.01}};
+
+double least_span(const FlightChannel& channel) {
+    const LeastSpan* found =
+        std::find_if(std::begin(kLeastSpans), std::end(kLeastSpans),
+                     [&](const LeastSpan& one) { return one.unit == channel.unit; });
+    return found == std::end(kLeastSpans) ? 0.0 : found->span;
+}
 
 /// Told apart by lightness and by dashes, not by hue alone.
 constexpr std::array kOtherColours = {draw::colours::kOrange, draw::colours::kGreen,
@@ -47,17 +66,10 @@ draw::ChartSeries on_reference_time(const FlightChannel& channel,
     return curve;
 }
 
-/// The reference's events, named where there is room: a name begins at its line and goes right.
-std::vector<draw::ChartLine> phase_lines(const record::Recording& recording,
-                                         const record::Window& whole) {
+std::vector<draw::ChartLine> phase_lines(const record::Recording& recording) {
     std::vector<draw::ChartLine> lines;
-    double last_s = -std::numeric_limits<double>::infinity();
     for (const record::RecordedEvent& event : recording.events) {
-        if (event.time_s - last_s > kNameApart * whole.span_s()) {
-            const bool fits = whole.to_s - event.time_s > kLastName * whole.span_s();
-            lines.push_back({event.time_s, fits ? record::words(event.name) : ""});
-            last_s = event.time_s;
-        }
+        lines.push_back({event.time_s, record::words(event.name)});
     }
     return lines;
 }
@@ -74,22 +86,49 @@ bool worth_drawing(const FlightChannel& channel, const std::vector<FlightCompari
     });
 }
 
+/// What a state's values mean, in whichever flight they occur.
+std::vector<draw::ChartLine> names_of_values(const FlightChannel& channel,
+                                             const std::vector<FlightTrace>& others) {
+    std::map<double, std::string> names = channel.names;
+    std::set<double> occurring(channel.values.begin(), channel.values.end());
+    for (const FlightTrace& other : others) {
+        if (const FlightChannel* same = find_named(other.channels, channel.name)) {
+            names.insert(same->names.begin(), same->names.end());
+            occurring.insert(same->values.begin(), same->values.end());
+        }
+    }
+    std::vector<draw::ChartLine> lines;
+    for (const auto& [value, name] : names) {
+        if (occurring.count(value) > 0) {
+            lines.push_back({value, name});
+        }
+    }
+    return lines;
+}
+
 /// The two panels of a channel.
 std::array<draw::ChartPanel, 2> channel_panels(const FlightChannel& channel,
                                                const FlightTrace& reference,
                                                const std::vector<FlightTrace>& others,
                                                const std::vector<FlightComparison>& comparisons,
                                                const record::Window& whole) {
-    const std::string unit = channel.unit.empty() ? "" : fmt::format("  [{}]", channel.unit);
     draw::ChartPanel overlay{.title = channel.title,
                              .x_label = "time of the reference  [s]",
                              .y_label = channel.unit.empty() ? channel.name : channel.unit,
-                             .moments = phase_lines(*reference.recording, whole),
+                             .moments = phase_lines(*reference.recording),
+                             .y_names = names_of_values(channel, others),
                              .x_range = draw::Range{whole.from_s, whole.to_s},
+                             .least_span = least_span(channel),
                              .height_px = kPanel_px};
     draw::ChartPanel difference = overlay;
-    difference.title = fmt::format("{}, difference", channel.title);
+    difference.title =
+        fmt::format("{}: difference beyond a shift of {:.0f} ms", channel.title, 1e3 * kShift_s);
     const bool state = channel.kind == ChannelKind::state;
+    if (state) {
+        difference.title = channel.title + ": alike or not";
+        difference.y_names = {{0.0, "alike"}, {1.0, "not alike"}};
+        difference.y_range = draw::Range{-0.1, 1.1};
+    }
     overlay.series.push_back(
         {.name = reference.label,
          .mark = state ? draw::ChartSeries::Mark::steps : draw::ChartSeries::Mark::line,
@@ -103,7 +142,7 @@ std::array<draw::ChartPanel, 2> channel_panels(const FlightChannel& channel,
         }
         draw::ChartSeries series = on_reference_time(*other, comparisons[k].pieces);
         series.mark = state ? draw::ChartSeries::Mark::steps : draw::ChartSeries::Mark::dashes;
-        Differences all = differences(channel, *other, comparisons[k].pieces);
+        Differences all = beyond_shift(channel, *other, comparisons[k].pieces, kShift_s);
         draw::ChartSeries off{.x = std::move(all.time_s), .y = std::move(all.values)};
         for (draw::ChartSeries* one : {&series, &off}) {
             one->name = others[k].label;
@@ -119,32 +158,39 @@ std::array<draw::ChartPanel, 2> channel_panels(const FlightChannel& channel,
 
 draw::Pictures draw_comparison(const FlightTrace& reference, const std::vector<FlightTrace>& others,
                                const std::vector<FlightComparison>& comparisons,
-                               const std::filesystem::path& folder) {
+                               const std::filesystem::path& folder, const Work& work) {
+    const draw::gnuplot::TemporaryFolder scratch;
     const record::Window whole = whole_flight(*reference.recording);
     draw::Pictures pictures;
     for (const char* group : kGroups) {
-        draw::Chart chart{
-            .title = fmt::format("{}: {}", reference.label, group),
-            .subtitle = "left: flights over each other; right: how far off the reference",
-            .columns = 2};
+        work.say(fmt::format("drawing {}", group));
+        draw::Chart chart{.title = fmt::format("{}: {}", reference.label, group),
+                          .subtitle =
+                              "left: flights over each other, events laid on events; right: how "
+                              "far off the reference",
+                          .columns = 2,
+                          .column_px = kColumn_px};
         for (const FlightChannel& channel : reference.channels) {
             if (channel.group == group && worth_drawing(channel, comparisons)) {
                 auto panels = channel_panels(channel, reference, others, comparisons, whole);
+                bool named = chart.panels.empty();  // over the first alone
                 for (draw::ChartPanel& panel : panels) {
                     for (draw::ChartLine& moment : panel.moments) {
-                        moment.label = chart.panels.empty() ? moment.label : "";
+                        moment.label = named ? moment.label : "";
                     }
+                    named = false;
                 }
                 chart.panels.insert(chart.panels.end(), panels.begin(), panels.end());
             }
         }
         if (!chart.panels.empty()) {
             const draw::Pictures drawn =
-                draw_chart(chart, fmt::format("compare_{}", group), folder);
+                draw_chart(chart, fmt::format("compare_{}", group), scratch.path() / "drawn");
             pictures.files.insert(pictures.files.end(), drawn.files.begin(), drawn.files.end());
         }
     }
-    return pictures;
+    work.say();
+    return {draw::publish(pictures.files, folder), {}};
 }
 
 }  // namespace limpet::compare

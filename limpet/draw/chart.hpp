@@ -67,7 +67,7 @@ struct ChartLine {
 /// A part of the horizontal axis; every second one is shaded.
 struct ChartStretch {
     Range x;
-    std::string name = {};  ///< above the axes, where it fits
+    std::string name = {};  ///< above the axes; where it does not fit a letter, and it in the list
 };
 
 struct ChartPanel {
@@ -75,9 +75,11 @@ struct ChartPanel {
     std::string x_label = {};
     std::string y_label = {};
     std::vector<ChartSeries> series = {};
-    std::vector<ChartLine> levels = {};        ///< horizontal: a threshold; named at the right
-    std::vector<ChartLine> moments = {};       ///< vertical: an event; named above
+    std::vector<ChartLine> levels = {};  ///< horizontal: a threshold; named at the right
+    /// Vertical: an event; named above, by numbers and a list where the names do not fit.
+    std::vector<ChartLine> moments = {};
     std::vector<ChartStretch> stretches = {};  ///< in their order, without a gap
+    std::vector<ChartLine> y_names = {};       ///< of values: at the right, in place of the numbers
     std::vector<std::string> categories = {};  ///< names of x = 0, 1, 2, ...
     std::optional<Range> x_range = {};         ///< without: what the series need
     std::optional<Range> y_range = {};         ///< without: what series and levels need, with air

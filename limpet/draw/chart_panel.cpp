@@ -12,9 +12,8 @@ namespace {
 
 using Mark = ChartSeries::Mark;
 
-constexpr double kSample_px = 64.0;  ///< of the key: a stroke and the air around it and its name
-constexpr double kNameGap_px = 21.0;
-constexpr double kLeader_px = 20.0;  ///< from a moment's line to its slanted name
+constexpr double kSample_px = 64.0;   ///< of the key: a stroke and the air around it and its name
+constexpr double kMarkGap_px = 24.0;  ///< between numbers that stand for names
 constexpr double kLevelLine_px = 18.0;
 constexpr double kLevelNames_px = 150.0;  ///< most that names of levels take
 constexpr double kMostBar_px = 80.0;
@@ -108,31 +107,75 @@ std::vector<ChartLine> within(std::vector<ChartLine> lines, const Range& axis, b
     return lines;
 }
 
-/// Moments within the axes from left to right, with room for their names.
-struct MomentNames {
-    std::vector<ChartLine> lines = {};
-    std::vector<double> at_px = {};  ///< from the plot's left
-    bool slanted = false;  ///< they do not fit beside each other, each at its line's right
-    double height_px = 0.0;
+/// Names over the axes: moments, and stretches. Where they do not fit at their places, numbers and
+/// letters stand there, and a list above says what they mean.
+struct PanelNames {
+    std::vector<ChartLine> moments = {};  ///< within the axes, from left to right
+    std::vector<double> moment_px = {};   ///< from the plot's left
+    bool numbered = false;                ///< moments do not fit beside each other
+    std::vector<std::string> letters =
+        {};  ///< of each stretch; empty: its name fits, or it has none
+    std::vector<std::string> list = {};
+    std::size_t list_columns = 1;
+    double list_column_px = 0.0;
+
+    [[nodiscard]] std::size_t list_rows() const {
+        return (list.size() + list_columns - 1) / list_columns;
+    }
+    /// Of what stands over the plot for the moments.
+    [[nodiscard]] double height_px() const {
+        const bool named = std::any_of(moments.begin(), moments.end(),
+                                       [](const ChartLine& line) { return !line.label.empty(); });
+        return kLine_px * static_cast<double>(list_rows() + (named ? 1 : 0)) +
+               (list.empty() ? 0.0 : 6.0);
+    }
 };
 
-MomentNames moments_of(const ChartPanel& panel, double width_px) {
+/// Where a stretch lies in the plot; {0, 0} when it is not in it.
+Range stretch_px(const ChartPanel& panel, const ChartStretch& stretch, const Range& x,
+                 double width_px) {
+    const double low = std::max(stretch.x.low, x.low), high = std::min(stretch.x.high, x.high);
+    return low < high ? Range{share_of(low, x, panel.log_x) * width_px,
+                              share_of(high, x, panel.log_x) * width_px}
+                      : Range{0.0, 0.0};
+}
+
+PanelNames names_of(const ChartPanel& panel, double width_px) {
     const Range x = x_axis(panel);
-    MomentNames names{.lines = within(panel.moments, x, panel.log_x)};
-    double longest = 0.0, taken = 0.0;
-    for (const ChartLine& line : names.lines) {
-        names.at_px.push_back(share_of(line.at, x, panel.log_x) * width_px);
-        const double wide = text_width_px(line.label, kChartSmall_px);
-        names.slanted =
-            names.slanted || (wide > 0.0 && (names.at_px.back() < taken ||
-                                             names.at_px.back() + 10.0 + wide > width_px));
-        taken = std::max(taken, names.at_px.back() + (wide > 0.0 ? 10.0 + wide : 0.0));
-        longest = std::max(longest, wide);
+    PanelNames names{.moments = within(panel.moments, x, panel.log_x)};
+    double taken = 0.0;
+    for (const ChartLine& line : names.moments) {
+        const double at =
+            names.moment_px.emplace_back(share_of(line.at, x, panel.log_x) * width_px);
+        if (!line.label.empty()) {
+            const double end = at + 10.0 + text_width_px(line.label, kChartSmall_px);
+            names.numbered = names.numbered || at < taken || end > width_px;
+            taken = end;
+        }
     }
-    constexpr double kSin = 0.866;  // of 60 deg
-    names.height_px = longest == 0.0  ? 0.0
-                      : names.slanted ? kSin * longest + kLeader_px + 14.0
-                                      : kLine_px;
+    for (const ChartLine& line : names.moments) {
+        if (names.numbered && !line.label.empty()) {
+            names.list.push_back(fmt::format("{}  {}", names.list.size() + 1, line.label));
+        }
+    }
+    char letter = 'a';
+    for (const ChartStretch& stretch : panel.stretches) {
+        const Range px = stretch_px(panel, stretch, x, width_px);
+        const bool fits = text_width_px(stretch.name, kChartSmall_px) < px.high - px.low;
+        std::string& own = names.letters.emplace_back();
+        if (px.low < px.high && !stretch.name.empty() && !fits && letter <= 'z') {
+            own = letter++;
+            names.list.push_back(fmt::format("{}  {}", own, stretch.name));
+        }
+    }
+    for (const std::string& line : names.list) {
+        names.list_column_px =
+            std::max(names.list_column_px, text_width_px(line, kChartSmall_px) + 12.0);
+    }
+    if (!names.list.empty()) {
+        names.list_columns = static_cast<std::size_t>(
+            std::max(1.0, std::floor((width_px + 12.0) / names.list_column_px)));
+    }
     return names;
 }
 
@@ -184,7 +227,8 @@ public:
           panel_(panel),
           box_(box),
           x_(x_axis(panel)),
-          y_(y_axis(panel)) {}
+          y_(y_axis(panel)),
+          names_(names_of(panel, box.width_px())) {}
 
     void draw() {
         double y = box_.top_px - head_px(panel_, box_.width_px());
@@ -196,6 +240,7 @@ public:
                           panel_.title.empty() ? colours::kInk : colours::kFaint);
         }
         levels();
+        value_names();
         moments(y);
         stretches();
         axes();
@@ -203,9 +248,6 @@ public:
     }
 
 private:
-    [[nodiscard]] double x_px(double value) const {
-        return box_.left_px + share_of(value, x_, panel_.log_x) * box_.width_px();
-    }
     [[nodiscard]] double y_px(double value) const {
         return box_.bottom_px - share_of(value, y_, panel_.log_y) * box_.height_px();
     }
@@ -220,7 +262,7 @@ private:
         const double beside_px = panel_.y_label.empty() ? top_px - kLine_px : box_.top_px - 27.0;
         const bool beside = key.rows == 0;
         sketch_.add(
-            "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing 1.2 "
+            "set key at {} {} top horizontal maxcols {} Left reverse samplen 2 spacing KEY_ROW "
             "noenhanced font "
             "'DejaVu Sans,{}' textcolor rgb '{}'\n",
             sketch_.at(beside ? box_.right_px : box_.left_px - 8.0, beside ? beside_px : top_px),
@@ -244,47 +286,70 @@ private:
         }
     }
 
-    /// Names upright at the right of their lines, or slanted, apart, with leaders.
-    void moments(double top_px) {
-        MomentNames names = moments_of(panel_, box_.width_px());
-        for (double& at : names.at_px) {
-            at += box_.left_px;
+    /// In place of the axis' numbers: what its values mean.
+    void value_names() {
+        std::vector<ChartLine> shown = within(panel_.y_names, y_, panel_.log_y);
+        std::reverse(shown.begin(), shown.end());
+        std::vector<double> wanted;
+        for (const ChartLine& value : shown) {
+            wanted.push_back(y_px(value.at));
         }
-        const double foot = top_px + names.height_px;
-        // With stretches the lines keep to the plot: their names are in between.
-        const double from = has_names(panel_) || names.height_px == 0.0 ? box_.top_px : foot;
-        const auto placed = names.slanted
-                                ? spread(names.at_px, kNameGap_px, box_.left_px, box_.right_px)
-                                : names.at_px;
-        for (std::size_t i = 0; i < placed.size(); ++i) {
-            const std::string& label = names.lines[i].label;
-            sketch_.line(names.at_px[i], from, names.at_px[i], box_.bottom_px, colours::kMoment,
-                         1.2);
-            if (label.empty()) {
-                continue;
-            }
-            const double head = names.slanted ? foot - kLeader_px : foot - 0.8 * kLine_px;
-            sketch_.line(names.at_px[i], foot, placed[i], head, colours::kMoment, 1.2);
-            sketch_.label(placed[i] + (names.slanted ? 3.0 : 5.0),
-                          names.slanted ? head - 5.0 : foot - 0.4 * kLine_px, label, kChartSmall_px,
-                          colours::kInk, names.slanted ? "left rotate by 60" : "left");
+        const auto placed = spread(wanted, kLevelLine_px, box_.top_px, box_.bottom_px);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            sketch_.label(box_.right_px + 10.0, placed[i], shown[i].label, kChartSmall_px,
+                          colours::kFaint);
         }
     }
 
-    /// Shaded in turns, named where the name fits.
+    /// Names at the right of their lines, or numbers over them, with the list that they refer to.
+    void moments(double top_px) {
+        for (std::size_t i = 0; i < names_.list.size(); ++i) {
+            const auto column = static_cast<double>(i % names_.list_columns);
+            const std::size_t row = i / names_.list_columns;
+            sketch_.label(box_.left_px + column * names_.list_column_px,
+                          top_px + (static_cast<double>(row) + 0.5) * kLine_px, names_.list[i],
+                          kChartSmall_px, colours::kInk);
+        }
+        const double foot = top_px + names_.height_px();
+        std::vector<double> named;
+        for (std::size_t i = 0; i < names_.moments.size(); ++i) {
+            const double x = box_.left_px + names_.moment_px[i];
+            const bool name = !names_.moments[i].label.empty();
+            // With stretches the lines keep to the plot: their names are in between.
+            const double from = has_names(panel_) || !name ? box_.top_px : foot;
+            sketch_.line(x, from, x, box_.bottom_px, colours::kMoment, 1.2);
+            if (name && names_.numbered) {
+                named.push_back(x);
+            } else if (name) {
+                sketch_.line(x, foot, x, foot - 0.8 * kLine_px, colours::kMoment, 1.2);
+                sketch_.label(x + 5.0, foot - 0.4 * kLine_px, names_.moments[i].label,
+                              kChartSmall_px, colours::kInk);
+            }
+        }
+        const auto placed = spread(named, kMarkGap_px, box_.left_px, box_.right_px);
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            sketch_.line(named[i], foot, placed[i], foot - 5.0, colours::kMoment, 1.2);
+            sketch_.label(placed[i], foot - 0.6 * kLine_px, std::to_string(i + 1), kChartSmall_px,
+                          colours::kInk, "center");
+        }
+    }
+
+    /// Shaded in turns; named, by a letter where the name does not fit.
     void stretches() {
         const double label_px = panel_.y_label.empty() ? 8.0 : kLine_px + 8.0;
         const double top =
             has_names(panel_) ? box_.top_px - label_px - kLine_px : box_.top_px - label_px;
         for (std::size_t i = 0; i < panel_.stretches.size(); ++i) {
             const ChartStretch& stretch = panel_.stretches[i];
-            const double x0 = x_px(std::max(stretch.x.low, x_.low));
-            const double x1 = x_px(std::min(stretch.x.high, x_.high));
-            if (i % 2 == 1) {
+            const Range px = stretch_px(panel_, stretch, x_, box_.width_px());
+            const double x0 = box_.left_px + px.low, x1 = box_.left_px + px.high;
+            if (px.low < px.high && i % 2 == 1) {
                 sketch_.box(x0, top, x1, box_.bottom_px, colours::kShade);
             }
-            if (text_width_px(stretch.name, kChartSmall_px) < x1 - x0) {
-                sketch_.label(0.5 * (x0 + x1), top + 0.5 * kLine_px, stretch.name, kChartSmall_px,
+            if (px.low < px.high && !stretch.name.empty()) {
+                const std::string& letter = names_.letters[i];
+                sketch_.label(0.5 * (x0 + x1), top + 0.5 * kLine_px,
+                              letter.empty() ? stretch.name : letter, kChartSmall_px,
                               colours::kFaint, "center");
             }
         }
@@ -295,7 +360,15 @@ private:
         sketch_.add("set grid {}xtics ytics lt 1 lc rgb '{}' lw 0.8\n",
                     panel_.categories.empty() ? "" : "no", colours::kGrid);
         set_axis(sketch_, "x", x_, panel_.log_x, box_.width_px() / 90.0);
-        set_axis(sketch_, "y", y_, panel_.log_y, box_.height_px() / 42.0);
+        // A low panel has a scale too, not one number.
+        set_axis(sketch_, "y", y_, panel_.log_y, std::max(2.5, box_.height_px() / 42.0));
+        if (!panel_.y_names.empty()) {
+            std::string ticks;
+            for (const ChartLine& value : panel_.y_names) {
+                ticks += fmt::format("{}'' {:.10g}", ticks.empty() ? "" : ", ", value.at);
+            }
+            sketch_.add("set ytics ({})\n", ticks);
+        }
         if (!panel_.categories.empty()) {
             const CategoryNames names = category_names(panel_, box_.width_px());
             sketch_.add("set xtics noenhanced {} ({})\n",
@@ -399,6 +472,7 @@ private:
     const Box& box_;
     Range x_;
     Range y_;
+    PanelNames names_;
     std::string clauses_;
 };
 
@@ -407,8 +481,10 @@ private:
 double right_px(const ChartPanel& panel) {
     check(panel);
     double names = 6.0;
-    for (const ChartLine& level : panel.levels) {
-        names = std::max(names, text_width_px(level.label, kChartSmall_px));
+    for (const auto* lines : {&panel.levels, &panel.y_names}) {
+        for (const ChartLine& line : *lines) {
+            names = std::max(names, text_width_px(line.label, kChartSmall_px));
+        }
     }
     return std::min(names, kLevelNames_px) + 10.0;
 }
@@ -418,7 +494,7 @@ double head_px(const ChartPanel& panel, double width_px) {
                                           key_of(panel, width_px).rows);
     return kLine_px *
                (rows + (panel.y_label.empty() ? 0.0 : 1.0) + (has_names(panel) ? 1.0 : 0.0)) +
-           moments_of(panel, width_px).height_px + 8.0;
+           names_of(panel, width_px).height_px() + 8.0;
 }
 
 double foot_px(const ChartPanel& panel, double width_px) {

@@ -60,11 +60,11 @@ std::string Sketch::script(const std::string& stem, bool svg) const {
     // Fonts are measured in points of 1/72 in at 96 dpi in a PNG, in pixels in an SVG, where marks
     // are larger as well.
     std::string script =
-        fmt::format("DATA = '{}.txt'\nMARK = 1.0\n", stem) + preparation_ +
+        fmt::format("DATA = '{}.txt'\nMARK = 1.0\nKEY_ROW = 1.2\n", stem) + preparation_ +
         fmt::format("set terminal pngcairo {} fontscale 0.75\nset output '{}.png'\n", size, stem) +
         body;
     if (svg) {
-        script += "reset\nMARK = 0.65\n" +
+        script += "reset\nMARK = 0.65\nKEY_ROW = 0.95\n" +
                   fmt::format("set terminal svg {}\nset output '{}.svg'\n", size, stem) + body;
     }
     return script;

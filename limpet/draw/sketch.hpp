@@ -46,7 +46,7 @@ public:
     void forget();
 
     /// @return a script that draws STEM.png and STEM.svg with STEM.txt as DATA; sizes of
-    /// marks are in units of MARK
+    /// marks are in units of MARK, rows of a key KEY_ROW apart (the terminals' letters differ)
     /// @param stem  of letters, digits, '_' and '-'
     [[nodiscard]] std::string script(const std::string& stem, bool svg = true) const;
 

@@ -13,7 +13,6 @@
 namespace limpet::draw {
 namespace {
 
-constexpr int kOversampling = 2;  // on top of multisampling: thin rods and shadow edges
 constexpr int kSamples = 4;
 constexpr double kAngleOfSight_deg = 28.0;
 constexpr float kBlur = 0.30F;  // how much a turning propeller hides
@@ -53,21 +52,21 @@ int base_address(const mjModel& model) {
     return model.jnt_qposadr[joint];
 }
 
-Image shrunk(const Pixels& large, int width_px, int height_px) {
+Image shrunk(const Pixels& large, int width_px, int height_px, int by) {
     Image image{width_px, height_px, {}};
     image.rgb.resize(3u * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
-    const int large_width = kOversampling * width_px;
+    const int large_width = by * width_px;
     auto out = image.rgb.begin();
     for (int row = height_px - 1; row >= 0; --row) {  // OpenGL begins at the bottom
         for (int column = 0; column < width_px; ++column) {
             for (int channel = 0; channel < 3; ++channel) {
                 int sum = 0;
-                for (int i = 0; i < kOversampling * kOversampling; ++i) {
-                    const int y = kOversampling * row + i / kOversampling;
-                    const int x = kOversampling * column + i % kOversampling;
+                for (int i = 0; i < by * by; ++i) {
+                    const int y = by * row + i / by;
+                    const int x = by * column + i % by;
                     sum += large[static_cast<std::size_t>(3 * (y * large_width + x) + channel)];
                 }
-                *out++ = static_cast<std::uint8_t>(sum / (kOversampling * kOversampling));
+                *out++ = static_cast<std::uint8_t>(sum / (by * by));
             }
         }
     }
@@ -87,12 +86,13 @@ struct Stage::Parts {
     mjvOption option;
     int width_px;
     int height_px;
+    int oversampling;  ///< on top of multisampling
 
-    Parts(const std::string& mjcf, int width, int height)
-        : model(compile_mjcf(mjcf)), width_px(width), height_px(height) {
+    Parts(const std::string& mjcf, int width, int height, int samples)
+        : model(compile_mjcf(mjcf)), width_px(width), height_px(height), oversampling(samples) {
         const int base_at = base_address(*model);
-        model->vis.global.offwidth = kOversampling * width;
-        model->vis.global.offheight = kOversampling * height;
+        model->vis.global.offwidth = oversampling * width;
+        model->vis.global.offheight = oversampling * height;
         model->vis.global.fovy = static_cast<float>(kAngleOfSight_deg);
         model->vis.quality.offsamples = kSamples;
         data.reset(mj_makeData(model.get()));
@@ -155,7 +155,7 @@ struct Stage::Parts {
     [[nodiscard]] Pixels render(mjvCamera& camera, bool shadows) {
         mjv_updateScene(model.get(), data.get(), &option, nullptr, &camera, mjCAT_ALL, &scene);
         scene.flags[mjRND_SHADOW] = shadows ? 1 : 0;
-        const mjrRect all{0, 0, kOversampling * width_px, kOversampling * height_px};
+        const mjrRect all{0, 0, oversampling * width_px, oversampling * height_px};
         mjr_render(all, &scene, &renderer);
         Pixels pixels(3u * static_cast<std::size_t>(all.width) *
                       static_cast<std::size_t>(all.height));
@@ -164,8 +164,8 @@ struct Stage::Parts {
     }
 };
 
-Stage::Stage(const std::string& mjcf, int width_px, int height_px)
-    : parts_(std::make_unique<Parts>(mjcf, width_px, height_px)) {}
+Stage::Stage(const std::string& mjcf, int width_px, int height_px, int oversampling)
+    : parts_(std::make_unique<Parts>(mjcf, width_px, height_px, oversampling)) {}
 
 Stage::~Stage() = default;
 
@@ -215,7 +215,7 @@ Image Stage::photograph(const Pose& pose, const View& view) {
                 static_cast<std::uint8_t>(std::clamp(picture[i] + with[i] - without[i], 0, 255));
         }
     }
-    return shrunk(picture, p.width_px, p.height_px);
+    return shrunk(picture, p.width_px, p.height_px, p.oversampling);
 }
 
 }  // namespace limpet::draw

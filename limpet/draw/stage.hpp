@@ -50,7 +50,8 @@ public:
     /// moved
     /// @throws InputError with MuJoCo's words when the model does not compile or has no body `base`
     ///         with a free joint, and when nothing can be drawn on this machine
-    Stage(const std::string& mjcf, int width_px, int height_px);
+    /// @param oversampling  1 is quick, 2 shows thin rods and shadow edges smoothly
+    Stage(const std::string& mjcf, int width_px, int height_px, int oversampling = 2);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;

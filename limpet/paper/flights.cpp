@@ -108,6 +108,24 @@ public:
         const Samples pitches = within(kTruth, "pitch_rad", at_s, end_s);
         set(prefix + "spike_N",
             within("/sensors/force", "wrench.force.x", at_s - 0.05, end_s).least());
+        // Thrown back by its spring the vehicle pulls the slider against its outer stop.
+        const record::Table* truth = find_table(recording_, kTruth);
+        const record::Column* force = truth == nullptr ? nullptr : truth->find("slider_force_N");
+        const record::Column* slider =
+            truth == nullptr ? nullptr : truth->find("slider_position_m");
+        double rebound_N = kNaN, rebound_s = kNaN, slider_m = kNaN;
+        for (std::size_t i = 0; force != nullptr && slider != nullptr && i < truth->time_s.size();
+             ++i) {
+            if (truth->time_s[i] >= at_s && truth->time_s[i] <= end_s &&
+                !(force->values[i] <= rebound_N)) {
+                rebound_N = force->values[i];
+                rebound_s = truth->time_s[i] - at_s;
+                slider_m = slider->values[i];
+            }
+        }
+        set(prefix + "rebound_N", rebound_N);
+        set(prefix + "rebound_after_s", rebound_s);
+        set(prefix + "rebound_slider_mm", 1e3 * slider_m);
         set(prefix + "pitch_drop_deg", degrees(pitches.least() - pitches.first()));
         set(prefix + "lowest_pressure_hPa",
             hectopascals(

@@ -99,6 +99,7 @@ void study_flights(Study& study) {
     const std::vector<std::string> drawn = {"perch_concrete", "perch_metal", "failed_perch"};
     for_each_index(drawn.size(), study.jobs, [&](std::size_t i) {
         const PaperFlight& flight = flight_of(flights, drawn[i]);
+        study.show(flight.name);
         (void)report::plot(flight.recording, study.folder / "flights" / flight.name);
     });
     study.say("filmstrips");

@@ -230,36 +230,27 @@ const SwingMissions& of(const std::vector<MissionCase>& cases, std::string_view 
     return found->missions;
 }
 
-/// Share of the missions whose largest pitch lies below.
-draw::ChartSeries distribution(const MissionCase& one) {
-    draw::ChartSeries series{.name = one.name, .mark = draw::ChartSeries::Mark::steps};
-    const std::vector<double>& sorted = one.missions.pitch_deg;
-    series.add(sorted.empty() ? 0.0 : sorted.front(), 0.0);
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        series.add(sorted[i], static_cast<double>(i + 1) / static_cast<double>(sorted.size()));
-    }
-    return series;
-}
-
 void study_missions(Study& study) {
     const std::vector<MissionCase> cases = fly_missions(study);
-    draw::ChartPanel panel{.x_label = "largest pitch while waiting for the release  [deg]",
-                           .y_label = "share of the missions below",
-                           .moments = {{.at = 5.0, .label = "paper: 5 deg"}},
-                           .x_range = draw::Range{0.0, 1.05 * of(cases, "metal").quantile(1.0)},
-                           .y_range = draw::Range{0.0, 1.02}};
+    // Beside each other: distributions over each other hide those that coincide.
+    draw::ChartPanel panel{.y_label = "largest pitch while waiting for the release  [deg]",
+                           .levels = {{.at = 5.0, .label = "paper: 5 deg"}},
+                           .log_y = true};
+    draw::ChartSeries medians{.name = "median, and from 5 to 95 % of the missions",
+                              .mark = draw::ChartSeries::Mark::points};
     TableRows rows;
     for (const MissionCase& one : cases) {
         const SwingMissions& missions = one.missions;
         const double median_deg = missions.quantile(0.5), most_deg = missions.quantile(0.95);
-        panel.series.push_back(distribution(one));
+        medians.add(panel.category(one.name), median_deg, {missions.quantile(0.05), most_deg});
         rows.push_back({one.name, static_cast<double>(missions.runs),
                         static_cast<double>(missions.attached), missions.quantile(0.05), median_deg,
                         most_deg});
         study.evidence.set(fmt::format("swing.{}_median_deg", one.key), median_deg);
         study.evidence.set(fmt::format("swing.{}_p95_deg", one.key), most_deg);
     }
-    study.draw("fig-swing", {.panels = {panel}});
+    panel.series = {medians};
+    study.draw("fig-swing", {.panels = {panel}, .column_px = 1000.0});
     study.table("swing-missions", rows);
     study.evidence.set("swing.concrete_ratio", of(cases, "concrete").median_swing_deg() /
                                                    of(cases, "gazebo_concrete").median_swing_deg());
@@ -272,6 +263,7 @@ void fly_slow(Study& study, const char* id, const char* name, const char* scenar
     const std::filesystem::path flights = study.folder / "flights";
     const PaperFlight flight = fly_recorded({.name = name, .scenario = scenario}, flights);
     (void)report::plot(flight.recording, flights / name);
+    study.show(name);
     study.picture(id, name, "take_off");
 }
 

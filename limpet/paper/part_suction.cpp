@@ -134,6 +134,29 @@ draw::ChartPanel pressure_panel(const Press& press) {
             .height_px = 260.0};
 }
 
+/// All surfaces over each other, as eq. (5) or (6) fits them.
+draw::ChartPanel together(const std::vector<Press>& presses, bool sealing) {
+    draw::ChartPanel panel{
+        .title = sealing ? "all four, pump on: eq. (5)" : "all four, pump off: eq. (6)",
+        .x_label = sealing ? "since sealing began  [s]" : "since the pump was off  [s]",
+        .y_label = "pressure  [hPa]",
+        .y_range = draw::Range{200.0, 1060.0},
+        .height_px = 260.0};
+    constexpr draw::ChartSeries::Mark kMarks[] = {draw::ChartSeries::Mark::line,
+                                                  draw::ChartSeries::Mark::dashes};
+    for (const Press& press : presses) {
+        const auto& begins = sealing ? press.fit.sealing_begins_s : press.fit.unsealing_begins_s;
+        if (!begins) {
+            continue;
+        }
+        panel.series.push_back({.name = press.name, .mark = kMarks[panel.series.size() % 2]});
+        panel.series.back().add({0.0, 2.5}, 250, [&](double since_s) {
+            return hectopascals(mean_pressure_Pa(press.fit.curve, begins->value + since_s));
+        });
+    }
+    return panel;
+}
+
 std::string with_interval(const std::optional<identification::Fitted>& fitted, double scale) {
     return fitted
                ? fmt::format("{:.4g} ± {:.2g}", scale * fitted->value, scale * fitted->half_width)
@@ -211,13 +234,16 @@ void study_suction(Study& study) {
                    [&](std::size_t i) { presses[i] = fly_press(kColumns[i], study); });
     measure_suction(presses, study.evidence);
 
-    draw::Chart chart{.subtitle = "sensor on the simulated press rig, and the fit of eq. (5)",
-                      .columns = 2};
+    draw::Chart chart{
+        .subtitle = "sensor on the simulated press rig, and the fits of eqs. (5) and (6)",
+        .columns = 2};
     TableRows rows;
     for (const Press& press : presses) {
         chart.panels.emplace_back(pressure_panel(press));
         add_rows(press, study, rows);
     }
+    chart.panels.emplace_back(together(presses, true));
+    chart.panels.emplace_back(together(presses, false));
     study.draw("fig2", chart);
     study.table("table2", rows);
     study.table("pneumatic-predictions", beyond_the_exponential());

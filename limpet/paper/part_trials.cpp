@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/scenario/loader.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -17,7 +20,8 @@ namespace {
 constexpr const char* kSpeedKey = "pendulum.impact_speed_m_s";
 
 /// Flies a campaign of the data anew into campaigns/NAME/results.sqlite.
-campaign::CampaignSummary fly_trials(const char* name, const Study& study) {
+campaign::CampaignSummary fly_trials(const char* name, const Study& study,
+                                     std::vector<double>* press_N = nullptr) {
     const campaign::Campaign campaign = campaign::load_campaign(name);
     const std::filesystem::path folder = study.folder / "campaigns" / campaign.name;
     std::filesystem::remove(campaign::Results::file_of(folder));
@@ -25,7 +29,24 @@ campaign::CampaignSummary fly_trials(const char* name, const Study& study) {
     campaign::Results results = begin_results(campaign, folder, false);
     run_campaign(results, study.jobs, {.on_progress = {}, .stop = study.stop});
     study.say("");  // some of its runs may be missing
+    if (press_N != nullptr) {
+        SQLite::Statement select(
+            results.database(),
+            fmt::format("SELECT avg(impact_force_N) FROM runs GROUP BY {0} ORDER BY {0}",
+                        campaign::sql_name(kSpeedKey)));
+        while (select.executeStep()) {
+            press_N->push_back(select.getColumn(0).getDouble());
+        }
+    }
     return summarise(results);
+}
+
+/// Share of the spots that a press seals, by the surface's spread alone.
+double expected_share(double press_N) {
+    const suction::Surface surface = scenario::load_scenario("pendulum_concrete").wall.surface;
+    const double z =
+        std::log(press_N / surface.seal_threshold_median_N) / surface.seal_threshold_sigma;
+    return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
 const campaign::KeySummary& by_speed(const campaign::CampaignSummary& summary) {
@@ -96,7 +117,23 @@ void measure_trials(const campaign::CampaignSummary& trials, const campaign::Cam
     evidence.set("fig3.mixed_speeds_less", mixed(groups) - mixed(by_speed(alike).groups));
 }
 
-draw::ChartPanel trials_panel(const campaign::KeySummary& key) {
+/// What the jump between two neighbours is made of: few trials around what was to be expected.
+void measure_jump(const campaign::KeySummary& key, const std::vector<double>& press_N,
+                  Evidence& evidence) {
+    require(key.groups.size() == press_N.size(), "a mean press for each speed");
+    for (std::size_t i = 0; i < key.groups.size(); ++i) {
+        const campaign::Group& group = key.groups[i];
+        for (const auto& [speed_m_s, name] : {std::pair{0.7, "0_7"}, std::pair{0.8, "0_8"}}) {
+            if (std::abs(group.middle() - speed_m_s) < 1e-6) {
+                evidence.set(fmt::format("fig3.share_{}", name), group.proportion.probability());
+                evidence.set(fmt::format("fig3.expected_{}", name), expected_share(press_N[i]));
+                evidence.set("fig3.trials_a_speed", group.proportion.runs);
+            }
+        }
+    }
+}
+
+draw::ChartPanel trials_panel(const campaign::KeySummary& key, const std::vector<double>& press_N) {
     draw::ChartSeries points{.name = "simulated trials, 95 % Wilson intervals",
                              .mark = draw::ChartSeries::Mark::points};
     for (const campaign::Group& group : key.groups) {
@@ -115,18 +152,25 @@ draw::ChartPanel trials_panel(const campaign::KeySummary& key) {
         panel.series.back().add({key.groups.front().low, key.groups.back().high}, 120,
                                 [&](double speed) { return key.fit->probability(speed); });
     }
+    panel.series.push_back(
+        {.name = "the threshold's spread alone", .mark = draw::ChartSeries::Mark::dashes});
+    for (std::size_t i = 0; i < key.groups.size(); ++i) {
+        panel.series.back().add(key.groups[i].middle(), expected_share(press_N[i]));
+    }
     return panel;
 }
 
 void study_trials(Study& study) {
     study.say("pendulum trials");
-    const campaign::CampaignSummary trials = fly_trials("fig3", study);
+    std::vector<double> press_N;
+    const campaign::CampaignSummary trials = fly_trials("fig3", study, &press_N);
     const campaign::CampaignSummary alike = fly_trials("fig3_without_spread", study);
     measure_trials(trials, alike, study.evidence);
+    measure_jump(by_speed(trials), press_N, study.evidence);
     study.draw("fig3",
                {.subtitle = fmt::format("{} trials of a vehicle on a 5 m pendulum, porous concrete",
                                         trials.finished),
-                .panels = {trials_panel(by_speed(trials))}});
+                .panels = {trials_panel(by_speed(trials), press_N)}});
     TableRows rows;
     for (const campaign::EndingCount& failure : trials.failures) {
         rows.push_back({failure.reason.empty() ? failure.outcome : failure.reason,
@@ -143,7 +187,8 @@ StudyPart trials_part() {
             "Attachment against impact speed: Fig. 3",
             study_trials,
             {"fig3.runs", "fig3.success_below_0_4", "fig3.best_margin",
-             "fig3.failed_for_force_share", "fig3.mixed_speeds_less"},
+             "fig3.failed_for_force_share", "fig3.mixed_speeds_less", "fig3.share_0_7",
+             "fig3.share_0_8", "fig3.expected_0_7", "fig3.expected_0_8", "fig3.trials_a_speed"},
             {"fig3", "fig3-failures"}};
 }
 

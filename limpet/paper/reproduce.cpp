@@ -133,9 +133,6 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
     report::Page& page = result.page;
     page.title = text.title;
     page.subtitle = text.subtitle;
-    page.sections.push_back({.id = "claims",
-                             .title = "What the paper says, line by line",
-                             .blocks = {report::ClaimTable{}}});
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         study.say("");
         if (watch.on_part) {
@@ -146,6 +143,10 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
         page.sections.push_back(study.section(chosen[i]));
     }
     study.say("");  // the last part's runs may have been stopped
+    // After the pictures: it is long.
+    page.sections.push_back({.id = "claims",
+                             .title = "What the paper says, line by line",
+                             .blocks = {report::ClaimTable{}}});
     page.claims = judged(study, chosen, options.only.empty());
     const Evidence counts = counted(page.claims);
     for (const std::string& paragraph : text.summary) {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/paper/reproduce.hpp"
+#include "limpet/report/view.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -45,6 +49,8 @@ void Study::picture(const std::string& id, const std::string& flight, const std:
     report::PageFigure& figure = find<report::PageFigure>(blocks, id);
     fs::create_directories(folder / "figures");
     const fs::path from = folder / "flights" / flight / picture;
+    const fs::path view = fs::path("flights") / flight / "view.html";
+    figure.view = fs::exists(folder / view) ? view : fs::path();
     fs::copy_file(from.string() + ".png", folder / figure.png,
                   fs::copy_options::overwrite_existing);
     if (fs::exists(from.string() + ".svg")) {
@@ -52,6 +58,19 @@ void Study::picture(const std::string& id, const std::string& flight, const std:
                       fs::copy_options::overwrite_existing);
     } else {
         figure.svg.clear();
+    }
+}
+
+void Study::show(const std::string& flight) const {
+    if (report::has_view_page()) {
+        const fs::path of = folder / "flights" / flight;
+        std::ofstream file(of / "view.html", std::ios::binary);
+        file << report::view_html({of / "flight.mcap"});
+        file.close();
+        if (!file) {
+            throw InputError(
+                fmt::format("cannot write {}: is the disk full?", (of / "view.html").string()));
+        }
     }
 }
 

@@ -39,6 +39,9 @@ struct Study {
     /// Takes FOLDER/flights/FLIGHT/PICTURE.png, and .svg if there is one, for a figure of the
     /// part's.
     void picture(const std::string& id, const std::string& flight, const std::string& picture);
+    /// Writes FOLDER/flights/FLIGHT/view.html, which its figures then link to; nothing where the
+    /// program was built without that page.
+    void show(const std::string& flight) const;
     void table(const std::string& id, TableRows rows);
     /// Tells what comes next; before that it stops where it was asked to.
     /// @throws Interrupted

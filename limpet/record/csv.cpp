@@ -105,7 +105,8 @@ std::string csv_field(std::string_view text) {
 }
 
 std::vector<std::filesystem::path> write_csv(const Recording& recording,
-                                             const std::filesystem::path& folder) {
+                                             const std::filesystem::path& folder,
+                                             const Work& work) {
     std::error_code problem;
     std::filesystem::create_directories(folder, problem);
     if (problem) {
@@ -113,6 +114,7 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
     }
     std::vector<std::filesystem::path> files;
     for (const Table& table : recording.tables) {
+        work.say("writing " + table.topic);
         if (table.type != info(Topic::events).type) {
             files.push_back(write_whole(folder / file_name(table.topic),
                                         [&](std::ostream& file) { write_table(table, file); }));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/work.hpp"
 #include "limpet/record/recording.hpp"
 
 namespace limpet::record {
@@ -16,9 +17,10 @@ namespace limpet::record {
 /// Each file is written beside its place and renamed: none is ever half there.
 /// @param folder  made if it is not there
 /// @return the files, in the order of the topics, events.csv last
-/// @throws InputError if a file cannot be written, naming it
+/// @throws InputError if a file cannot be written, naming it; Interrupted between two
 std::vector<std::filesystem::path> write_csv(const Recording& recording,
-                                             const std::filesystem::path& folder);
+                                             const std::filesystem::path& folder,
+                                             const Work& work = {});
 
 /// Writes what is attached to a recording into the folder, which is there, under its own names.
 /// @return the files

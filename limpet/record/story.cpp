@@ -12,10 +12,18 @@ namespace {
 constexpr double kEnd_s = 1e300;  ///< as far as it was recorded
 
 /// As much of it as was recorded.
+/// @param zero  the event that its time counts from, nullptr for its own beginning
 Chapter chapter(const Recording& recording, const char* file, const char* title, double from_s,
-                double to_s) {
+                double to_s, const RecordedEvent* zero, std::string ending) {
     const Window whole = whole_flight(recording);
-    return {file, title, {std::max(from_s, whole.from_s), std::min(to_s, whole.to_s)}};
+    const Window window{std::max(from_s, whole.from_s), std::min(to_s, whole.to_s)};
+    const bool within = zero != nullptr && window.holds(zero->time_s);
+    return {file,
+            title,
+            window,
+            within ? zero->time_s : window.from_s,
+            within ? words(zero->name) : std::string("the figure's beginning"),
+            std::move(ending)};
 }
 
 /// When the first of these names happens after an instant; nullptr for none of them.
@@ -98,8 +106,13 @@ std::optional<Chapter> perching(const Recording& recording) {
     if (end == nullptr) {
         end = first_event(recording, "perched", start_s);
     }
+    const bool perched = first_event(recording, "perched", start_s) != nullptr;
     return chapter(recording, "perching", "perching", start_s - 0.5,
-                   end == nullptr ? kEnd_s : end->time_s + 1.0);
+                   end == nullptr ? kEnd_s : end->time_s + 1.0,
+                   first_event(recording, "impact", start_s),
+                   perched          ? "perched"
+                   : end != nullptr ? words(end->name)
+                                    : "");
 }
 
 std::optional<Chapter> take_off(const Recording& recording) {
@@ -109,7 +122,8 @@ std::optional<Chapter> take_off(const Recording& recording) {
     }
     const RecordedEvent* end = first_of(recording, {"backed_off", "aborted"}, start->time_s);
     return chapter(recording, "take_off", "take-off", start->time_s - 0.5,
-                   end == nullptr ? kEnd_s : end->time_s + 2.0);
+                   end == nullptr ? kEnd_s : end->time_s + 2.0, start,
+                   end == nullptr ? "" : words(end->name));
 }
 
 std::optional<Chapter> failed_attempt(const Recording& recording) {
@@ -120,11 +134,13 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     const RecordedEvent* approach = last_event(recording, "approach_started", retreat->time_s);
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
     return chapter(recording, "failed_attempt", "failed attempt", start_s - 0.5,
-                   retreat->time_s + 3.0);
+                   retreat->time_s + 3.0, first_event(recording, "impact", start_s),
+                   "no seal, retreat");
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {
-    std::vector<Chapter> found = {{"overview", "whole flight", whole_flight(recording)}};
+    std::vector<Chapter> found = {
+        {.file = "overview", .title = "whole flight", .window = whole_flight(recording)}};
     for (const auto& chapter :
          {perching(recording), take_off(recording), failed_attempt(recording)}) {
         if (chapter && chapter->window.span_s() > 0.0) {

@@ -12,11 +12,13 @@
 namespace limpet::report {
 namespace {
 
-constexpr double kWidth_px = 1400.0;
+constexpr double kWidth_px = 1100.0;  ///< wider, its letters would be specks on a phone
 
-std::string subtitle_of(const record::Summary& summary) {
-    std::string text =
-        "outcome: " + (summary.outcome.empty() ? "unknown" : record::words(summary.outcome));
+std::string subtitle_of(const record::Summary& summary, const record::Chapter& chapter) {
+    std::string text = chapter.ending.empty()
+                           ? "outcome: "
+                           : fmt::format("ends: {}  ·  the whole flight: ", chapter.ending);
+    text += summary.outcome.empty() ? "unknown" : record::words(summary.outcome);
     if (!summary.reason.empty()) {
         text += fmt::format(" ({})", summary.reason);
     }
@@ -26,6 +28,45 @@ std::string subtitle_of(const record::Summary& summary) {
     return text;
 }
 
+/// Times count from the chapter's zero.
+void shift(draw::ChartPanel& panel, const record::Chapter& chapter) {
+    for (draw::ChartSeries& series : panel.series) {
+        for (double& x : series.x) {
+            x -= chapter.zero_s;
+        }
+    }
+    panel.x_range =
+        draw::Range{chapter.window.from_s - chapter.zero_s, chapter.window.to_s - chapter.zero_s};
+    if (!panel.x_label.empty() && !chapter.zero.empty()) {
+        panel.x_label = fmt::format("time since {}  [s]", chapter.zero);
+    }
+}
+
+/// "impact  3.90", of a chapter "landing started  +0.50".
+std::string name_of(const record::RecordedEvent& event, const record::Chapter& chapter) {
+    return chapter.zero.empty() ? fmt::format("{}  {:.2f}", record::words(event.name), event.time_s)
+                                : fmt::format("{}  {:+.2f}", record::words(event.name),
+                                              event.time_s - chapter.zero_s);
+}
+
+/// Events and states run through a panel, named over the first one.
+void add_story(draw::ChartPanel& panel, const record::Recording& recording,
+               const record::Chapter& chapter, bool named) {
+    for (const record::RecordedEvent& event : recording.events) {
+        if (chapter.window.holds(event.time_s)) {
+            panel.moments.push_back(
+                {event.time_s - chapter.zero_s, named ? name_of(event, chapter) : ""});
+        }
+    }
+    for (const auto& [state, window] : phases(recording)) {
+        if (window.to_s > chapter.window.from_s && window.from_s < chapter.window.to_s) {
+            panel.stretches.push_back(
+                {{window.from_s - chapter.zero_s, window.to_s - chapter.zero_s},
+                 named ? record::words(state) : ""});
+        }
+    }
+}
+
 }  // namespace
 
 draw::Chart flight_chart(const record::Recording& recording, const record::Chapter& chapter) {
@@ -33,8 +74,11 @@ draw::Chart flight_chart(const record::Recording& recording, const record::Chapt
     draw::Chart chart{
         .title = fmt::format("{}: {}", facts.scenario.empty() ? "flight" : facts.scenario,
                              chapter.title),
-        .subtitle = subtitle_of(facts),
+        .subtitle = subtitle_of(facts, chapter),
         .column_px = kWidth_px};
+    if (!chapter.zero.empty()) {
+        chart.subtitle += fmt::format("  ·  {} at {:.2f} s of it", chapter.zero, chapter.zero_s);
+    }
     if (!recording.damage.empty()) {
         // What closes a recording is its summary: where that is, the end is not what is missing.
         chart.warning =
@@ -42,35 +86,24 @@ draw::Chart flight_chart(const record::Recording& recording, const record::Chapt
                 ? "recording damaged"
                 : fmt::format("recording cut at t = {:.2f} s", whole_flight(recording).to_s);
     }
-    // Events and states stand over the first panel and run through all.
     for (draw::ChartPanel& panel : panels(recording, chapter.window)) {
-        const bool first = chart.panels.empty();
-        for (const record::RecordedEvent& event : recording.events) {
-            if (chapter.window.holds(event.time_s)) {
-                const auto name =
-                    fmt::format("{}  {:.2f}", record::words(event.name), event.time_s);
-                panel.moments.push_back({event.time_s, first ? name : ""});
-            }
-        }
-        for (const auto& [state, window] : phases(recording)) {
-            if (window.to_s > chapter.window.from_s && window.from_s < chapter.window.to_s) {
-                panel.stretches.push_back(
-                    {{window.from_s, window.to_s}, first ? record::words(state) : ""});
-            }
-        }
+        shift(panel, chapter);
+        add_story(panel, recording, chapter, chart.panels.empty());
         chart.panels.emplace_back(std::move(panel));
     }
     return chart;
 }
 
-draw::Pictures plot(const record::Recording& recording, const std::filesystem::path& folder) {
-    const draw::gnuplot::TemporaryFolder work;
+draw::Pictures plot(const record::Recording& recording, const std::filesystem::path& folder,
+                    const Work& work) {
+    const draw::gnuplot::TemporaryFolder scratch;
     std::vector<std::filesystem::path> drawn;
     for (const record::Chapter& chapter : chapters(recording)) {
+        work.say("drawing " + chapter.file);
         if (chapter.window.span_s() > 0.0) {
             const draw::Chart chart = flight_chart(recording, chapter);
             if (!chart.panels.empty()) {
-                const auto files = draw_chart(chart, chapter.file, work.path() / "drawn").files;
+                const auto files = draw_chart(chart, chapter.file, scratch.path() / "drawn").files;
                 drawn.insert(drawn.end(), files.begin(), files.end());
             }
         }
@@ -81,6 +114,7 @@ draw::Pictures plot(const record::Recording& recording, const std::filesystem::p
                                                                 "or distance was recorded"
                                                               : recording.damage));
     }
+    work.say();
     return {draw::publish(drawn, folder), missing_topics(recording)};
 }
 

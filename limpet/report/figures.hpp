@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "limpet/core/work.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/record/story.hpp"
 
@@ -20,8 +21,8 @@ namespace limpet::report {
 /// @param folder  made when it is not there
 /// @return the files, and what could not be shown
 /// @throws InputError for a recording without anything to draw, an unwritable folder, or when
-///         gnuplot is not installed
+///         gnuplot is not installed; Interrupted, with nothing in the folder
 [[nodiscard]] draw::Pictures plot(const record::Recording& recording,
-                                  const std::filesystem::path& folder);
+                                  const std::filesystem::path& folder, const Work& work = {});
 
 }  // namespace limpet::report

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/colours.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/sketch.hpp"
 #include "limpet/draw/stage.hpp"
+#include "limpet/draw/video.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/report/moments.hpp"
 
@@ -28,32 +32,88 @@ constexpr double kTitleFont_px = 104.0 / 3.0;
 constexpr double kSmallFont_px = 24.0;
 
 /// The camera: from the vehicle's right, a little behind and above, so that the wall's face shows.
-constexpr double kTowardsWall_rad = radians(11.0);
+constexpr double kTowardsWall_rad = radians(24.0);  // less would smear the wall
 constexpr double kDown_rad = radians(-10.0);
 
-/// From behind the vehicle to a little inside the wall, as the paper's pictures.
-draw::View view_of(const draw::Pose& pose, const std::optional<draw::WallFace>& wall) {
-    constexpr double kRear_m = 0.40, kInside_m = 0.10, kLeastWidth_m = 1.12;
+/// Into the wall, level; where the nose points when there is none.
+Vector3 ahead_of(const draw::Pose& pose, const std::optional<draw::WallFace>& wall) {
     Vector3 ahead = wall ? Vector3(-wall->normal) : Vector3(pose.attitude * Vector3::UnitX());
     ahead.z() = 0.0;
-    ahead.normalize();
-    const Vector3 nose = pose.attitude * Vector3::UnitX();
-    // A wall further off would make a speck of the vehicle: then the vehicle alone is shown.
-    constexpr double kFar_m = 2.6, kNose_m = 0.55;
-    const double to_wall_m = wall ? (wall->centre_m - pose.position_m).dot(ahead) : kFar_m;
-    const double gap_m = to_wall_m > 0.0 && to_wall_m < kFar_m ? to_wall_m : kNose_m;
-    const double rear_m = -kRear_m * std::max(0.55, std::abs(nose.dot(ahead)));
-    const double width_m = std::max(gap_m + kInside_m - rear_m, kLeastWidth_m);
+    return ahead.normalized();
+}
+
+/// What is to be seen along the way ahead, from the first pose's place: from behind the vehicles to
+/// a little inside the wall, as in the paper's pictures.
+struct Extent {
+    double rear_m = 1e9, front_m = -1e9, low_m = 1e9, high_m = -1e9;
+
+    void show(const draw::Pose& pose, const Vector3& origin_m, const Vector3& ahead,
+              const std::optional<draw::WallFace>& wall) {
+        constexpr double kRear_m = 0.40, kInside_m = 0.10;
+        // A wall further off would make a speck of the vehicle: then the vehicle alone is shown.
+        constexpr double kFar_m = 2.6, kNose_m = 0.55;
+        const Vector3 nose = pose.attitude * Vector3::UnitX();
+        const double at_m = (pose.position_m - origin_m).dot(ahead);
+        const double to_wall_m = wall ? (wall->centre_m - pose.position_m).dot(ahead) : kFar_m;
+        const double gap_m = to_wall_m > 0.0 && to_wall_m < kFar_m ? to_wall_m : kNose_m;
+        rear_m = std::min(rear_m, at_m - kRear_m * std::max(0.55, std::abs(nose.dot(ahead))));
+        front_m = std::max(front_m, at_m + gap_m + kInside_m);
+        low_m = std::min(low_m, pose.position_m.z() + 0.1 * nose.z());
+        high_m = std::max(high_m, pose.position_m.z() + 0.1 * nose.z());
+    }
+};
+
+/// One camera for all poses.
+draw::View view_of(const std::vector<draw::Pose>& poses,
+                   const std::optional<draw::WallFace>& wall) {
+    constexpr double kLeastWidth_m = 1.12;
+    const Vector3 origin_m = poses.front().position_m, ahead = ahead_of(poses.front(), wall);
+    const double aspect = static_cast<double>(kFrameWidth_px) / kFrameHeight_px;
+    Extent extent;
+    Vector3 mean_m = Vector3::Zero();
+    for (const draw::Pose& pose : poses) {
+        extent.show(pose, origin_m, ahead, wall);
+        mean_m += pose.position_m / static_cast<double>(poses.size());
+    }
+    const double width_m = std::max({extent.front_m - extent.rear_m, kLeastWidth_m,
+                                     aspect * (extent.high_m - extent.low_m + 0.9)});
     draw::View view;
-    view.target_m = pose.position_m + (gap_m + kInside_m - 0.5 * width_m) * ahead;
-    view.target_m.z() += 0.1 * nose.z();
+    const double along_m = 0.5 * (extent.front_m + extent.rear_m) - (mean_m - origin_m).dot(ahead);
+    view.target_m = mean_m + along_m * ahead;
+    view.target_m.z() = 0.5 * (extent.low_m + extent.high_m);
     view.azimuth_rad = std::atan2(ahead.y(), ahead.x()) + radians(90.0) - kTowardsWall_rad;
     view.elevation_rad = kDown_rad;
-    const double aspect = static_cast<double>(kFrameWidth_px) / kFrameHeight_px;
     view.distance_m =
         0.5 * width_m / (aspect * std::tan(0.5 * draw::Stage::angle_of_sight_rad())) + 0.25;
     return view;
 }
+
+/// The cameras of a stretch of the flight: one that stands, where it can see all of it.
+class Camera {
+public:
+    Camera(const record::Recording& recording, const std::vector<Moment>& moments,
+           std::optional<draw::WallFace> wall)
+        : wall_(std::move(wall)) {
+        constexpr double kFarthest_m = 6.5;  // from it a vehicle is a speck
+        constexpr int kLooks = 50;
+        const double from_s = moments.front().time_s, to_s = moments.back().time_s;
+        std::vector<draw::Pose> poses;
+        for (int i = 0; i <= kLooks; ++i) {
+            poses.push_back(pose_at(recording, from_s + (to_s - from_s) * i / kLooks));
+        }
+        const draw::View view = view_of(poses, wall_);
+        if (view.distance_m < kFarthest_m) {
+            standing_ = view;
+        }
+    }
+    [[nodiscard]] draw::View at(const draw::Pose& pose) const {
+        return standing_ ? *standing_ : view_of({pose}, wall_);
+    }
+
+private:
+    std::optional<draw::WallFace> wall_;
+    std::optional<draw::View> standing_;
+};
 
 struct Sheet {
     draw::Canvas page;
@@ -86,7 +146,9 @@ void paste(const draw::Image& image, int left_px, int top_px, int across_px, std
 /// The photographs go as raw pixels, the letters by gnuplot over them.
 std::filesystem::path make_film(const record::Recording& recording, draw::Stage& stage,
                                 const std::vector<Moment>& moments, const std::string& title,
-                                const std::string& stem, const std::filesystem::path& folder) {
+                                const std::string& stem, const std::filesystem::path& folder,
+                                const Work& work) {
+    const Camera camera(recording, moments, stage.wall());
     const Sheet sheet(moments.size());
     const auto& [width_px, height_px] = sheet.page;
     draw::Sketch sketch(sheet.page, kFont_px);
@@ -94,14 +156,15 @@ std::filesystem::path make_film(const record::Recording& recording, draw::Stage&
     std::string pixels(
         3u * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px), '\xFF');
     for (std::size_t i = 0; i < moments.size(); ++i) {
+        work.say(fmt::format("{}: picture {} of {}", stem, i + 1, moments.size()));
         const double x = sheet.left_px(i) + 2.0, y = sheet.top_px(i) + kFrameHeight_px;
         sketch.label(x, y + 22.0, fmt::format("{}  {}", i + 1, moments[i].name), kFont_px,
                      draw::colours::kInk);
         sketch.label(x, y + 52.0, caption_at(recording, moments[i].time_s), kSmallFont_px,
                      "#6B7680");
         const draw::Pose pose = pose_at(recording, moments[i].time_s);
-        paste(stage.photograph(pose, view_of(pose, stage.wall())), sheet.left_px(i),
-              sheet.top_px(i), width_px, pixels);
+        paste(stage.photograph(pose, camera.at(pose)), sheet.left_px(i), sheet.top_px(i), width_px,
+              pixels);
     }
     sketch.frame({0.0, 0.0, static_cast<double>(width_px), static_cast<double>(height_px)});
     sketch.add("unset key\nunset tics\nunset border\nset xrange [-0.5:{0}-0.5]\n", width_px);
@@ -109,6 +172,28 @@ std::filesystem::path make_film(const record::Recording& recording, draw::Stage&
                height_px);
     sketch.add("format='%uchar%uchar%uchar' using 1:2:3 with rgbimage\n");
     return draw::draw(sketch, pixels, stem, folder, false).front();
+}
+
+/// The stretch between the first picture and the last as a film.
+std::filesystem::path make_video(const record::Recording& recording,
+                                 const std::vector<Moment>& moments,
+                                 const std::filesystem::path& file, const Work& work) {
+    constexpr int kFrames_Hz = 25;
+    constexpr double kAround_s = 0.5;
+    draw::Stage stage(recording.attachment("model.xml")->text, kFrameWidth_px, kFrameHeight_px, 1);
+    const Camera camera(recording, moments, stage.wall());
+    const record::Window whole = whole_flight(recording);
+    const double from_s = std::max(moments.front().time_s - kAround_s, whole.from_s);
+    const double to_s = std::min(moments.back().time_s + kAround_s, whole.to_s);
+    const int frames = static_cast<int>(std::lround((to_s - from_s) * kFrames_Hz)) + 1;
+    draw::Video video(file, kFrameWidth_px, kFrameHeight_px, kFrames_Hz);
+    for (int i = 0; i < frames; ++i) {
+        work.say(fmt::format("{}: frame {} of {}", file.filename().string(), i + 1, frames));
+        const draw::Pose pose = pose_at(recording, from_s + static_cast<double>(i) / kFrames_Hz);
+        video.add(stage.photograph(pose, camera.at(pose)));
+    }
+    video.finish();
+    return file;
 }
 
 std::string title_of(const record::Recording& recording, const char* what) {
@@ -119,7 +204,8 @@ std::string title_of(const record::Recording& recording, const char* what) {
 
 }  // namespace
 
-draw::Pictures film(const record::Recording& recording, const std::filesystem::path& folder) {
+draw::Pictures film(const record::Recording& recording, const std::filesystem::path& folder,
+                    const Work& work, const std::string& video) {
     const mcap::Attachment* model = recording.attachment("model.xml");
     if (model == nullptr) {
         throw InputError(
@@ -128,13 +214,15 @@ draw::Pictures film(const record::Recording& recording, const std::filesystem::p
     if (recording.table("/truth/pose").time_s.empty()) {
         throw InputError(fmt::format("{}: no poses in /truth/pose", recording.path.string()));
     }
-    const draw::gnuplot::TemporaryFolder work;
-    draw::Stage stage(model->text, kFrameWidth_px, kFrameHeight_px);
+    const draw::gnuplot::TemporaryFolder scratch;
+    auto stage = std::make_unique<draw::Stage>(model->text, kFrameWidth_px, kFrameHeight_px);
     std::vector<std::filesystem::path> made;
+    std::vector<std::pair<std::vector<Moment>, std::filesystem::path>> videos;
     const auto make = [&](const std::vector<Moment>& moments, const char* what, const char* stem) {
         if (!moments.empty()) {
-            made.push_back(
-                make_film(recording, stage, moments, title_of(recording, what), stem, work.path()));
+            made.push_back(make_film(recording, *stage, moments, title_of(recording, what), stem,
+                                     scratch.path(), work));
+            videos.emplace_back(moments, scratch.path() / fmt::format("{}.{}", stem, video));
         }
     };
     make(perching_moments(recording), "perching", "perching_film");
@@ -142,6 +230,13 @@ draw::Pictures film(const record::Recording& recording, const std::filesystem::p
     if (made.empty()) {
         make(flight_moments(recording), "flight", "flight_film");
     }
+    stage.reset();  // one renderer at a time
+    for (const auto& [moments, file] : videos) {
+        if (!video.empty()) {
+            made.push_back(make_video(recording, moments, file, work));
+        }
+    }
+    work.say();
     return {draw::publish(made, folder), {}};
 }
 

@@ -44,6 +44,16 @@ std::string badge(Verdict verdict, const std::string& text) {
                        sign_of(verdict), text);
 }
 
+/// An id may go on in the next line where its words do, not within one.
+std::string breakable(const std::string& id) {
+    std::string text;
+    for (const char c : id) {
+        text += c;
+        text += c == '-' || c == '_' ? "<wbr>" : "";
+    }
+    return text;
+}
+
 /// A text in its element; nothing of nothing.
 std::string if_any(const char* format, const std::string& text) {
     return text.empty() ? "" : fmt::vformat(format, fmt::make_format_args(text));
@@ -177,17 +187,21 @@ private:
     void block(const PageFigure& figure) {
         const draw::html::Embedded image = picture(figure);
         const bool tall = 10 * image.height_px > 11 * image.width_px;
-        add("<figure id=\"{}\" class=\"{}\">\n<div class=\"frame\"{}>", figure.id,
+        // Whole on every screen; who wants it larger follows the link.
+        const std::filesystem::path& larger = !figure.view.empty() ? figure.view
+                                              : figure.svg.empty() ? figure.png
+                                                                   : figure.svg;
+        add("<figure id=\"{}\" class=\"{}\">\n<div class=\"frame\"><a href=\"{}\">", figure.id,
             figure.wide ? "wide"
             : tall      ? "tall"
                         : "plain",
-            figure.wide ? fmt::format(" role=\"region\" tabindex=\"0\" aria-label=\"{}\"",
-                                      escaped(figure.title))
-                        : "");
-        add("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"></div>\n", image.uri,
+            draw::html::link(larger.generic_string()));
+        add("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"></a></div>\n", image.uri,
             image.width_px, image.height_px, escaped(figure.alt));
         add("<figcaption><strong>{}</strong> {} <span class=\"files\">", escaped(figure.title),
             draw::html::marked_up(figure.caption));
+        text_ += if_any("<a href=\"{}\">replay in 3D</a> ",
+                        figure.view.empty() ? "" : draw::html::link(figure.view.generic_string()));
         add("<a href=\"{}\">PNG</a>", draw::html::link(figure.png.generic_string()));
         text_ += if_any(" <a href=\"{}\">SVG</a>", draw::html::link(figure.svg.generic_string()));
         text_ += "</span></figcaption>\n</figure>\n";
@@ -229,7 +243,7 @@ private:
 
     void claim_row(const Claim& claim) {
         add("<tr role=\"row\" id=\"{}\">", claim.id);
-        cell("id", claim.id, false);
+        cell("id", breakable(claim.id), false);
         cell("where", escaped(claim.section), false);
         add("<th role=\"rowheader\" scope=\"row\">{}", draw::html::marked_up(claim.statement));
         text_ +=

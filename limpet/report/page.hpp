@@ -29,7 +29,9 @@ struct PageFigure {
     std::string alt = {};            ///< what it shows, for who does not see it
     std::filesystem::path png = {};  ///< relative to the page's folder
     std::filesystem::path svg = {};  ///< likewise; may be empty
-    bool wide = false;               ///< on a phone it scrolls sideways instead of shrinking
+    std::filesystem::path view =
+        {};             ///< likewise: a page that shows the flight in three dimensions
+    bool wide = false;  ///< of many letters: in print it may be higher than others
 };
 
 /// Stands where all claims of the page go.

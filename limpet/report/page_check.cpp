@@ -67,7 +67,7 @@ private:
         figures_.insert(figure.id);
         promise(!blank(figure.title) && !blank(figure.alt) && !figure.png.empty(),
                 "figure " + figure.id + " without title, alt text or file");
-        promise(figure.png.is_relative() && figure.svg.is_relative(),
+        promise(figure.png.is_relative() && figure.svg.is_relative() && figure.view.is_relative(),
                 "figure " + figure.id + " is not beside the page");
     }
 

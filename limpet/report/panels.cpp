@@ -16,12 +16,15 @@
 namespace limpet::report {
 namespace {
 
-constexpr double kPanel_px = 165.0;
+constexpr double kPanel_px = 150.0;
+constexpr double kStrip_px = 60.0;  ///< of what explains the panel above it
 
 enum PanelIndex : std::size_t {
     kPressure,
     kPitch,
+    kPitchError,
     kForce,
+    kSlider,
     kThrust,
     kDistance,
     kSpeed
@@ -47,28 +50,37 @@ struct Source {
     double scale = 1.0;
 };
 
-constexpr std::array<Source, 8> kSources = {{
+constexpr std::array<Source, 9> kSources = {{
     {kPressure, kMeasured, "/sensors/cup_pressure", "fluid_pressure", hectopascals(1.0)},
     {kPressure, kTrue, "/cup", "pressure_Pa", hectopascals(1.0)},
     {kPitch, kTrue, "/truth/vehicle", "pitch_rad", degrees(1.0)},
     {kForce, kMeasured, "/sensors/force", "wrench.force.x"},
     {kForce, kTrue, "/truth/vehicle", "slider_force_N"},
+    {kSlider, kTrue, "/truth/vehicle", "slider_position_m", 1e3},
     {kThrust, kTrue, "/truth/vehicle", "thrust_N"},
     {kDistance, {"left", draw::colours::kBlue, 1.8}, "/sensors/range_left", "range"},
     {kDistance, {"right", draw::colours::kOrange, 1.2}, "/sensors/range_right", "range"},
 }};
 
 /// Empty panels, in the order of the page.
-std::array<draw::ChartPanel, 6> templates() {
+std::array<draw::ChartPanel, 8> templates() {
     return {{
-        {.y_label = "cup pressure  [hPa]", .least_span = 100.0},
-        {.y_label = "pitch  [deg]", .least_span = 6.0},
-        {.y_label = "force through the slider  [N]", .least_span = 20.0},
-        {.y_label = "total thrust  [N]", .least_span = 10.0, .from_zero = true},
+        {.y_label = "cup pressure  [hPa]", .least_span = 100.0, .height_px = kPanel_px},
+        {.y_label = "pitch  [deg]", .least_span = 6.0, .height_px = kPanel_px},
+        {.y_label = "pitch, estimated less true  [deg]", .least_span = 0.5, .height_px = kStrip_px},
+        {.y_label = "force through the slider  [N]", .least_span = 20.0, .height_px = kPanel_px},
+        {.y_label = "slider, 0 at its outer stop  [mm]",
+         .least_span = 10.0,
+         .height_px = kStrip_px},
+        {.y_label = "total thrust  [N]",
+         .least_span = 10.0,
+         .from_zero = true,
+         .height_px = kPanel_px},
         {.y_label = "distance of the LiDARs to the wall  [m]",
          .least_span = 0.5,
-         .from_zero = true},
-        {.y_label = "speed ahead  [m/s]", .least_span = 0.5},
+         .from_zero = true,
+         .height_px = kPanel_px},
+        {.y_label = "speed ahead  [m/s]", .least_span = 0.5, .height_px = kPanel_px},
     }};
 }
 
@@ -128,6 +140,26 @@ draw::ChartSeries estimated_pitch(const record::Recording& recording,
     });
 }
 
+/// A curve less another, which is read between its points; where that one is not there, nothing.
+draw::ChartSeries less(draw::ChartSeries series, const draw::ChartSeries& other) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        while (next < other.x.size() && other.x[next] < series.x[i]) {
+            ++next;
+        }
+        double there = kNaN;
+        if (next < other.x.size() && other.x[next] == series.x[i]) {
+            there = other.y[next];
+        } else if (next > 0 && next < other.x.size()) {
+            const double share =
+                (series.x[i] - other.x[next - 1]) / (other.x[next] - other.x[next - 1]);
+            there = other.y[next - 1] + share * (other.y[next] - other.y[next - 1]);
+        }
+        series.y[i] -= there;
+    }
+    return series;
+}
+
 double ahead(double north, double east, double yaw_rad) {
     return north * std::cos(yaw_rad) + east * std::sin(yaw_rad);
 }
@@ -176,9 +208,24 @@ std::vector<draw::ChartLine> pressure_levels(const record::Recording& recording)
     return levels;
 }
 
-/// What only a vehicle with a cup has.
+/// Whether anything ever pulled: on a pendulum nothing does.
+bool thrust_is_there(const record::Recording& recording) {
+    const Columns thrust(recording, "/truth/vehicle", {"thrust_N"});
+    constexpr double kLeast_N = 0.01;
+    for (std::size_t i = 0; i < thrust.rows(); ++i) {
+        if (std::abs(thrust.at(i, 0)) > kLeast_N) {
+            return true;
+        }
+    }
+    return thrust.rows() == 0;
+}
+
+/// What only a vehicle with a cup has, and motors only where they turn.
 bool expected(const record::Recording& recording, PanelIndex panel) {
-    return (panel != kPressure && panel != kForce) ||
+    if (panel == kThrust) {
+        return thrust_is_there(recording);
+    }
+    return (panel != kPressure && panel != kForce && panel != kSlider) ||
            find_table(recording, "/sensors/cup_pressure") != nullptr ||
            find_table(recording, "/sensors/force") != nullptr;
 }
@@ -191,20 +238,26 @@ bool has_points(const draw::ChartSeries& series) {
 
 std::vector<draw::ChartPanel> panels(const record::Recording& recording,
                                      const record::Window& window) {
-    std::array<draw::ChartPanel, 6> all = templates();
+    std::array<draw::ChartPanel, 8> all = templates();
     const auto add = [&all](PanelIndex panel, draw::ChartSeries series) {
         if (has_points(series)) {
             all[panel].series.push_back(std::move(series));
         }
     };
     all[kPressure].levels = pressure_levels(recording);
-    add(kPitch, estimated_pitch(recording, window));  // under the truth: it is drawn broader
     for (const Source& source : kSources) {
         const Columns column(recording, source.topic, {source.column});
         if (expected(recording, source.panel)) {
             add(source.panel, read(source.pen, column, window,
                                    [&](std::size_t i) { return source.scale * column.at(i, 0); }));
         }
+    }
+    // Over the truth nobody could see it: what is drawn is its error.
+    const draw::ChartSeries believed = estimated_pitch(recording, window);
+    if (all[kPitch].series.empty()) {
+        add(kPitch, believed);
+    } else {
+        add(kPitchError, less(believed, all[kPitch].series.front()));
     }
     const Columns v(recording, "/truth/vehicle",
                     {"velocity_north_m_s", "velocity_east_m_s", "yaw_rad"});
@@ -214,10 +267,14 @@ std::vector<draw::ChartPanel> panels(const record::Recording& recording,
         add(panel, series);
     }
     std::vector<draw::ChartPanel> shown;
-    for (draw::ChartPanel& panel : all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        draw::ChartPanel& panel = all[i];
+        const bool strip = i == kPitchError || i == kSlider;
+        if (strip && panel.series.size() == 1) {
+            panel.series.front().name.clear();  // its axis says it
+        }
         if (!panel.series.empty()) {
             panel.x_range = draw::Range{window.from_s, window.to_s};
-            panel.height_px = kPanel_px;
             panel.x_numbers = false;
             shown.push_back(std::move(panel));
         }

@@ -11,10 +11,12 @@
 /// what guidance asked for.
 namespace limpet::report {
 
-/// @return pressure, pitch, force, thrust, distance, speed; those that were recorded, over the
-/// window. What guidance did not ask for has a gap in the series "asked": pitch stands with an
-/// attitude setpoint, speed with a velocity setpoint, distance with a position setpoint, as the
-/// distance measured less how far the estimated position is from the one that was asked for.
+/// @return pressure, pitch, its estimate's error, force, slider, thrust, distance, speed; those
+/// that were recorded, over the window, and thrust where anything ever pulled. The estimate itself
+/// stands where there is no truth. What guidance did not ask for has a gap in the series "asked":
+/// pitch stands with an attitude setpoint, speed with a velocity setpoint, distance with a position
+/// setpoint, as the distance measured less how far the estimated position is from the one that was
+/// asked for.
 [[nodiscard]] std::vector<draw::ChartPanel> panels(const record::Recording& recording,
                                                    const record::Window& window);
 

@@ -84,8 +84,9 @@ TEST(CompareVerb, LeavesFiguresAndJsonInTheFolder) {
     const Finished drawn = bench.run({"compare", "a/flight.mcap", "b/flight.mcap", "--out", "c",
                                       "--label", "one", "--label", "two"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-    EXPECT_THAT(drawn.out, HasSubstr("compare_attitude.png"));
-    EXPECT_GT(fs::file_size(bench.folder() / "c/compare_attitude.png"), 20000u);
+    EXPECT_THAT(drawn.out, HasSubstr("c/index.html"));
+    EXPECT_THAT(text_of(bench.folder() / "c/index.html"), HasSubstr("one against two"));
+    EXPECT_GT(fs::file_size(bench.folder() / "c/figures/compare_attitude.png"), 20000u);
     EXPECT_EQ(
         nlohmann::json::parse(text_of(bench.folder() / "c/compare.json"))["reference"]["label"],
         "one");

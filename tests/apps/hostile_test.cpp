@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
+#include "../support/png.hpp"
 #include "program.hpp"
 
 namespace limpet {
@@ -192,6 +194,23 @@ TEST(Hostile, CtrlCEndsTheWaitForALog) {
     const Finished end = identify.wait(seconds(30));
     expect_line(end, 130, "interrupted");
     EXPECT_FALSE(fs::exists(bench.folder() / "out"));
+}
+
+TEST(Hostile, CtrlCEndsAFilmWithALineAndNothingWritten) {
+    const Bench bench;
+    ASSERT_EQ(bench.run({"fly", "hover", "--no-figures", "--out", "o"}).exit_code, 0);
+    // It is at work once its scratch folder is there.
+    const fs::path scratch = bench.folder() / "scratch";
+    fs::create_directory(scratch);
+    const test::Environment temporary("TMPDIR", scratch.string());
+    Started film(bench.folder(), "film", {"film", "o/flight.mcap", "--out", "f"});
+    for (int i = 0; i < 3000 && fs::is_empty(scratch); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    film.signal(SIGINT);
+    expect_line(film.wait(seconds(60)), 130, "interrupted");
+    EXPECT_TRUE(fs::is_empty(bench.folder() / "f"));
+    EXPECT_TRUE(fs::is_empty(scratch));
 }
 
 TEST(Hostile, CtrlCInTheLastPartOfThePaperWritesNoPage) {

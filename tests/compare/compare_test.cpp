@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
+#include "../support/files.hpp"
 #include "../support/png.hpp"
 #include "compare_flights.hpp"
 #include "limpet/compare/figures.hpp"
 #include "limpet/compare/limits.hpp"
+#include "limpet/compare/page.hpp"
 #include "limpet/compare/text.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/colours.hpp"
@@ -302,6 +305,73 @@ TEST(CompareFigures, MetricsOfTheSummariesStandSideBySide) {
                 HasSubstr("| impact_force_N | 42 | 44.5 |"));
 }
 
+TEST(Compare, AShiftByASampleIsNoDifferenceBeyondIt) {
+    const auto tape = [](double impact_s) {
+        return ComparedTape{.truth =
+                                [=](double t) {
+                                    Truth truth;
+                                    truth.slider.force_N = t >= impact_s ? -42.0 : 0.0;
+                                    return truth;
+                                },
+                            .events = {{1.0, EventName::level}}};
+    };
+    const record::Recording a = test::record(tape(4.0)), b = test::record(tape(4.01)),
+                            c = test::record(tape(4.1));
+    StateNumbers numbers;
+    const auto force = [&numbers](const record::Recording& recording) {
+        for (FlightChannel& channel : flight_channels(recording, numbers)) {
+            if (channel.name == "slider_force_N") {
+                return channel;
+            }
+        }
+        throw std::out_of_range("slider_force_N");
+    };
+    const auto most = [](const Differences& all) {
+        double found = 0.0;
+        for (const double value : all.values) {
+            found = std::isnan(value) ? found : std::max(found, std::abs(value));
+        }
+        return found;
+    };
+    const std::vector<Piece> whole = {{"start", {0.0, 10.0}}};
+    EXPECT_NEAR(most(differences(force(a), force(b), whole)), 42.0, 1e-9);
+    EXPECT_NEAR(most(beyond_shift(force(a), force(b), whole, 0.02)), 0.0, 1e-9);
+    EXPECT_NEAR(most(beyond_shift(force(a), force(c), whole, 0.02)), 42.0, 1e-9);
+}
+
+TEST(CompareFigures, StatesHaveTheirNames) {
+    const auto tape = [](CupPhase phase) {
+        return ComparedTape{.truth =
+                                [=](double t) {
+                                    Truth truth;
+                                    truth.cup_status.phase = t > 5.0 ? phase : CupPhase::free;
+                                    return truth;
+                                },
+                            .events = {{1.0, EventName::level}}};
+    };
+    const record::Recording a = test::record(tape(CupPhase::sealing));
+    const record::Recording b = test::record(tape(CupPhase::attached));
+    StateNumbers numbers;
+    const FlightTrace first{&a, "first", flight_channels(a, numbers)};
+    const std::vector<FlightTrace> others = {{&b, "second", flight_channels(b, numbers)}};
+    const std::vector<FlightComparison> held = {compare(first, others[0], {})};
+    const test::Folder folder;
+    const draw::Pictures pictures = draw_comparison(first, others, held, folder.path() / "figures");
+    const std::string svg = load_text(folder.path() / "figures/compare_cup.svg");
+    for (const char* name : {"free", "sealing", "attached", "not alike"}) {
+        EXPECT_THAT(svg, HasSubstr(name));
+    }
+    const std::string page = comparison_html(held, {}, pictures.files, folder.path(), "limpet");
+    for (const char* text : {"first against second", "id=\"picture-cup\"", "cup_phase",
+                             "data:image/", "<h3 id=\"events-1\">"}) {
+        EXPECT_THAT(page, HasSubstr(text));
+    }
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW((void)draw_comparison(first, others, held, folder.path() / "new", {.stop = &stop}),
+                 Interrupted);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "new"));
+}
+
 TEST(CompareFigures, OverlaysAreDrawnInBothColours) {
     const record::Recording a = test::record(tape_with_impact(4.0));
     const record::Recording b = test::record(tape_with_impact(4.0, 5000.0));
@@ -313,7 +383,7 @@ TEST(CompareFigures, OverlaysAreDrawnInBothColours) {
         draw_comparison(first, others, {compare(first, others[0], {})}, folder.path());
     EXPECT_THAT(pictures.files, testing::Contains(folder.path() / "compare_cup.png"));
     const auto image = test::read_png(folder.path() / "compare_cup.png");
-    EXPECT_EQ(image.width_px, 1200);
+    EXPECT_EQ(image.width_px, 1440);
     EXPECT_GT(pixels(image, draw::colours::kDarkBlue), 500u) << "the reference";
     EXPECT_GT(pixels(image, draw::colours::kOrange), 500u) << "the other and its difference";
 }

@@ -367,5 +367,38 @@ TEST(Chart, shades_and_names_its_stretches) {
     EXPECT_LT(chart.pixels(colours::kShade, 0.0, 0.5), 200u);
 }
 
+TEST(Chart, numbers_names_that_do_not_fit_and_lists_them) {
+    ChartPanel panel{.series = {{.x = {0, 10}, .y = {0, 1}}},
+                     .moments = {{5.0, "impact of the cup"}, {5.1, "attached to the wall"}}};
+    const Drawn numbered = drawn(panel);
+    EXPECT_TRUE(numbered.says("1  impact of the cup"));
+    EXPECT_TRUE(numbered.says("2  attached to the wall"));
+    EXPECT_FALSE(numbered.says("rotate(-60")) << "nobody reads a slanted name";
+    // Names that were slanted took four lines' height.
+    panel.moments = {{5.0, "impact"}};
+    EXPECT_LT(numbered.image.height_px, drawn(panel).image.height_px + 3 * 22);
+}
+
+TEST(Chart, gives_a_stretch_too_short_for_its_name_a_letter) {
+    const Drawn chart =
+        drawn({.series = {{.x = {0, 10}, .y = {0, 1}}},
+               .stretches = {
+                   {{0, 5}, "approaching"}, {{5, 5.4}, "holding"}, {{5.4, 10}, "pitching up"}}});
+    EXPECT_TRUE(chart.says("a  holding"));
+    EXPECT_TRUE(chart.says("pitching up"));
+    EXPECT_FALSE(chart.says("b  "));
+}
+
+TEST(Chart, says_values_by_their_names) {
+    ChartPanel panel{.series = {{.mark = Mark::steps, .x = {0, 10}, .y = {0, 1}}},
+                     .x_range = Range{0.0, 100.0}};
+    const std::string kHalf = ">0.4<";
+    EXPECT_TRUE(drawn(panel).says(kHalf));
+    panel.y_names = {{0.0, "closed"}, {1.0, "open"}};
+    const Drawn chart = drawn(panel);
+    EXPECT_TRUE(chart.says("closed") && chart.says("open"));
+    EXPECT_FALSE(chart.says(kHalf));
+}
+
 }  // namespace
 }  // namespace limpet::draw

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 
 #include "../support/files.hpp"
@@ -47,6 +48,13 @@ TEST(Csv, QuotesAsRfc4180) {
     EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
     EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
     EXPECT_EQ(csv_field(""), "");
+}
+
+TEST(Csv, StopsWhereItIsAsked) {
+    const TestFolder folder;
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW((void)write_csv(sample(), folder / "made", {.stop = &stop}), Interrupted);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "made"));
 }
 
 TEST(Csv, OneFileATopicWithUnits) {

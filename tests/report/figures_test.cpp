@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+
 #include "../support/files.hpp"
 #include "../support/flights.hpp"
 #include "../support/png.hpp"
@@ -33,7 +35,7 @@ bool has(const std::string& text, const std::string& part) {
 TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
     const record::Recording flight = test::fly();
     const draw::Chart chart = flight_chart(flight, {"overview", "whole flight", {0.0, 28.5}});
-    ASSERT_EQ(chart.panels.size(), 6u);
+    ASSERT_EQ(chart.panels.size(), 8u);
     std::size_t curves = 0, named = 0;
     for (const auto& any : chart.panels) {
         const auto& panel = std::get<draw::ChartPanel>(any);
@@ -44,7 +46,7 @@ TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
             named += moment.label.empty() ? 0 : 1;
         }
     }
-    EXPECT_EQ(curves, 10u);
+    EXPECT_EQ(curves, 11u);
     EXPECT_EQ(named, flight.events.size());
     const test::Folder folder;
     const std::string svg = load_text(draw_chart(chart, "stem", folder.path()).files.at(1));
@@ -52,6 +54,26 @@ TEST(FlightChart, draws_every_curve_and_names_every_event_once) {
                              "cup pressure  [hPa]", "P_land 870", "estimated"}) {
         EXPECT_TRUE(has(svg, text)) << text;
     }
+}
+
+TEST(FlightChart, of_a_chapter_counts_from_what_it_is_about) {
+    const record::Recording flight = test::fly({.failed_first = true});
+    const auto chapter = failed_attempt(flight);
+    ASSERT_TRUE(chapter);
+    const draw::Chart chart = flight_chart(flight, *chapter);
+    const double impact_s = test::Attempt::kImpact_s;
+    const auto& first = std::get<draw::ChartPanel>(chart.panels.front());
+    EXPECT_NEAR(first.x_range->low, chapter->window.from_s - impact_s, 1e-9);
+    EXPECT_NEAR(first.series.front().x.front(), first.x_range->low, 0.02);
+    EXPECT_THAT(first.moments,
+                testing::Contains(testing::AllOf(
+                    testing::Field(&draw::ChartLine::at, testing::DoubleNear(0.0, 1e-9)),
+                    testing::Field(&draw::ChartLine::label, "impact  +0.00"))));
+    EXPECT_THAT(first.moments, testing::Contains(testing::Field(&draw::ChartLine::label,
+                                                                "retreat started  +0.50")));
+    EXPECT_EQ(std::get<draw::ChartPanel>(chart.panels.back()).x_label, "time since impact  [s]");
+    EXPECT_THAT(chart.subtitle, testing::StartsWith("ends: no seal, retreat"));
+    EXPECT_THAT(chart.subtitle, HasSubstr("impact at 3.90 s of it"));
 }
 
 TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {
@@ -65,12 +87,12 @@ TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {
     for (const auto& file : pictures.files) {
         if (file.extension() == ".png") {
             const draw::Image image = test::read_png(file);
-            EXPECT_EQ(image.width_px, 1400) << file;
+            EXPECT_EQ(image.width_px, 1100) << file;
             EXPECT_GT(image.height_px, 1300) << file;
             EXPECT_GT(test::distinct_colours(image), 200u) << file;
         } else {
             const std::string svg = load_text(file);
-            EXPECT_TRUE(has(svg, "width=\"1400\"")) << file;
+            EXPECT_TRUE(has(svg, "width=\"1100\"")) << file;
             EXPECT_TRUE(has(svg, "total thrust")) << file;
             EXPECT_TRUE(has(svg, "</svg>")) << file;
         }
@@ -113,6 +135,14 @@ TEST(Plot, of_nothing_is_an_error_that_leaves_no_file) {
     recording.path = "empty.mcap";
     EXPECT_THAT([&] { (void)plot(recording, folder.path() / "out"); },
                 Throws<InputError>(Property(&InputError::what, HasSubstr("empty.mcap"))));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+}
+
+TEST(Plot, that_is_stopped_leaves_no_file) {
+    const test::Folder folder;
+    const std::atomic<bool> stop = true;
+    EXPECT_THROW((void)plot(test::fly({.to_s = 1.0}), folder.path() / "out", {.stop = &stop}),
+                 Interrupted);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
 }
 

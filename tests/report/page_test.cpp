@@ -93,6 +93,29 @@ TEST_F(PageHtml, leads_to_figures_and_recordings) {
     EXPECT_EQ(count(html(), "<a href=\"flights/a%20b%231.mcap\">recording</a>"), 5u);
 }
 
+TEST_F(PageHtml, leads_from_a_figure_to_its_replay_and_to_itself_at_full_size) {
+    Page page = test::sample_page();
+    for (PageSection& section : page.sections) {
+        for (PageBlock& block : section.blocks) {
+            if (auto* figure = std::get_if<PageFigure>(&block);
+                figure && figure->id == "fig-success") {
+                figure->view = "flights/a/view.html";
+            }
+        }
+    }
+    const std::string with = page_html(page, folder());
+    EXPECT_EQ(count(with, "<div class=\"frame\"><a href=\"flights/a/view.html\"><img "), 1u);
+    EXPECT_EQ(count(with, "<a href=\"flights/a/view.html\">replay in 3D</a>"), 1u);
+    EXPECT_EQ(count(html(), "replay in 3D"), 0u);
+    EXPECT_EQ(count(html(), "<div class=\"frame\"><a href=\""), 13u);
+}
+
+TEST_F(PageHtml, breaks_an_id_between_its_words_alone) {
+    Page page = test::sample_page();
+    page.claims[0].id = "metal-ripple_most";
+    EXPECT_EQ(count(page_html(page, folder()), ">metal-<wbr>ripple_<wbr>most<"), 1u);
+}
+
 TEST_F(PageHtml, can_be_read_without_seeing) {
     EXPECT_EQ(count(html(), "<html lang=\"en\">"), 1u);
     EXPECT_EQ(count(html(), " alt=\"\""), 0u);

@@ -66,8 +66,9 @@ TEST(Panels, are_the_columns_of_the_recording) {
     const record::Recording flight = test::fly();
     const auto all = panels(flight, kAll);
     EXPECT_THAT(titles(all),
-                ElementsAre("cup pressure", "pitch", "force through the slider", "total thrust",
-                            "distance of the LiDARs to the wall", "speed ahead"));
+                ElementsAre("cup pressure", "pitch", "pitch, estimated less true",
+                            "force through the slider", "slider, 0 at its outer stop",
+                            "total thrust", "distance of the LiDARs to the wall", "speed ahead"));
     expect_column(flight, curve(all, "cup pressure", "measured"), "/sensors/cup_pressure",
                   "fluid_pressure", 0.01);
     expect_column(flight, curve(all, "cup pressure", "true"), "/cup", "pressure_Pa", 0.01);
@@ -83,12 +84,12 @@ TEST(Panels, keep_the_signs_of_the_house) {
     const Attempt attempt;
     const auto all = panels(test::fly(), kAll);
     const draw::ChartSeries& pitch = curve(all, "pitch", "true");
-    const draw::ChartSeries& believed = curve(all, "pitch", "estimated");
+    const draw::ChartSeries& error = curve(all, "pitch, estimated less true", "");
     const draw::ChartSeries& force = curve(all, "force through the slider", "measured");
     for (std::size_t i = 0; i < pitch.y.size(); ++i) {
         const double t = pitch.x[i];
         ASSERT_NEAR(pitch.y[i], degrees(attempt.pitch_rad(t)), 1e-9);
-        ASSERT_NEAR(believed.y[i], pitch.y[i] + 0.3 * test::ripple(t), 1e-6);
+        ASSERT_NEAR(error.y[i], 0.3 * test::ripple(t), 1e-6);
         ASSERT_NEAR(force.y[i], attempt.slider_force_N(t) + 0.4 * test::ripple(t), 1e-9);
     }
 }
@@ -115,9 +116,32 @@ TEST(Panels, have_a_gap_where_a_lidar_sees_nothing) {
 
 TEST(Panels, of_a_hover_have_nothing_of_the_cup) {
     const record::Recording flight = test::fly({.cup = false});
-    EXPECT_THAT(
-        titles(panels(flight, kAll)),
-        ElementsAre("pitch", "total thrust", "distance of the LiDARs to the wall", "speed ahead"));
+    EXPECT_THAT(titles(panels(flight, kAll)),
+                ElementsAre("pitch", "pitch, estimated less true", "total thrust",
+                            "distance of the LiDARs to the wall", "speed ahead"));
+    EXPECT_THAT(missing_topics(flight), IsEmpty());
+}
+
+TEST(Panels, show_the_estimate_itself_where_there_is_no_truth) {
+    record::Recording flight = test::fly();
+    for (record::Table& table : flight.tables) {
+        table.topic = table.topic == "/truth/vehicle" ? "/elsewhere" : table.topic;
+    }
+    const auto all = panels(flight, kAll);
+    EXPECT_FALSE(curve(all, "pitch", "estimated").y.empty());
+    EXPECT_THAT(titles(all), testing::Not(testing::Contains("pitch, estimated less true")));
+}
+
+TEST(Panels, have_no_thrust_where_nothing_ever_pulls) {
+    record::Recording flight = test::fly();
+    for (record::Table& table : flight.tables) {
+        for (record::Column& column : table.columns) {
+            if (column.name == "thrust_N") {
+                std::fill(column.values.begin(), column.values.end(), 0.0);
+            }
+        }
+    }
+    EXPECT_THAT(titles(panels(flight, kAll)), testing::Not(testing::Contains("total thrust")));
     EXPECT_THAT(missing_topics(flight), IsEmpty());
 }
 
@@ -128,7 +152,7 @@ TEST(Panels, name_what_is_missing) {
         std::find_if(flight.tables.begin(), flight.tables.end(),
                      [](const record::Table& t) { return t.topic == "/sensors/range_left"; }));
     EXPECT_THAT(missing_topics(flight), ElementsAre(HasSubstr("/sensors/range_left")));
-    EXPECT_EQ(panels(flight, kAll)[4].series.size(), 1u);
+    EXPECT_EQ(panels(flight, kAll)[6].series.size(), 1u);
 }
 
 /// A flight in which guidance asks in every way.

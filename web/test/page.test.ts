@@ -22,6 +22,7 @@ interface State {
   vehicle: { x: number; y: number; seen: boolean };
   charts: number;
   geometries: number;
+  textures: number;
   pictures: number;
 }
 interface Shown {
@@ -233,6 +234,78 @@ test("shapes do not pile up while it plays", { skip }, async () => {
   };
   const first = await sweep();
   assert.ok((await sweep()) <= first, `${first} shapes, then more`);
+});
+
+test("opened again and again it holds no more than once", { skip }, async () => {
+  const bytes = readFileSync(recording_file);
+  const again = async (): Promise<State> => {
+    const before = await page.evaluate(() => {
+      const shown = window as unknown as Shown & { flight?: unknown };
+      const now = shown.limpet as unknown as { recordings: unknown[] };
+      shown.flight = now.recordings[0];
+      return shown.limpet.state().pictures;
+    });
+    await drop("again.mcap", bytes);
+    await page.waitForFunction(
+      (n) => {
+        const shown = window as unknown as Shown & { flight?: unknown };
+        const now = shown.limpet as unknown as { recordings: unknown[] };
+        return now.recordings[0] !== shown.flight && shown.limpet.state().pictures > n;
+      },
+      {},
+      before,
+    );
+    await seek(6);
+    return state();
+  };
+  const heap = async (): Promise<number> => {
+    await page.evaluate(() => {
+      (window as unknown as { flight?: unknown }).flight = undefined;
+    });
+    const session = await page.createCDPSession();
+    await session.send("HeapProfiler.collectGarbage");
+    const { usedSize } = await session.send("Runtime.getHeapUsage");
+    await session.detach();
+    return usedSize / 1e6;
+  };
+  const first = await again();
+  const first_MB = await heap();
+  let last = first;
+  for (let i = 0; i < 19; ++i) {
+    last = await again();
+  }
+  const last_MB = await heap();
+  console.log(
+    `opened 20 times: ${first.geometries} shapes and ${first_MB.toFixed(1)} MB of scripts' memory, ` +
+      `then ${last.geometries} and ${last_MB.toFixed(1)} MB`,
+  );
+  assert.equal(last.geometries, first.geometries);
+  assert.equal(last.textures, first.textures);
+  assert.ok(last_MB < 1.2 * first_MB + 5, `${first_MB} MB, then ${last_MB} MB`);
+});
+
+test("says how many pictures a second it makes", { skip }, async () => {
+  await page.click("[data-view=side]");
+  await page.focus("#picture");
+  await page.keyboard.press("Home");
+  const { pictures: before, end } = await state();
+  const began_ms = performance.now();
+  await page.keyboard.press("Space");
+  await page.waitForFunction(
+    (from) =>
+      (window as unknown as Shown).limpet.state().pictures >= from + 40 ||
+      (window as unknown as Shown).limpet.state().time > 20,
+    {},
+    before,
+  );
+  const { pictures, time } = await state();
+  const past_s = 1e-3 * (performance.now() - began_ms);
+  await page.keyboard.press("Space");
+  console.log(
+    `${((pictures - before) / past_s).toFixed(1)} pictures a second of a flight of ` +
+      `${end.toFixed(0)} s, 1200 px wide, drawn by software`,
+  );
+  assert.ok(time > 0 && pictures > before);
 });
 
 test("it said nothing and asked nobody", { skip }, () => {

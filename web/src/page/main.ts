@@ -140,6 +140,7 @@ class Page {
       vehicle: this.stage.vehicleInPicture(),
       charts: this.charts.filter((chart) => !chart.element.hidden).length,
       geometries: this.stage.renderer.info.memory.geometries,
+      textures: this.stage.renderer.info.memory.textures,
       pictures: this.stage.renderer.info.render.frame,
     };
   }

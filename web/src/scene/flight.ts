@@ -58,6 +58,14 @@ export class FlightView {
     return this.frames.get("lip");
   }
 
+  /** It will not be shown again: what it holds on the graphics card is given back. */
+  dispose(): void {
+    dispose(this.root);
+    for (const link of this.robot.links.values()) {
+      dispose(link);
+    }
+  }
+
   private turnRotors(t: number): void {
     const speed = this.vehicle?.columns.get("rotor_speed_rad_s[0]");
     const turning =

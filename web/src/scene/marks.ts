@@ -112,6 +112,7 @@ export function dispose(shape: Object3D): void {
     const drawn = part as Partial<Mesh>;
     drawn.geometry?.dispose();
     for (const material of [drawn.material ?? []].flat()) {
+      (material as Partial<MeshStandardMaterial>).map?.dispose();
       material.dispose();
     }
   });

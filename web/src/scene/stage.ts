@@ -66,6 +66,7 @@ export class Stage {
   setFlights(flights: FlightView[]): void {
     for (const flight of this.flights) {
       this.scene.remove(flight.root);
+      flight.dispose();
     }
     this.flights = flights;
     this.scene.add(...flights.map((flight) => flight.root));
