@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/serve/session.hpp"
+
+#include <cstring>
+
+namespace limpet::serve {
+namespace {
+
+struct FrameHead {
+    std::uint32_t bytes = 0;
+    std::uint32_t text = 0;
+};
+
+}  // namespace
+
+FrameQueue::FrameQueue(std::size_t most_bytes) : most_bytes_(most_bytes) {
+    filling_.reserve(most_bytes);
+    leaving_.reserve(most_bytes);
+}
+
+bool FrameQueue::put(bool text, std::initializer_list<std::string_view> parts) {
+    std::size_t bytes = 0;
+    for (const std::string_view part : parts) {
+        bytes += part.size();
+    }
+    const std::lock_guard lock(guards_filling_);
+    if (bytes + sizeof(FrameHead) > most_bytes_ - filling_.size()) {
+        dropped_.fetch_add(1, std::memory_order_relaxed);
+        return false;
+    }
+    const FrameHead head = {static_cast<std::uint32_t>(bytes), text ? 1U : 0U};
+    const auto* raw = reinterpret_cast<const char*>(&head);
+    filling_.insert(filling_.end(), raw, raw + sizeof head);
+    for (const std::string_view part : parts) {
+        filling_.insert(filling_.end(), part.begin(), part.end());
+    }
+    return true;
+}
+
+bool FrameQueue::next(Frame& frame) {
+    if (left_ == leaving_.size()) {
+        leaving_.clear();
+        left_ = 0;
+        const std::lock_guard lock(guards_filling_);
+        std::swap(filling_, leaving_);
+    }
+    if (leaving_.empty()) {
+        return false;
+    }
+    FrameHead head;
+    std::memcpy(&head, leaving_.data() + left_, sizeof head);
+    frame = {head.text != 0, {leaving_.data() + left_ + sizeof head, head.bytes}};
+    left_ += sizeof head + head.bytes;
+    return true;
+}
+
+bool Session::send_text(std::string_view text) {
+    return open_ && queue_.put(true, {text});
+}
+
+bool Session::send_binary(std::initializer_list<std::string_view> parts) {
+    return open_ && queue_.put(false, parts);
+}
+
+}  // namespace limpet::serve
