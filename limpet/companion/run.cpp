@@ -56,7 +56,9 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
                     const CompanionConduct& conduct, const CompanionWatch& watch) {
     std::optional<record::Recorder> recorder;
     if (!conduct.recording.empty()) {
-        recorder.emplace(conduct.recording, recording_info(config));
+        record::RecordingInfo info = recording_info(config);
+        info.beside = conduct.beside;
+        recorder.emplace(conduct.recording, info);
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
     loop(config, companion, clock, conduct.stop);

@@ -22,6 +22,7 @@ struct CompanionConduct {
     bool dry_run = false;
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
     std::filesystem::path recording = {};     ///< empty: none
+    record::MessageSink* beside = nullptr;    ///< takes what the recording takes, if there is one
 };
 
 /// Runs a companion to its end: ticks on absolute deadlines, wires looked at in between. After a

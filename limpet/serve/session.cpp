@@ -23,8 +23,9 @@ bool FrameQueue::put(bool text, std::initializer_list<std::string_view> parts) {
     for (const std::string_view part : parts) {
         bytes += part.size();
     }
+    const std::size_t most_bytes = text ? most_bytes_ : most_bytes_ - most_bytes_ / 8;
     const std::lock_guard lock(guards_filling_);
-    if (bytes + sizeof(FrameHead) > most_bytes_ - filling_.size()) {
+    if (filling_.size() + bytes + sizeof(FrameHead) > most_bytes) {
         dropped_.fetch_add(1, std::memory_order_relaxed);
         return false;
     }

@@ -19,7 +19,8 @@ class FrameQueue {
 public:
     explicit FrameQueue(std::size_t most_bytes);
 
-    /// One frame made of `parts`.
+    /// One frame made of `parts`. The last eighth of the room is for texts: data that a client
+    /// reads too slowly leaves place for what is said about it.
     /// @return false where there is no room: the frame is dropped and counted
     bool put(bool text, std::initializer_list<std::string_view> parts);
 

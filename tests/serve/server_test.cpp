@@ -214,6 +214,7 @@ TEST_F(Served, ASlowReaderLosesFramesAndNobodyWaits) {
     }
     EXPECT_EQ(allocations(), before);
     EXPECT_GT(session->dropped(), 0U);
+    EXPECT_TRUE(session->send_text("you are slow")) << "there is room to say so";
     // What was taken arrives, whole and in order.
     EXPECT_EQ(client.receive(), frame);
 }
