@@ -41,8 +41,8 @@ OptionList options_of(FlyOptions& options) {
          options_of(options.ground),
          options_of(options.live, true),
          {{"--speed FACTOR", &options.px4.speed,
-           "times real time, or max (default: max; 1 on a serial wire, before a ground\n"
-           "station or live)"},
+           "times real time, or max (default: max; 1 on a serial wire, before a\n"
+           "ground station or live)"},
           {"--json", &options.json,
            "one JSON object on standard output, all else on standard error;\nno figures"},
           {"--quiet", &options.quiet, "say nothing but errors; no figures"},
@@ -60,6 +60,7 @@ void check_together(const Given& given, const FlyOptions& options) {
     only_with(given, !options.no_record, {"--out", "--csv", "--record-wire", "--live"},
               "a recording, not with --no-record");
     only_with(given, options.live.wanted, {"--live-wait"}, "--live");
+    only_with(given, !options.quiet, {"--live"}, "its address, not with --quiet");
 }
 
 /// --seed N is --set seed=N, last: checked alike.
@@ -100,7 +101,11 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
         .speed = speed, .stop = stop, .beside = live ? &live->live() : nullptr};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
-        px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
+        Px4LinkOptions link = options.px4;
+        if (options.live.wanted && link.speed.empty()) {
+            link.speed = "1";
+        }
+        px4.emplace(link, *model, true, recording.parent_path(), terminal, stop);
         conduct.outside.autopilot = &px4->autopilot();
         conduct.speed = px4->speed();
         conduct.on_obstacle = [&terminal](const std::string& obstacle) {
