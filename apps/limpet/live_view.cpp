@@ -114,6 +114,9 @@ live::LiveAnswer LiveFlight::serve(simulation::Flight& flight, std::string_view 
 }
 
 void LiveFlight::tick(simulation::Flight& flight) {
+    if (!live_->asked() && !paused_ && !waits_) {
+        return;
+    }
     const live::LiveDesk desk = {
         .serve = [&](std::string_view service) { return serve(flight, service); },
         .set =

@@ -66,7 +66,9 @@ public:
 
     /// Somebody has subscribed to something.
     [[nodiscard]] bool watched() const { return watched_; }
-    /// Does what has been asked for since the last call; costs nothing when nothing was.
+    /// Something has been asked for since the last answer().
+    [[nodiscard]] bool asked() const { return asked_; }
+    /// Does what has been asked for.
     void answer(const LiveDesk& desk);
     /// A line for all who watch.
     void say(StatusLevel level, std::string_view text);
@@ -75,7 +77,7 @@ public:
 
 private:
     struct Kept {
-        std::uint64_t time_ns = 0;
+        std::uint64_t time_ns;  // no default: clang would not have it in an optional of this class
         std::vector<std::uint8_t> bytes;
     };
     /// Of a channel whose messages hold on: its first one and the latest.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/live/protocol.hpp"
 
+#include <bit>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/version.hpp"
@@ -19,11 +21,11 @@ std::string text_of(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// As the machine has it: little endian.
 template <class Number>
 void put_little(char* to, Number number) {
-    for (std::size_t k = 0; k < sizeof number; ++k) {
-        to[k] = static_cast<char>(number >> (8 * k) & 0xFFU);
-    }
+    static_assert(std::endian::native == std::endian::little);
+    std::memcpy(to, &number, sizeof number);
 }
 
 void append(std::string& to, std::uint32_t number) {

@@ -2,6 +2,7 @@
 #include "limpet/serve/session.hpp"
 
 #include <cstring>
+#include <utility>
 
 namespace limpet::serve {
 namespace {
@@ -13,10 +14,8 @@ struct FrameHead {
 
 }  // namespace
 
-FrameQueue::FrameQueue(std::size_t most_bytes) : most_bytes_(most_bytes) {
-    filling_.reserve(most_bytes);
-    leaving_.reserve(most_bytes);
-}
+FrameQueue::FrameQueue(std::size_t most_bytes)
+    : most_bytes_(most_bytes), filling_(most_bytes), leaving_(most_bytes) {}
 
 bool FrameQueue::put(bool text, std::initializer_list<std::string_view> parts) {
     std::size_t bytes = 0;
@@ -25,27 +24,32 @@ bool FrameQueue::put(bool text, std::initializer_list<std::string_view> parts) {
     }
     const std::size_t most_bytes = text ? most_bytes_ : most_bytes_ - most_bytes_ / 8;
     const std::lock_guard lock(guards_filling_);
-    if (filling_.size() + bytes + sizeof(FrameHead) > most_bytes) {
+    if (filled_ + sizeof(FrameHead) + bytes > most_bytes) {
         dropped_.fetch_add(1, std::memory_order_relaxed);
         return false;
     }
     const FrameHead head = {static_cast<std::uint32_t>(bytes), text ? 1U : 0U};
-    const auto* raw = reinterpret_cast<const char*>(&head);
-    filling_.insert(filling_.end(), raw, raw + sizeof head);
+    char* to = filling_.data() + filled_;
+    std::memcpy(to, &head, sizeof head);
+    to += sizeof head;
     for (const std::string_view part : parts) {
-        filling_.insert(filling_.end(), part.begin(), part.end());
+        if (!part.empty()) {
+            std::memcpy(to, part.data(), part.size());
+            to += part.size();
+        }
     }
+    filled_ += sizeof head + bytes;
     return true;
 }
 
 bool FrameQueue::next(Frame& frame) {
-    if (left_ == leaving_.size()) {
-        leaving_.clear();
+    if (left_ == to_leave_) {
         left_ = 0;
         const std::lock_guard lock(guards_filling_);
         std::swap(filling_, leaving_);
+        to_leave_ = std::exchange(filled_, 0);
     }
-    if (leaving_.empty()) {
+    if (to_leave_ == 0) {
         return false;
     }
     FrameHead head;

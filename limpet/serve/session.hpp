@@ -37,8 +37,10 @@ private:
     const std::size_t most_bytes_;
     std::mutex guards_filling_;
     std::vector<char> filling_;  ///< frames, each behind its size and kind
-    std::vector<char> leaving_;  ///< of the server's thread alone
-    std::size_t left_ = 0;       ///< of `leaving_`, bytes gone out
+    std::size_t filled_ = 0;     ///< of it
+    std::vector<char> leaving_;  ///< of the server's thread alone, as the next two
+    std::size_t to_leave_ = 0;   ///< of it
+    std::size_t left_ = 0;       ///< of that, gone out
     std::atomic<std::uint64_t> dropped_ = 0;
 };
 
