@@ -14,6 +14,7 @@
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/key_file.hpp"
+#include "live_view.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -29,6 +30,7 @@ struct CompanionOptions {
     bool check = false;
     bool dry_run = false;
     bool no_record = false;
+    LiveViewOptions live;
 };
 
 void check_speed(const CompanionOptions& options, const companion::CompanionConfig& config) {
@@ -102,8 +104,23 @@ ExitCode code_of(const CompanionOptions& options, const companion::CompanionResu
     return judged(expected_outcome(options.expect), "mission", *result.outcome, result.reason);
 }
 
-ExitCode companion(const CompanionOptions& options) {
+live::LiveOptions live_options(companion::CompanionConfig config) {
+    std::vector<scenario::Section> sections = companion_sections(config);
+    for (scenario::Section& section : sections) {  // named as in its file
+        constexpr std::string_view kPrefix = "companion.";
+        if (section.name.rfind(kPrefix, 0) == 0) {
+            section.name.erase(0, kPrefix.size());
+        }
+    }
+    return {.server = {},
+            .name = "limpet companion: " + config.name,
+            .services = {"/abort"},
+            .parameters = live_parameters(sections, "")};
+}
+
+ExitCode companion(const CompanionOptions& options, const Given& given) {
     (void)expected_outcome(options.expect);  // before any work
+    only_with(given, !options.no_record, {"--live"}, "a recording, not with --no-record");
     const companion::CompanionConfig config =
         companion::load_companion(options.config, options.overrides);
     check_speed(options, config);
@@ -118,8 +135,23 @@ ExitCode companion(const CompanionOptions& options) {
     }
     std::signal(SIGPIPE, SIG_IGN);
     const std::atomic<bool>* stop = stop_on_signals();
+    const auto live = open_live(options.live, live_options(config), terminal);
+    bool aborted = false;
+    const live::LiveDesk desk = {.serve =
+                                     [&aborted](std::string_view /*service*/) {
+                                         aborted = true;
+                                         return live::LiveAnswer{true, "hands back, as for Ctrl-C"};
+                                     },
+                                 .set = {}};
     companion::Wires wires = open_wires(config);
     companion::CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
+    if (live) {
+        conduct.beside = live.get();
+        conduct.wants_end = [&] {
+            live->answer(desk);
+            return aborted;
+        };
+    }
     std::optional<OutFolder> folder;
     if (!options.no_record) {
         folder.emplace(options.out);
@@ -128,22 +160,27 @@ ExitCode companion(const CompanionOptions& options) {
     terminal.line(terminal.dim(simulation::event_head()));
     const companion::CompanionResult result = run(
         config, wires, companion::steady_clock(options.speed), conduct, session_watch(terminal));
+    if (live) {
+        live->say(live::StatusLevel::info, "ended: " + result.reason);
+        tell(terminal, "live", report_of(*live));
+    }
     conclude(result, conduct.recording, terminal);
     return code_of(options, result);
 }
 
 OptionList options_of(CompanionOptions& options) {
-    return {{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
-            {"--check", &options.check, "say what it would do, open nothing"},
-            {"--dry-run", &options.dry_run,
-             "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
-            overrides_option(options.overrides,
-                             "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
-            {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
-            {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
-            {"--speed N", &options.speed,
-             "its clock runs so many times real time: beside a simulation only"},
-            {"--no-record", &options.no_record, "write nothing"}};
+    return joined({{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
+                    {"--check", &options.check, "say what it would do, open nothing"},
+                    {"--dry-run", &options.dry_run,
+                     "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
+                    overrides_option(options.overrides,
+                                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
+                    {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
+                    {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
+                    {"--speed N", &options.speed,
+                     "its clock runs so many times real time: beside a simulation only"},
+                    {"--no-record", &options.no_record, "write nothing"}},
+                   options_of(options.live, false)});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/simulation/result_json.hpp"
 
 namespace limpet::app {
@@ -106,6 +107,8 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
             add(px4->write(result.performance, result.recording.parent_path(), options.figures()));
         }
         terminal.written(files);
+        terminal.line("layouts", (scenario::data_root() / "layouts/foxglove.json").string() +
+                                     " (Foxglove, Lichtblick), plotjuggler.xml beside it");
     }
     if (options.json) {
         fmt::print("{}\n", result_json(result));

@@ -9,6 +9,7 @@
 #include "flight_report.hpp"
 #include "ground_station.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "live_view.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -18,6 +19,7 @@ struct FlyOptions : FlightOptions {
     std::string seed;
     std::string autopilot = "builtin";
     GroundStationOptions ground;
+    LiveViewOptions live;
     bool no_record = false;
 };
 
@@ -37,9 +39,10 @@ OptionList options_of(FlyOptions& options) {
            "builtin, or px4: a real one in the loop (docs/px4.md)", one_of({"builtin", "px4"})}},
          options_of(options.px4, true),
          options_of(options.ground),
+         options_of(options.live, true),
          {{"--speed FACTOR", &options.px4.speed,
-           "times real time, or max (default: max; 1 on a serial wire or before a\n"
-           "ground station)"},
+           "times real time, or max (default: max; 1 on a serial wire, before a\n"
+           "ground station or live)"},
           {"--json", &options.json,
            "one JSON object on standard output, all else on standard error;\nno figures"},
           {"--quiet", &options.quiet, "say nothing but errors; no figures"},
@@ -54,8 +57,10 @@ void check_together(const Given& given, const FlyOptions& options) {
               "--autopilot px4");
     only_with(given, !options.px4.serial(), {"--offboard"},
               "--hil tcp:...; over serial all goes over the one wire");
-    only_with(given, !options.no_record, {"--out", "--csv", "--record-wire"},
+    only_with(given, !options.no_record, {"--out", "--csv", "--record-wire", "--live"},
               "a recording, not with --no-record");
+    only_with(given, options.live.wanted, {"--live-wait"}, "--live");
+    only_with(given, !options.quiet, {"--live"}, "its address, not with --quiet");
 }
 
 /// --seed N is --set seed=N, last: checked alike.
@@ -71,25 +76,36 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     const std::atomic<bool>* stop = stop_on_signals();
     check_together(given, options);
     (void)expected_outcome(options.expect);  // before any work
-    const double speed = speed_of(options.px4.speed, options.ground.wanted ? 1.0 : 0.0);
+    const double speed =
+        speed_of(options.px4.speed, options.ground.wanted || options.live.wanted ? 1.0 : 0.0);
     const scenario::Scenario scenario = load(options, given);
     if (options.autopilot == "px4") {
         check(options.px4, scenario);
     }
     const auto model = simulation::build_model(scenario);
 
+    Terminal terminal(options.voice());
+    std::optional<LiveFlight> live;
+    if (options.live.wanted) {
+        live.emplace(options.live, *model, options.autopilot == "builtin" && !options.ground.wanted,
+                     stop, terminal);
+    }
     std::optional<OutFolder> folder;
     std::filesystem::path recording;
     if (!options.no_record) {
         folder.emplace(options.folder(scenario.name));
         recording = folder->path() / "flight.mcap";
     }
-    Terminal terminal(options.voice());
     introduce(scenario, terminal);
-    simulation::FlightConduct conduct{.speed = speed, .stop = stop};
+    simulation::FlightConduct conduct{
+        .speed = speed, .stop = stop, .beside = live ? &live->live() : nullptr};
     std::optional<Px4Link> px4;
     if (options.autopilot == "px4") {
-        px4.emplace(options.px4, *model, true, recording.parent_path(), terminal, stop);
+        Px4LinkOptions link = options.px4;
+        if (options.live.wanted && link.speed.empty()) {
+            link.speed = "1";
+        }
+        px4.emplace(link, *model, true, recording.parent_path(), terminal, stop);
         conduct.outside.autopilot = &px4->autopilot();
         conduct.speed = px4->speed();
         conduct.on_obstacle = [&terminal](const std::string& obstacle) {
@@ -100,14 +116,25 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     std::optional<GroundStation> ground;
     if (options.ground.wanted) {
         ground.emplace(options.ground, *model, terminal);
-        watched.on_tick = [&ground](simulation::Flight& flight, const guidance::EventList& events) {
-            ground->tick(flight, events);
+    }
+    if (ground || live) {
+        watched.on_tick = [&](simulation::Flight& flight, const guidance::EventList& events) {
+            if (ground) {
+                ground->tick(flight, events);
+            }
+            if (live) {
+                live->tick(flight);
+            }
         };
     }
     terminal.line(terminal.dim(simulation::event_head()));
     const simulation::FlightResult result = fly(model, recording, watched, 0, conduct);
     if (ground) {
         ground->end(result);
+    }
+    if (live) {
+        live->end(result);
+        terminal.line("live", report_of(live->live()));
     }
     return conclude(options, result, *stop, "ground", ground ? ground->report() : "",
                     px4 ? &*px4 : nullptr, terminal);

@@ -8,6 +8,7 @@
 #include "flight_report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "live_view.hpp"
 #include "output.hpp"
 #include "outside_wires.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 struct SimIoOptions : FlightOptions {
     OutsideWireOptions wires;
+    LiveViewOptions live;
     double start_limit_s = 300.0;
 };
 
@@ -33,7 +35,8 @@ OptionList options_of(SimIoOptions& options) {
           {"--speed FACTOR", &options.px4.speed,
            "times real time (default 1); the companion needs the same --speed"},
           {"--json", &options.json, "one JSON object on standard output; no figures"},
-          {"--no-figures", &options.no_figures, "write the recording only"}}});
+          {"--no-figures", &options.no_figures, "write the recording only"}},
+         options_of(options.live, false)});
 }
 
 void say_wires(const simulation::OutsideWires& wires, Terminal& terminal) {
@@ -78,8 +81,15 @@ ExitCode sim_io(SimIoOptions options) {
     const auto model = simulation::build_model(scenario);
     simulation::RemoteGuidance guidance(open_wires(options.wires),
                                         outside_options(options.wires, scenario));
-    const OutFolder folder(options.folder(scenario.name));
     Terminal terminal(options.voice());
+    // Guidance is elsewhere, so it is watched alone.
+    scenario::Scenario shown = scenario;
+    const auto live = open_live(options.live,
+                                {.server = {},
+                                 .name = "limpet sim-io: " + scenario.name,
+                                 .parameters = live_parameters(scenario_sections(shown), "")},
+                                terminal);
+    const OutFolder folder(options.folder(scenario.name));
     introduce(scenario, terminal);
     say_wires(guidance.wires(), terminal);
     const std::atomic<bool>* stop = stop_on_signals();
@@ -89,12 +99,17 @@ ExitCode sim_io(SimIoOptions options) {
         .outside = {.autopilot = &px4.autopilot(), .guidance = &guidance},
         .start_limit_s = options.start_limit_s,
         .speed = px4.speed(),
-        .stop = stop};
+        .stop = stop,
+        .beside = live.get()};
     conduct.on_obstacle = [&terminal](const std::string& obstacle) {
         terminal.line(terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
     };
     const simulation::FlightResult result =
         fly(model, folder.path() / "flight.mcap", watch(terminal), 0, conduct);
+    if (live) {
+        live->say(live::StatusLevel::info, "ended: " + result.reason);
+        terminal.line("live", report_of(*live));
+    }
     return conclude(options, result, *stop, "companion", report_line(guidance.count()), &px4,
                     terminal);
 }

@@ -19,13 +19,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
-          const std::atomic<bool>* stop) {
+          const CompanionConduct& conduct) {
     const double period_s = 1.0 / config.limits.guidance_rate_Hz;
     const double poll_s = 1.0 / config.limits.poll_rate_Hz;
     double deadline_s = clock.now_s();
     while (!companion.over()) {
         double now_s = clock.now_s();
-        companion.tick(now_s, now_s - deadline_s, stop != nullptr && *stop);
+        const bool stop = (conduct.stop != nullptr && *conduct.stop) ||
+                          (conduct.wants_end && conduct.wants_end());
+        companion.tick(now_s, now_s - deadline_s, stop);
         deadline_s = std::max(deadline_s + period_s, now_s);
         for (now_s = clock.now_s(); now_s < deadline_s && !companion.over();
              now_s = clock.now_s()) {
@@ -56,10 +58,12 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
                     const CompanionConduct& conduct, const CompanionWatch& watch) {
     std::optional<record::Recorder> recorder;
     if (!conduct.recording.empty()) {
-        recorder.emplace(conduct.recording, recording_info(config));
+        record::RecordingInfo info = recording_info(config);
+        info.beside = conduct.beside;
+        recorder.emplace(conduct.recording, info);
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
-    loop(config, companion, clock, conduct.stop);
+    loop(config, companion, clock, conduct);
     if (recorder) {
         recorder->finish(summary_json(config, companion.result()));
     }

@@ -107,8 +107,11 @@ void MessageWriter::write(std::uint16_t channel, double time_s, const Fields&...
     cdr.serialize_encapsulation();
     (put(cdr, fields), ...);
     used_ = cdr.getSerializedDataLength();
-    file_.write(channel, static_cast<std::uint64_t>(time_ns),
-                {reinterpret_cast<const std::uint8_t*>(buffer_.data()), used_});
+    const mcap::ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()), used_);
+    file_.write(channel, static_cast<std::uint64_t>(time_ns), bytes);
+    if (beside_ != nullptr) {
+        beside_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);
+    }
     last_time_ns_ = std::max(last_time_ns_, time_ns);
 }
 

@@ -4,6 +4,11 @@
 #include "limpet/record/message_definitions.hpp"
 
 namespace limpet::record {
+namespace {
+
+constexpr std::string_view kEncoding = "cdr", kSchemaEncoding = "ros2msg";
+
+}  // namespace
 
 std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_view type) {
     return add_channel(topic, type, ros2msg_schema(type));
@@ -13,10 +18,20 @@ std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_vie
                                          std::string_view schema) {
     auto known = schemas_.find(type);
     if (known == schemas_.end()) {
-        known = schemas_.emplace(type, file_.add_schema(type, "ros2msg", schema)).first;
+        known = schemas_.emplace(type, file_.add_schema(type, kSchemaEncoding, schema)).first;
     }
     // The profile "ros2" wants the key; empty means the player's default.
-    return file_.add_channel(known->second, topic, "cdr", {{"offered_qos_profiles", ""}});
+    const std::uint16_t id =
+        file_.add_channel(known->second, topic, kEncoding, {{"offered_qos_profiles", ""}});
+    if (beside_ != nullptr) {
+        beside_->channel({.id = id,
+                          .topic = topic,
+                          .type = type,
+                          .encoding = kEncoding,
+                          .schema_encoding = kSchemaEncoding,
+                          .schema = schema});
+    }
+    return id;
 }
 
 }  // namespace limpet::record

@@ -10,14 +10,17 @@
 #include <vector>
 
 #include "limpet/mcap/writer.hpp"
+#include "limpet/record/message_sink.hpp"
 
 namespace limpet::record {
 
 /// A recording's channels. Log times are simulated nanoseconds from 0. write() allocates nothing.
 class MessageWriter {
 public:
+    /// @param beside  takes the same; null: nobody. Lives as long
     /// @throws InputError if the file cannot be written
-    explicit MessageWriter(const std::filesystem::path& path) : file_(path) {}
+    explicit MessageWriter(const std::filesystem::path& path, MessageSink* beside = nullptr)
+        : file_(path), beside_(beside) {}
 
     [[nodiscard]] mcap::Writer& file() { return file_; }
     [[nodiscard]] const mcap::Writer& file() const { return file_; }
@@ -40,6 +43,7 @@ public:
 
 private:
     mcap::Writer file_;
+    MessageSink* beside_;
     std::map<std::string, std::uint16_t, std::less<>> schemas_;  ///< by type
     std::vector<char> buffer_ = std::vector<char>(4096);
     std::size_t used_ = 0;  ///< of it, by the last message

@@ -48,6 +48,7 @@ struct RecordingInfo {
     RangeSensor range_sensor;
     std::vector<ColumnChannel> columns = {};
     std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
+    MessageSink* beside = nullptr;    ///< takes the same messages; lives as long
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from

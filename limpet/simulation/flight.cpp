@@ -125,6 +125,11 @@ void Flight::stop(Outcome outcome, std::string_view reason) {
     }
 }
 
+bool Flight::end_rest() {
+    return !ended() && outside_.guidance == nullptr && model_->task.take_off &&
+           guidance::end_rest(model_->guidance, state_.guidance, seconds(state_.tick));
+}
+
 void Flight::set_autopilot(const autopilot::AutopilotParameters& parameters) {
     require(outside_.autopilot == nullptr, "an autopilot behind a wire has its own parameters");
     for (const auto& row : autopilot::autopilot_table()) {
@@ -179,7 +184,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                                   conduct.outside);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
-        log.emplace(recording, *model);
+        log.emplace(recording, *model, conduct.beside);
     }
     std::vector<Event> events;
     events.reserve(64);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/record/message_sink.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
 #include "limpet/simulation/snapshot.hpp"
@@ -36,6 +37,9 @@ public:
     /// recording tells.
     /// @throws InputError naming the first that is out of its range; then nothing has changed
     void set_autopilot(const autopilot::AutopilotParameters& parameters);
+    /// An operator's word to a vehicle that rests on the wall, as guidance::end_rest().
+    /// @return false when it does not rest, or guidance is elsewhere: nothing has changed
+    [[nodiscard]] bool end_rest();
     [[nodiscard]] bool ended() const { return state_.ending.has_value(); }
 
     [[nodiscard]] const FlightModel& model() const { return *model_; }
@@ -79,6 +83,7 @@ struct FlightConduct {
     const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole
     /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).
     std::function<void(const std::string& obstacle)> on_obstacle = {};
+    record::MessageSink* beside = nullptr;  ///< takes what the recording takes, if there is one
 };
 
 struct FlightPerformance {

@@ -48,9 +48,10 @@ record::Scene scene_of_recording(const FlightModel& model) {
     return scene;
 }
 
-record::RecordingInfo describe(const FlightModel& model) {
+record::RecordingInfo describe(const FlightModel& model, record::MessageSink* beside) {
     const scenario::Scenario& scenario = *model.scenario;
     record::RecordingInfo info;
+    info.beside = beside;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;
@@ -80,8 +81,9 @@ record::RecordingInfo describe(const FlightModel& model) {
 
 }  // namespace
 
-FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model)
-    : recorder_(path, describe(model)) {}
+FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model,
+                     record::MessageSink* beside)
+    : recorder_(path, describe(model, beside)) {}
 
 void FlightLog::tick(const FlightModel& model, const FlightState& state,
                      const guidance::EventList& events) {

@@ -12,8 +12,10 @@ namespace limpet::simulation {
 /// recording rate.
 class FlightLog {
 public:
+    /// @param beside  takes the same messages; null: nobody
     /// @throws InputError when the file cannot be written
-    FlightLog(const std::filesystem::path& path, const FlightModel& model);
+    FlightLog(const std::filesystem::path& path, const FlightModel& model,
+              record::MessageSink* beside = nullptr);
 
     /// After every tick, with its events.
     void tick(const FlightModel& model, const FlightState& state,

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "free_port.hpp"
 #include "program.hpp"
 
 namespace limpet {
@@ -149,12 +150,27 @@ TEST(BadInput, OptionsThatWouldDoNothing) {
     expect_refused(bench, {"fly", "hover", "--record-wire"}, {"--record-wire", "--autopilot px4"});
     expect_refused(bench, {"fly", "hover", "--no-record", "--csv"}, {"--csv", "--no-record"});
     expect_refused(bench, {"fly", "hover", "--no-record", "--out", "x"}, {"--out", "--no-record"});
+    expect_refused(bench, {"fly", "hover", "--no-record", "--live"}, {"--live", "--no-record"});
+    expect_refused(bench, {"fly", "hover", "--quiet", "--live"}, {"--live", "--quiet"});
+    expect_refused(bench, {"fly", "hover", "--live-wait"}, {"--live-wait", "with --live"});
+    expect_refused(bench, {"companion", "simulation", "--no-record", "--live"}, {"--live"});
     expect_refused(bench,
                    {"fly", "hover", "--autopilot", "px4", "--hil", "serial:/dev/null:57600",
                     "--offboard", "udp:127.0.0.1:14540"},
                    {"--offboard", "serial"});
     expect_refused(bench, {"fly", "pendulum_concrete", "--autopilot", "px4"}, {"mount"});
     expect_refused(bench, {"sim-io", "pendulum_concrete"}, {"mount"});
+}
+
+TEST(BadInput, APortOfALiveViewIsAPortThatIsFree) {
+    const Bench bench;
+    for (const char* port : {"hover", "65536", "-1", "8765x"}) {
+        expect_refused(bench, {"fly", "hover", "--live", port}, {"--live", port, "0..65535"});
+    }
+    const TakenPort taken;
+    expect_refused(bench, {"fly", "hover", "--live", taken.port()},
+                   {"cannot serve on 127.0.0.1:" + taken.port(), "already in use"});
+    EXPECT_TRUE(bench.files().empty());
 }
 
 TEST(BadInput, OptionsSayWhatTheyTake) {

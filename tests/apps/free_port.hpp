@@ -26,4 +26,27 @@ inline std::string free_port(int type) {
     return "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
 }
 
+/// A TCP port of loopback on which somebody listens.
+class TakenPort {
+public:
+    TakenPort() : handle_(::socket(AF_INET, SOCK_STREAM, 0)) {
+        address_.sin_family = AF_INET;
+        address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t length = sizeof(address_);
+        auto* raw = reinterpret_cast<sockaddr*>(&address_);
+        EXPECT_EQ(::bind(handle_, raw, length), 0);
+        EXPECT_EQ(::listen(handle_, 1), 0);
+        EXPECT_EQ(::getsockname(handle_, raw, &length), 0);
+    }
+    ~TakenPort() { ::close(handle_); }
+    TakenPort(const TakenPort&) = delete;
+    TakenPort& operator=(const TakenPort&) = delete;
+
+    [[nodiscard]] std::string port() const { return std::to_string(ntohs(address_.sin_port)); }
+
+private:
+    int handle_;
+    sockaddr_in address_{};
+};
+
 }  // namespace limpet

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/serve/session.hpp"
+
+#include <cstring>
+#include <utility>
+
+namespace limpet::serve {
+namespace {
+
+struct FrameHead {
+    std::uint32_t bytes = 0;
+    std::uint32_t text = 0;
+};
+
+}  // namespace
+
+FrameQueue::FrameQueue(std::size_t most_bytes)
+    : most_bytes_(most_bytes), filling_(most_bytes), leaving_(most_bytes) {}
+
+bool FrameQueue::put(bool text, std::initializer_list<std::string_view> parts) {
+    std::size_t bytes = 0;
+    for (const std::string_view part : parts) {
+        bytes += part.size();
+    }
+    const std::size_t most_bytes = text ? most_bytes_ : most_bytes_ - most_bytes_ / 8;
+    const std::lock_guard lock(guards_filling_);
+    if (filled_ + sizeof(FrameHead) + bytes > most_bytes) {
+        dropped_.fetch_add(1, std::memory_order_relaxed);
+        return false;
+    }
+    const FrameHead head = {static_cast<std::uint32_t>(bytes), text ? 1U : 0U};
+    char* to = filling_.data() + filled_;
+    std::memcpy(to, &head, sizeof head);
+    to += sizeof head;
+    for (const std::string_view part : parts) {
+        if (!part.empty()) {
+            std::memcpy(to, part.data(), part.size());
+            to += part.size();
+        }
+    }
+    filled_ += sizeof head + bytes;
+    return true;
+}
+
+bool FrameQueue::next(Frame& frame) {
+    if (left_ == to_leave_) {
+        left_ = 0;
+        const std::lock_guard lock(guards_filling_);
+        std::swap(filling_, leaving_);
+        to_leave_ = std::exchange(filled_, 0);
+    }
+    if (to_leave_ == 0) {
+        return false;
+    }
+    FrameHead head;
+    std::memcpy(&head, leaving_.data() + left_, sizeof head);
+    frame = {head.text != 0, {leaving_.data() + left_ + sizeof head, head.bytes}};
+    left_ += sizeof head + head.bytes;
+    return true;
+}
+
+bool Session::send_text(std::string_view text) {
+    return open_ && queue_.put(true, {text});
+}
+
+bool Session::send_binary(std::initializer_list<std::string_view> parts) {
+    return open_ && queue_.put(false, parts);
+}
+
+}  // namespace limpet::serve

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace limpet::serve {
+
+/// What has been sent to a client and has not yet gone out. Any thread puts in, the server's takes
+/// out; of a bounded size, which is reserved at once: put() neither waits nor allocates.
+class FrameQueue {
+public:
+    explicit FrameQueue(std::size_t most_bytes);
+
+    /// One frame made of `parts`. The last eighth of the room is for texts: data that a client
+    /// reads too slowly leaves place for what is said about it.
+    /// @return false where there is no room: the frame is dropped and counted
+    bool put(bool text, std::initializer_list<std::string_view> parts);
+
+    struct Frame {
+        bool text = false;
+        std::string_view bytes;
+    };
+    /// The next frame, valid until the next call; false without any. The server's thread alone.
+    [[nodiscard]] bool next(Frame& frame);
+
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
+private:
+    const std::size_t most_bytes_;
+    std::mutex guards_filling_;
+    std::vector<char> filling_;  ///< frames, each behind its size and kind
+    std::size_t filled_ = 0;     ///< of it
+    std::vector<char> leaving_;  ///< of the server's thread alone, as the next two
+    std::size_t to_leave_ = 0;   ///< of it
+    std::size_t left_ = 0;       ///< of that, gone out
+    std::atomic<std::uint64_t> dropped_ = 0;
+};
+
+/// A client at the other end of a WebSocket. It may be held and sent to by any thread as long as
+/// one likes; what is sent to one who has gone is dropped. Frames go out within some 10 ms.
+class Session {
+public:
+    Session(std::size_t most_bytes, std::string subprotocol)
+        : queue_(most_bytes), subprotocol_(std::move(subprotocol)) {}
+
+    // Never wait, never allocate.
+    /// @return false: dropped, the queue is full or the client has gone
+    bool send_text(std::string_view text);
+    bool send_binary(std::initializer_list<std::string_view> parts);
+    /// Ends the session once what has been sent is out.
+    void close() { asked_to_close_ = true; }
+
+    [[nodiscard]] bool is_open() const { return open_; }
+    [[nodiscard]] const std::string& subprotocol() const { return subprotocol_; }
+    /// Frames that had no room.
+    [[nodiscard]] std::uint64_t dropped() const { return queue_.dropped(); }
+
+private:
+    friend class WebSocket;  // the server's end of it
+
+    FrameQueue queue_;
+    std::string subprotocol_;
+    std::atomic<bool> open_ = true, asked_to_close_ = false;
+};
+
+}  // namespace limpet::serve

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flight that is watched while it flies (LIMPET_PROGRAM), by the client of the protocol's authors.
+import assert from "node:assert/strict";
+import { type ChildProcess, execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { parse } from "@foxglove/rosmsg";
+import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import type {
+  Channel,
+  FoxgloveClient,
+  MessageData,
+  Parameter,
+  ServerInfo,
+  Service,
+} from "@foxglove/ws-protocol";
+import protocol from "@foxglove/ws-protocol"; // CommonJS: no names of its own
+import { WebSocket } from "ws";
+
+const program = process.env.LIMPET_PROGRAM as string;
+const skip = program === undefined;
+const folder = mkdtempSync(join(tmpdir(), "limpet-live-"));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+type Message = { topic: string; time_ns: bigint; value: Record<string, unknown> };
+
+class Flight {
+  readonly process: ChildProcess;
+  private said = "";
+  private readonly ended: Promise<number | null>;
+
+  constructor(name: string) {
+    const out = join(folder, name);
+    this.process = spawn(program, [
+      ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", "20"],
+      ...["--json", "--out", out],
+    ]);
+    // With --json all but the result is on standard error.
+    this.process.stderr?.on("data", (text) => {
+      this.said += text;
+    });
+    this.process.stdout?.on("data", (text) => {
+      this.result += text;
+    });
+    this.ended = new Promise((done) => {
+      this.process.on("close", done);
+    });
+  }
+  private result = "";
+
+  async address(): Promise<string> {
+    for (;;) {
+      const found = /ws:\/\/\S+/.exec(this.said);
+      if (found) {
+        return found[0];
+      }
+      assert.equal(this.process.exitCode, null, this.said);
+      await new Promise((done) => setTimeout(done, 5));
+    }
+  }
+  async end(): Promise<{ outcome: string; reason: string; hash: string }> {
+    assert.equal(await this.ended, 0, this.said);
+    return JSON.parse(this.result);
+  }
+  get text(): string {
+    return this.said;
+  }
+}
+
+/** Somebody who watches: what was told, and what was heard of the channels subscribed to. */
+class Viewer {
+  readonly socket: WebSocket;
+  readonly client: FoxgloveClient;
+  info?: ServerInfo;
+  channels = new Map<string, Channel>();
+  services = new Map<string, Service>();
+  messages: Message[] = [];
+  texts: string[] = [];
+  time_ns = 0n;
+  answers: { success: boolean; text: string }[] = [];
+  values: { id?: string; parameters: Parameter[] }[] = [];
+  closed = false;
+  private readonly readers = new Map<number, { topic: string; reader: MessageReader }>();
+  private wakes: (() => void)[] = [];
+
+  constructor(address: string, subprotocol: string) {
+    this.socket = new WebSocket(address, [subprotocol]);
+    // biome-ignore lint/suspicious/noExplicitAny: two libraries' types of the same thing
+    this.client = new protocol.FoxgloveClient({ ws: this.socket as any });
+    const heard = (take: () => void) => {
+      take();
+      for (const wake of this.wakes.splice(0)) {
+        wake();
+      }
+    };
+    this.client.on("error", (error) => {
+      throw error;
+    });
+    this.client.on("close", () =>
+      heard(() => {
+        this.closed = true;
+      }),
+    );
+    this.client.on("serverInfo", (info) =>
+      heard(() => {
+        this.info = info;
+      }),
+    );
+    this.client.on("advertise", (channels) =>
+      heard(() => {
+        for (const channel of channels) {
+          this.channels.set(channel.topic, channel);
+        }
+      }),
+    );
+    this.client.on("advertiseServices", (services) =>
+      heard(() => {
+        for (const service of services) {
+          this.services.set(service.name, service);
+        }
+      }),
+    );
+    this.client.on("status", (status) => heard(() => this.texts.push(status.message)));
+    this.client.on("parameterValues", (values) => heard(() => this.values.push(values)));
+    this.client.on("time", (time) =>
+      heard(() => {
+        assert.ok(time.timestamp >= this.time_ns);
+        this.time_ns = time.timestamp;
+      }),
+    );
+    this.client.on("message", (message) => heard(() => this.take(message)));
+    this.client.on("serviceCallResponse", (response) =>
+      heard(() => {
+        const reader = new MessageReader(parse("bool success\nstring message", { ros2: true }));
+        const { success, message } = reader.readMessage<{ success: boolean; message: string }>(
+          response.data,
+        );
+        this.answers.push({ success, text: message });
+      }),
+    );
+  }
+  private take({ subscriptionId, timestamp, data }: MessageData) {
+    const of = this.readers.get(subscriptionId);
+    assert.ok(of);
+    this.messages.push({
+      topic: of.topic,
+      time_ns: timestamp,
+      value: of.reader.readMessage(data),
+    });
+  }
+  async until(so: () => boolean): Promise<void> {
+    while (!so()) {
+      assert.ok(!this.closed, "the flight has ended");
+      await new Promise<void>((wake) => this.wakes.push(wake));
+    }
+  }
+  subscribe(topic: string) {
+    const channel = this.channels.get(topic);
+    assert.ok(channel, topic);
+    assert.equal(channel.encoding, "cdr");
+    assert.equal(channel.schemaEncoding, "ros2msg");
+    const reader = new MessageReader(parse(channel.schema, { ros2: true }));
+    this.readers.set(this.client.subscribe(channel.id), { topic, reader });
+  }
+  unsubscribe() {
+    for (const subscription of this.readers.keys()) {
+      this.client.unsubscribe(subscription);
+    }
+  }
+  of(topic: string): Message[] {
+    return this.messages.filter((message) => message.topic === topic);
+  }
+  async ask(service: string): Promise<{ success: boolean; text: string }> {
+    const before = this.answers.length;
+    const serviceId = this.services.get(service)?.id as number;
+    const data = new Uint8Array([0, 1, 0, 0, 0]);
+    this.client.sendServiceCallRequest({ serviceId, callId: 7, encoding: "cdr", data });
+    await this.until(() => this.answers.length > before);
+    return this.answers[before] as { success: boolean; text: string };
+  }
+}
+
+const plain = () =>
+  JSON.parse(
+    execFileSync(program, ["fly", "perch_concrete", "--no-record", "--json"], {
+      stdio: ["ignore", "pipe", "ignore"],
+    }).toString(),
+  );
+
+type Transforms = {
+  transforms: { header: { frame_id: string }; child_frame_id: string }[];
+};
+
+test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, async () => {
+  const flight = new Flight("watched");
+  const address = await flight.address();
+  const viewer = new Viewer(address, "foxglove.sdk.v1");
+  await viewer.until(() => viewer.channels.size >= 23);
+  assert.equal(viewer.socket.protocol, "foxglove.sdk.v1");
+  assert.equal(viewer.info?.name, "limpet: perch_concrete");
+  for (const topic of viewer.channels.keys()) {
+    viewer.subscribe(topic);
+  }
+  const late = new Viewer(address, "foxglove.websocket.v1");
+  await late.until(() => late.channels.size === viewer.channels.size);
+  await viewer.until(() => viewer.of("/truth/pose").length >= 100);
+
+  // Poses: decoded, in their order, within the room.
+  let before_ns = -1n;
+  for (const { time_ns, value } of viewer.of("/truth/pose")) {
+    const { header, pose } = value as {
+      header: { frame_id: string; stamp: { sec: number; nsec?: number; nanosec?: number } };
+      pose: { position: { x: number; y: number; z: number } };
+    };
+    assert.equal(header.frame_id, "map");
+    assert.ok(time_ns > before_ns);
+    before_ns = time_ns;
+    assert.ok(Math.hypot(pose.position.x, pose.position.y, pose.position.z) < 10);
+  }
+  // Every frame that a message names, and every link, hangs on the map.
+  const parent = new Map<string, string>();
+  for (const topic of ["/tf", "/tf_static"]) {
+    for (const { value } of viewer.of(topic)) {
+      for (const transform of (value as Transforms).transforms) {
+        parent.set(transform.child_frame_id, transform.header.frame_id);
+      }
+    }
+  }
+  const named = new Set<string>();
+  for (const { value } of viewer.messages) {
+    const frame = (value as { header?: { frame_id: string } }).header?.frame_id;
+    if (frame) {
+      named.add(frame);
+    }
+  }
+  const description = viewer.of("/robot_description")[0]?.value as { data: string };
+  for (const link of description.data.matchAll(/<link name="([^"]+)"/g)) {
+    named.add(link[1] as string);
+  }
+  assert.ok(named.size > 3);
+  for (const frame of named) {
+    let top = frame;
+    for (let steps = 0; parent.has(top) && steps < 20; ++steps) {
+      top = parent.get(top) as string;
+    }
+    assert.equal(top, "map", frame);
+  }
+
+  // Who comes late gets what was said once.
+  for (const topic of ["/robot_description", "/tf_static", "/scene"]) {
+    late.subscribe(topic);
+  }
+  await late.until(() => late.of("/scene").length > 0 && late.of("/tf_static").length > 0);
+  assert.deepEqual(late.of("/robot_description")[0]?.value, description);
+  const { markers } = late.of("/scene")[0]?.value as { markers: { ns: string }[] };
+  assert.match(markers[0]?.ns ?? "", /^wall\//);
+  assert.ok(late.time_ns > 0n);
+
+  // One vanishes without a word, the other listens no more, and sees the end.
+  late.socket.terminate();
+  viewer.unsubscribe();
+  await viewer.until(() => viewer.texts.length > 0);
+  const result = await flight.end();
+  const last_ns = viewer.messages.at(-1)?.time_ns ?? 0n;
+  assert.ok(viewer.time_ns > last_ns, "nothing comes any more, and time goes on");
+  const alone = plain();
+  assert.deepEqual(viewer.texts, [`${alone.outcome}: ${alone.reason}`]);
+  assert.equal(result.outcome, alone.outcome);
+  assert.equal(result.hash, alone.hash);
+  assert.match(flight.text, /2 came to watch/);
+});
+
+test("parameters and services", { skip, timeout: 60_000 }, async () => {
+  const flight = new Flight("asked");
+  const viewer = new Viewer(await flight.address(), "foxglove.websocket.v1");
+  await viewer.until(() => viewer.services.size === 4 && viewer.channels.size >= 23);
+  assert.deepEqual(viewer.info?.capabilities, [
+    "time",
+    "parameters",
+    "parametersSubscribe",
+    "services",
+  ]);
+  const get = async (names: string[]) => {
+    const before = viewer.values.length;
+    viewer.client.getParameters(names, "got");
+    await viewer.until(() => viewer.values.length > before);
+    const { id, parameters } = viewer.values[before] as { id?: string; parameters: Parameter[] };
+    assert.equal(id, "got");
+    return new Map(parameters.map(({ name, value }) => [name, value]));
+  };
+  const set = async (name: string, value: Parameter["value"]) => {
+    const before = viewer.values.length;
+    viewer.client.setParameters([{ name, value }], "set");
+    await viewer.until(() => viewer.values.length > before);
+  };
+  const rate = "autopilot.MC_PITCHRATE_P";
+  const speed = "guidance.dock_speed_m_s";
+  const all = await get([]);
+  assert.ok(all.size > 100);
+  assert.ok(typeof all.get(rate) === "number" && typeof all.get(speed) === "number");
+
+  // It waits for a viewer; now it flies, and comes to a stop.
+  viewer.subscribe("/events");
+  assert.deepEqual(await viewer.ask("/pause"), { success: true, text: "paused" });
+  assert.equal((await viewer.ask("/pause")).success, false);
+  assert.equal((await viewer.ask("/take_off")).text, "does not rest on the wall");
+
+  const wanted = (all.get(rate) as number) * 1.01;
+  await set(rate, wanted);
+  assert.equal((await get([rate])).get(rate), wanted);
+  await set(speed, 0.5);
+  assert.equal((await get([speed])).get(speed), all.get(speed));
+  await set(rate, 1e9);
+  await set("guidance.nothing", 1);
+  assert.equal(viewer.texts.length, 3);
+  assert.match(viewer.texts[0] ?? "", /dock_speed_m_s cannot be changed in flight/);
+  assert.match(viewer.texts[1] ?? "", /out of range, allowed/);
+  assert.match(viewer.texts[2] ?? "", /no parameter guidance.nothing/);
+  viewer.socket.send("no JSON");
+  viewer.socket.send('{"op": "dance"}');
+  await viewer.until(() => viewer.texts.length === 5);
+
+  // What was set is an event of the flight.
+  assert.equal((await viewer.ask("/resume")).success, true);
+  const events = () => viewer.of("/events").map(({ value }) => value.name as string);
+  await viewer.until(() => events().includes("parameter_set"));
+  assert.equal((await viewer.ask("/abort")).success, true);
+  const result = await flight.end();
+  assert.equal(result.outcome, "aborted");
+  assert.equal(result.reason, "a viewer asked for it");
+});
+
+test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 }, async () => {
+  const flight = new Flight("closed");
+  const address = await flight.address();
+  const knock = (where: string, origin?: string) =>
+    new Promise<string>((done) => {
+      const socket = new WebSocket(where, ["foxglove.sdk.v1"], origin ? { origin } : {});
+      socket.on("error", (error) => done(error.message));
+      socket.on("open", () => {
+        socket.terminate();
+        done("open");
+      });
+    });
+  assert.match(await knock(address, "https://evil.example"), /403/);
+  assert.match(await knock(address.replace(/token=.*/, "token=0")), /403/);
+  assert.match(await knock(address.replace(/\?token=.*/, "")), /403/);
+  assert.equal(await knock(address, "https://app.foxglove.dev"), "open");
+  flight.process.kill("SIGKILL");
+});
