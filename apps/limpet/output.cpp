@@ -4,10 +4,12 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace fs = std::filesystem;
@@ -73,6 +75,14 @@ void write_file(const fs::path& path, const std::string& text) {
         std::error_code ignored;
         fs::remove(part, ignored);
         throw InputError("--out " + path.string() + ": cannot be written");
+    }
+}
+
+void open_in_browser(const std::string& page) {
+    if (::fork() == 0) {
+        ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
+        complain("no xdg-open here: open " + page + " in a browser");
+        std::_Exit(0);
     }
 }
 

@@ -43,4 +43,7 @@ void print_files(const std::vector<std::filesystem::path>& files);
 /// @throws InputError naming it
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// By the desktop's own means; who has none is told to do it.
+void open_in_browser(const std::string& page);
+
 }  // namespace limpet::app

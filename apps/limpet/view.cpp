@@ -2,16 +2,13 @@
 #include "limpet/report/view.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "command_line.hpp"
 #include "output.hpp"
-#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -21,15 +18,6 @@ struct ViewOptions {
     std::string out;
     bool open = false;
 };
-
-/// By the desktop's own means; a machine without a desktop has been told where the page is.
-void open_in_browser(const std::filesystem::path& page) {
-    if (::fork() == 0) {
-        ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
-        complain("no xdg-open here: open " + page.string() + " in a browser");
-        std::_Exit(0);
-    }
-}
 
 void view(const ViewOptions& options) {
     const std::vector<std::filesystem::path> recordings(options.recordings.begin(),

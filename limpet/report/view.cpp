@@ -64,13 +64,17 @@ bool has_view_page() {
     return !bare_page().empty();
 }
 
-std::string view_html(const std::vector<std::filesystem::path>& recordings) {
+std::string_view view_page() {
     if (!has_view_page()) {
         throw InputError(
             "this program was built without the page: install nodejs and npm and build it again");
     }
+    return bare_page();
+}
+
+std::string view_html(const std::vector<std::filesystem::path>& recordings) {
     constexpr std::string_view kPlace = "<!--RECORDINGS-->";
-    const std::string_view page = bare_page();
+    const std::string_view page = view_page();
     const std::size_t place = page.find(kPlace);
     require(place != std::string_view::npos, "a page with a place for recordings");
     std::string html(page.substr(0, place));

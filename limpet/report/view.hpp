@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 // Flights in three dimensions, in a browser: one page that has all it needs in it (web/).
@@ -10,6 +11,10 @@ namespace limpet::report {
 
 /// Whether the program was built where Node was, which makes the page.
 [[nodiscard]] bool has_view_page();
+
+/// The page without any recording in it.
+/// @throws InputError when there is none
+[[nodiscard]] std::string_view view_page();
 
 /// The page with recordings in it; the first is the flight, the others are its ghosts.
 /// @throws InputError  naming a recording that is none, or that was recorded without a scene, and

@@ -184,7 +184,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                                   conduct.outside);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
-        log.emplace(recording, *model, conduct.beside);
+        log.emplace(recording, *model, conduct.beside, conduct.brief);
     }
     std::vector<Event> events;
     events.reserve(64);

@@ -82,13 +82,17 @@ record::RecordingInfo describe(const FlightModel& model, record::MessageSink* be
 }  // namespace
 
 FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model,
-                     record::MessageSink* beside)
-    : recorder_(path, describe(model, beside)) {}
+                     record::MessageSink* beside, bool brief)
+    : recorder_(path, describe(model, beside)), brief_(brief) {}
 
 void FlightLog::tick(const FlightModel& model, const FlightState& state,
                      const guidance::EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
+    }
+    constexpr int kBrief_Hz = 50;
+    if (brief_ && !due(state.tick, kBrief_Hz)) {
+        return;
     }
     recorder_.new_readings(state.sensors.readings, last_);
     std::size_t channel = 0;
@@ -106,8 +110,8 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
     if (regular || touch) {
         recorder_.truth(state.truth);
     }
-    constexpr int kMarks_Hz = 25;
-    if (due(state.tick, kMarks_Hz)) {
+    const int marks_Hz = brief_ ? 5 : 25;
+    if (due(state.tick, marks_Hz)) {
         recorder_.scene(state.truth, state.sensors.readings, state.guidance.setpoint);
     }
     if (regular) {

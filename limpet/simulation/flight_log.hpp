@@ -13,9 +13,10 @@ namespace limpet::simulation {
 class FlightLog {
 public:
     /// @param beside  takes the same messages; null: nobody
+    /// @param brief   no sample is recorded but with the truth, at 50 Hz at most
     /// @throws InputError when the file cannot be written
     FlightLog(const std::filesystem::path& path, const FlightModel& model,
-              record::MessageSink* beside = nullptr);
+              record::MessageSink* beside = nullptr, bool brief = false);
 
     /// After every tick, with its events.
     void tick(const FlightModel& model, const FlightState& state,
@@ -25,6 +26,7 @@ public:
 private:
     record::Recorder recorder_;
     Readings last_;
+    bool brief_;
 };
 
 }  // namespace limpet::simulation

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Chart, saveCanvas } from "../charts/chart";
 import { kColumns, kPanels } from "../charts/panels";
+import { Lab } from "../lab/lab";
 import { type Recording, readRecording } from "../recording/recording";
 import { FlightView } from "../scene/flight";
 import { kViews, Stage } from "../scene/stage";
@@ -78,6 +79,13 @@ class Page {
 
   /** The first is the flight, others are its ghosts. */
   load(recordings: Recording[]): void {
+    this.player.seek(0);
+    this.refresh(recordings);
+    this.view(this.stage.currentView);
+  }
+  /** The same, seen from where one looks, at the same time. */
+  refresh(recordings: Recording[]): void {
+    const anew = this.recordings.length === 0;
     this.recordings = recordings;
     const first = recordings[0];
     const there = first !== undefined;
@@ -92,18 +100,19 @@ class Page {
     by("names").textContent =
       recordings.length > 1 ? recordings.map((one) => one.name).join(", ") : "";
     this.player.end = first.duration;
-    this.player.seek(0);
     const flights = recordings.map(
       (recording, k) => new FlightView(recording, k > 0, this.stage.cut),
     );
     flights.forEach((flight) => {
-      flight.show(0);
+      flight.show(this.player.time);
     });
     this.stage.setFlights(flights);
     this.stage.setFloor(Math.min(-0.5, (first.frames.get("base_link")?.at(0)[2] ?? 0) - 1.2));
     this.timeline.load(first);
     this.loadCharts();
-    this.view(this.stage.currentView);
+    if (anew) {
+      this.view(this.stage.currentView);
+    }
     this.redraw();
   }
   seek(t: number): void {
@@ -239,7 +248,9 @@ class Page {
 }
 
 const page = new Page();
-Object.assign(window, { limpet: page });
+const place = document.getElementById("lab");
+const lab = place === null ? undefined : new Lab(place, page);
+Object.assign(window, { limpet: page, lab });
 embedded()
   .then((recordings) => page.load(recordings))
   .catch((problem: unknown) =>

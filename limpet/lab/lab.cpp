@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/lab/lab.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/lab/schema.hpp"
+#include "limpet/report/view.hpp"
+#include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/flight.hpp"
+
+namespace limpet::lab {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostChanges = 1000;
+constexpr auto kLongestFlight = std::chrono::seconds(20);  ///< of wall time
+
+struct Asked {
+    std::string scenario;
+    std::vector<std::string> changes;
+    bool brief = false;
+};
+
+/// @throws InputError when it is no request
+Asked asked_in(std::string_view request, const std::string& first) {
+    const auto json = nlohmann::json::parse(request, nullptr, false);
+    if (!json.is_object()) {
+        throw InputError("a request is a JSON object: {\"scenario\": ..., \"set\": [...]}");
+    }
+    try {
+        Asked asked{.scenario = json.value("scenario", first),
+                    .changes = json.value("set", std::vector<std::string>{}),
+                    .brief = json.value("brief", false)};
+        if (asked.changes.size() > kMostChanges) {
+            throw InputError(fmt::format("\"set\": {} changes, allowed are {}",
+                                         asked.changes.size(), kMostChanges));
+        }
+        // A page asks for what is installed, not for files.
+        if (scenario::is_path(asked.scenario)) {
+            throw InputError("\"scenario\": a name, not a path");
+        }
+        return asked;
+    } catch (const nlohmann::json::exception&) {
+        throw InputError(
+            "\"scenario\" is a text, \"set\" a list of texts \"key=value\", \"brief\" true or "
+            "false");
+    }
+}
+
+scenario::Scenario load(const Asked& asked) {
+    return scenario::load_scenario(asked.scenario, {.overrides = asked.changes});
+}
+
+nlohmann::json names_json(const std::vector<scenario::CatalogueEntry>& entries) {
+    nlohmann::json names = nlohmann::json::array();
+    for (const scenario::CatalogueEntry& entry : entries) {
+        names.push_back({{"name", entry.name}, {"description", entry.description}});
+    }
+    return names;
+}
+
+std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The page of recordings with a place for the lab in it, which may ask this server.
+std::string page_html() {
+    std::string page(report::view_page());
+    const auto put = [&page](std::string_view place, std::string_view text) {
+        const std::size_t at = page.find(place);
+        require(at != std::string::npos, "a page with a place for the lab");
+        page.replace(at, place.size(), text);
+    };
+    put("<!--PANEL-->", "<aside id=\"lab\" aria-label=\"Parameters\"></aside>");
+    put("connect-src data:", "connect-src 'self' data:");
+    return page;
+}
+
+serve::Response json_answer(std::string body) {
+    return {.content_type = "application/json", .body = std::move(body)};
+}
+
+}  // namespace
+
+Lab::Lab(std::string scenario, const std::atomic<bool>* stop)
+    : first_(std::move(scenario)), stop_(stop) {
+    (void)report::view_page();
+    (void)scenario::load_scenario(first_);
+    std::string folder = (fs::temp_directory_path() / "limpet_lab_XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr) {
+        throw InputError("cannot make " + folder);
+    }
+    scratch_ = folder;
+}
+
+Lab::~Lab() {
+    std::error_code ignored;
+    fs::remove_all(scratch_, ignored);
+}
+
+std::string Lab::catalogue() const {
+    const fs::path root = scenario::data_root();
+    return nlohmann::json{{"scenario", first_},
+                          {"scenarios", names_json(scenario::list_files(root / "scenarios"))},
+                          {"surfaces", names_json(scenario::list_surfaces(root))},
+                          {"vehicles", names_json(scenario::list_files(root / "vehicles"))}}
+        .dump();
+}
+
+std::string Lab::schema(std::string_view request) const {
+    const scenario::Scenario scenario = load(asked_in(request, first_));
+    nlohmann::json answer = schema_of(scenario);
+    answer["surface"] = scenario.wall.present ? scenario.wall.surface.name : "";
+    answer["seed"] = scenario.seed;
+    return answer.dump();
+}
+
+std::string Lab::fly(std::string_view request) {
+    const Asked asked = asked_in(request, first_);
+    const auto model = simulation::build_model(load(asked));
+    const fs::path recording = scratch_ / "flight.mcap";
+    std::atomic<bool> enough = false;
+    const simulation::FlightWatch watch{
+        .on_event = {}, .on_progress = [&, end = Clock::now() + kLongestFlight](double, auto) {
+            enough = Clock::now() > end || (stop_ && *stop_);
+        }};
+    (void)simulation::fly(model, recording, watch, 0, {.stop = &enough, .brief = asked.brief});
+    std::string bytes = bytes_of(recording);
+    fs::remove(recording);
+    return bytes;
+}
+
+std::string Lab::yaml(std::string_view request) const {
+    return load(asked_in(request, first_)).yaml;
+}
+
+void Lab::serve_on(serve::Server& server) {
+    server.get("/", [](const serve::Request&) {
+        return serve::Response{.content_type = "text/html; charset=utf-8",
+                               .body = page_html(),
+                               .headers = {{"Cache-Control", "no-store"}}};
+    });
+    server.get("/catalogue", [this](const serve::Request&) { return json_answer(catalogue()); });
+    server.post("/schema",
+                [this](const serve::Request& asked) { return json_answer(schema(asked.body)); });
+    server.post("/yaml", [this](const serve::Request& asked) {
+        return serve::Response{.content_type = "application/yaml", .body = yaml(asked.body)};
+    });
+    server.post("/fly", [this](const serve::Request& asked) {
+        return serve::Response{.content_type = "application/octet-stream", .body = fly(asked.body)};
+    });
+}
+
+}  // namespace limpet::lab

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "limpet/serve/server.hpp"
+
+namespace limpet::lab {
+
+/// What the page asks for. Nothing is kept between two requests.
+class Lab {
+public:
+    /// @param scenario  that the page opens with
+    /// @param stop      ends a flight and the answer to come; lives as long
+    /// @throws InputError if there is no such scenario, or the program has no page
+    explicit Lab(std::string scenario, const std::atomic<bool>* stop = nullptr);
+    ~Lab();
+    Lab(const Lab&) = delete;
+    Lab& operator=(const Lab&) = delete;
+
+    /// {"scenario": the first, "scenarios": [{"name", "description"}], "surfaces", "vehicles"}
+    [[nodiscard]] std::string catalogue() const;
+    /// Every number that can be set, as the scenario ships it.
+    /// @param request  {"scenario": "perch_concrete", "set": ["wall.surface=metal", ...]}
+    /// @return {"sections": [{"name", "rows": [{"key", "unit", "minimum", "maximum", "value",
+    ///         "kind", "what", "source"}], "choices": [{"key", "names", "chosen"}]}]}
+    /// @throws InputError one line, as do those below
+    [[nodiscard]] std::string schema(std::string_view request) const;
+    /// @param request  as above; with "brief": true what a picture needs, at 50 Hz, for a slider
+    ///                 that is moving
+    /// @return an MCAP recording
+    [[nodiscard]] std::string fly(std::string_view request);
+    /// @return the scenario as YAML that stands for itself
+    [[nodiscard]] std::string yaml(std::string_view request) const;
+
+    /// The page and what it asks for; `server` must end before this does.
+    void serve_on(serve::Server& server);
+
+private:
+    std::string first_;
+    const std::atomic<bool>* stop_;
+    std::filesystem::path scratch_;
+};
+
+}  // namespace limpet::lab

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every parameter of a scenario as a slider; the flight follows.
+import { kColumns } from "../charts/panels";
+import { type Recording, readRecording } from "../recording/recording";
+import { Changes, rounded, slide } from "./changes";
+import * as server from "./server";
+
+export interface LabHost {
+  /** The first is the flight, the second its ghost; camera and time stay. */
+  refresh(recordings: Recording[]): void;
+  say(text: string): void;
+}
+
+function element<K extends keyof HTMLElementTagNameMap>(
+  name: K,
+  properties: Partial<HTMLElementTagNameMap[K]> = {},
+  ...inside: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...inside);
+  return made;
+}
+
+/** Sections that people turn first; the others follow. */
+const kFirst = ["guidance", "environment", "vehicle.cup", "vehicle.slider", "wall.surface"];
+
+export class Lab {
+  private changes = Changes.from(location.hash);
+  private readonly sections = element("div", { className: "sections" });
+  private readonly choices = element("div", { className: "choices" });
+  private readonly diff = element("ul", { className: "diff" });
+  private readonly status = element("output", { className: "status" });
+  private readonly search = element("input", {
+    type: "search",
+    placeholder: "Find a parameter",
+    ariaLabel: "Find a parameter",
+  });
+  private catalogue: server.Catalogue | undefined;
+  private flown: Recording | undefined; // the one that stands
+  private busy = false;
+  private wanted: { brief: boolean; since: number } | undefined;
+  /** Of the latest re-flights, from the hand to the picture [ms]. */
+  readonly delays: number[] = [];
+
+  constructor(
+    place: HTMLElement,
+    private readonly host: LabHost,
+  ) {
+    this.search.addEventListener("input", () => this.filter());
+    const button = (text: string, title: string, does: () => void): HTMLButtonElement => {
+      const made = element("button", { type: "button", title }, text);
+      made.addEventListener("click", does);
+      return made;
+    };
+    const tools = element(
+      "div",
+      { className: "tools" },
+      button("As it ships", "Forget all changes", () => this.reset()),
+      button("Save YAML", "The scenario with its changes, as a file", () => void this.save()),
+      button("Copy command", "The command line that flies this", () => void this.copy()),
+    );
+    place.append(this.choices, this.status, this.diff, tools, this.search, this.sections);
+    void this.begin();
+  }
+
+  private wish(): server.Wish {
+    return { scenario: this.changes.scenario, set: this.changes.list() };
+  }
+  private async begin(): Promise<void> {
+    await this.trying(async () => {
+      this.catalogue = await server.catalogue();
+      this.changes.scenario ||= this.catalogue.scenario;
+      await this.build();
+      this.refly(false);
+    });
+  }
+  private async trying(does: () => Promise<void>): Promise<void> {
+    try {
+      await does();
+      this.host.say("");
+    } catch (problem) {
+      this.host.say(problem instanceof Error ? problem.message : String(problem));
+    }
+  }
+
+  /** Rows and choices of the scenario as it ships, with what is chosen by name. */
+  private async build(): Promise<void> {
+    const named = ["vehicle", "wall.surface"].flatMap((key) => {
+      const value = this.changes.get(key);
+      return value === undefined ? [] : [`${key}=${value}`];
+    });
+    const schema = await server.schema({ scenario: this.changes.scenario, set: named });
+    this.buildChoices(schema);
+    const rank = (section: server.Section): number =>
+      (kFirst.indexOf(section.name) + kFirst.length + 1) % (kFirst.length + 1);
+    this.sections.replaceChildren(
+      ...[...schema.sections]
+        .sort((a, b) => rank(a) - rank(b))
+        .filter((section) => section.rows.length + section.choices.length > 0)
+        .map((section) => this.sectionOf(section)),
+    );
+    this.filter();
+    this.told();
+  }
+  private buildChoices(schema: server.Schema): void {
+    const { catalogue } = this;
+    if (catalogue === undefined) {
+      return;
+    }
+    const select = (
+      label: string,
+      names: server.Named[],
+      chosen: string,
+      chose: (name: string) => void,
+    ): HTMLElement => {
+      const list = element(
+        "select",
+        {},
+        ...names.map(({ name, description }) =>
+          element("option", { value: name, title: description }, name),
+        ),
+      );
+      list.value = chosen;
+      list.addEventListener("change", () => chose(list.value));
+      return element("label", {}, element("span", {}, label), list);
+    };
+    const rebuild = (): void => void this.trying(() => this.build().then(() => this.refly(false)));
+    const choose = (key: string) => (name: string) => {
+      this.changes.set(key, name);
+      rebuild();
+    };
+    const vehicle = this.changes.get("vehicle");
+    const unchanged = [{ name: "", description: "the scenario's" }];
+    const seed = element("input", {
+      type: "number",
+      min: "0",
+      step: "1",
+      value: this.changes.get("seed") ?? String(schema.seed),
+    });
+    seed.addEventListener("change", () => {
+      this.changes.set("seed", String(Math.max(0, Math.round(Number(seed.value)))));
+      this.refly(false);
+    });
+    this.choices.replaceChildren(
+      select("Scenario", catalogue.scenarios, this.changes.scenario, (name) => {
+        this.changes.clear();
+        this.changes.scenario = name;
+        this.flown = undefined;
+        rebuild();
+      }),
+      ...(schema.surface === ""
+        ? []
+        : [select("Surface", catalogue.surfaces, schema.surface, choose("wall.surface"))]),
+      select("Vehicle", [...unchanged, ...catalogue.vehicles], vehicle ?? "", (name) => {
+        if (name === "") {
+          this.changes.drop("vehicle");
+          rebuild();
+        } else {
+          choose("vehicle")(name);
+        }
+      }),
+      element("label", {}, element("span", {}, "Seed"), seed),
+    );
+  }
+
+  private sectionOf(section: server.Section): HTMLElement {
+    const open = kFirst.slice(0, 1).includes(section.name);
+    return element(
+      "details",
+      { open },
+      element("summary", {}, section.name),
+      ...section.choices.map((choice) => this.choiceOf(choice)),
+      ...section.rows.map((row) => this.rowOf(row)),
+    );
+  }
+  private choiceOf(choice: server.Choice): HTMLElement {
+    const list = element(
+      "select",
+      {},
+      ...choice.names.map(({ name, description }) =>
+        element("option", { value: name, title: description }, name),
+      ),
+    );
+    list.value = this.changes.get(choice.key) ?? choice.chosen;
+    list.addEventListener("change", () =>
+      this.change(choice.key, list.value, choice.chosen, false),
+    );
+    const made = element("div", { className: "row" });
+    made.dataset.key = choice.key;
+    made.append(element("label", {}, element("span", {}, choice.key.split(".").pop() ?? ""), list));
+    return made;
+  }
+  private rowOf(row: server.Row): HTMLElement {
+    const name = row.key.split(".").pop() ?? row.key;
+    const made = element("div", { className: "row", title: `${row.what}\n[${row.source}]` });
+    made.dataset.key = row.key;
+    const now = this.changes.get(row.key);
+    if (row.kind === "switch") {
+      const box = element("input", {
+        type: "checkbox",
+        checked: now === undefined ? row.value === 1 : now === "true",
+      });
+      const ships = row.value === 1 ? "true" : "false";
+      box.addEventListener("change", () => this.change(row.key, String(box.checked), ships, false));
+      made.append(element("label", {}, box, element("span", {}, name)));
+    } else {
+      const value = now === undefined ? row.value : Number(now);
+      const [from, to] = slide(row.value, row.minimum, row.maximum);
+      const step = row.kind === "count" ? "1" : "any";
+      const slider = element("input", {
+        type: "range",
+        min: String(from),
+        max: String(to),
+        step,
+        value: String(value),
+        ariaLabel: `${row.key}, slider`,
+      });
+      const number = element("input", {
+        type: "number",
+        min: String(row.minimum),
+        max: String(row.maximum),
+        step,
+        value: String(value),
+      });
+      const ships = String(row.value);
+      const slid = (brief: boolean): void => {
+        const to_take = rounded(Number(slider.value), from, to);
+        number.value = String(to_take);
+        this.change(row.key, number.value, ships, brief);
+      };
+      slider.addEventListener("input", () => slid(true));
+      slider.addEventListener("change", () => slid(false));
+      number.addEventListener("change", () => {
+        slider.value = number.value;
+        this.change(row.key, number.value, ships, false);
+      });
+      made.append(
+        element("label", {}, element("span", {}, name), number, element("small", {}, row.unit)),
+        slider,
+        element("small", { className: "what" }, `${row.what} · ${row.minimum} to ${row.maximum}`),
+      );
+    }
+    return made;
+  }
+  private filter(): void {
+    const wanted = this.search.value.trim().toLowerCase();
+    for (const details of this.sections.querySelectorAll("details")) {
+      let any = false;
+      for (const row of details.querySelectorAll<HTMLElement>(".row")) {
+        const text = `${row.dataset.key} ${row.title}`.toLowerCase();
+        row.hidden = wanted !== "" && !text.includes(wanted);
+        any ||= !row.hidden;
+      }
+      details.hidden = !any;
+      if (wanted !== "") {
+        details.open = true;
+      }
+    }
+  }
+
+  private change(key: string, value: string, ships: string, brief: boolean): void {
+    if (value === ships) {
+      this.changes.drop(key);
+    } else {
+      this.changes.set(key, value);
+    }
+    this.refly(brief);
+  }
+  private reset(): void {
+    this.changes.clear();
+    void this.trying(() => this.build().then(() => this.refly(false)));
+  }
+  /** The changes, in the page's address and in a list. */
+  private told(): void {
+    history.replaceState(
+      null,
+      "",
+      `${location.pathname}${location.search}${this.changes.toHash()}`,
+    );
+    this.diff.replaceChildren(
+      ...this.changes.list().map((text) => {
+        const forget = element("button", { type: "button", title: `Forget ${text}` }, "×");
+        forget.addEventListener("click", () => {
+          this.changes.drop(text.slice(0, text.indexOf("=")));
+          void this.trying(() => this.build().then(() => this.refly(false)));
+        });
+        return element("li", {}, text, forget);
+      }),
+    );
+  }
+
+  /**
+   * The latest wish is flown when the last flight is there; what came between is not.
+   * @param brief  a slider is moving: what a picture needs
+   */
+  private refly(brief: boolean): void {
+    this.wanted = { brief, since: this.wanted?.since ?? performance.now() };
+    this.told();
+    if (!this.busy) {
+      void this.flyWanted();
+    }
+  }
+  private async flyWanted(): Promise<void> {
+    this.busy = true;
+    while (this.wanted !== undefined) {
+      const { brief, since } = this.wanted;
+      this.wanted = undefined;
+      await this.trying(async () => {
+        const bytes = await server.fly({ ...this.wish(), brief });
+        const recording = await readRecording(this.changes.scenario, bytes, kColumns);
+        this.host.refresh(this.flown === undefined ? [recording] : [recording, this.flown]);
+        if (!brief) {
+          this.flown = recording;
+        }
+        await new Promise((drawn) => requestAnimationFrame(drawn));
+        const delay = performance.now() - since;
+        this.delays.push(delay);
+        this.delays.splice(0, this.delays.length - 500);
+        this.status.textContent = `${recording.outcome} after ${recording.duration.toFixed(1)} s; re-flown in ${delay.toFixed(0)} ms`;
+      });
+    }
+    this.busy = false;
+  }
+
+  private async save(): Promise<void> {
+    await this.trying(async () => {
+      const text = await server.yaml(this.wish());
+      const link = document.createElement("a");
+      link.download = `${this.changes.scenario}_changed.yaml`;
+      link.href = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+      link.click();
+      URL.revokeObjectURL(link.href);
+    });
+  }
+  private async copy(): Promise<void> {
+    await this.trying(() => navigator.clipboard.writeText(this.changes.command()));
+    this.status.textContent = this.changes.command();
+  }
+  /** For those who look at the page from outside. */
+  state(): Record<string, unknown> {
+    return {
+      idle: !this.busy && this.wanted === undefined && this.flown !== undefined,
+      changes: this.changes.list(),
+      command: this.changes.command(),
+      delays: [...this.delays],
+    };
+  }
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// `limpet lab` in a real browser: LIMPET_PROGRAM is the program. LIMPET_PICTURES: a folder for what
+// it looked like.
+import assert from "node:assert/strict";
+import { type ChildProcess, spawn, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import { Changes, rounded, slide } from "../src/lab/changes";
+
+const program = process.env.LIMPET_PROGRAM ?? "";
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
+  existsSync(path),
+);
+const skip = program === "" ? "no LIMPET_PROGRAM" : chromium === undefined ? "no Chromium" : false;
+
+interface LabState {
+  idle: boolean;
+  changes: string[];
+  command: string;
+  delays: number[];
+}
+interface Shown {
+  limpet: { state(): { recordings: number; end: number; geometries: number; time: number } };
+  lab: { state(): LabState };
+}
+
+let served: ChildProcess;
+let address = "";
+let browser: Browser;
+let page: Page;
+const said: string[] = [];
+const folder = mkdtempSync(join(tmpdir(), "limpet_lab_test_"));
+
+before(async () => {
+  if (skip !== false) {
+    return;
+  }
+  served = spawn(program, ["lab", "perch_metal_valve"], { stdio: ["ignore", "pipe", "inherit"] });
+  address = await new Promise((found, failed) => {
+    let text = "";
+    served.once("exit", () => failed(new Error(`limpet lab ended: ${text}`)));
+    served.stdout?.on("data", (bytes: Buffer) => {
+      text += bytes.toString();
+      const here = /http:\S+/.exec(text);
+      if (here !== null) {
+        found(here[0]);
+      }
+    });
+  });
+  browser = await puppeteer.launch({
+    executablePath: chromium as string,
+    args: [
+      "--no-sandbox",
+      "--use-gl=angle",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+    ],
+  });
+  page = await browser.newPage();
+  page.setDefaultTimeout(120000);
+  page.on("console", (message) => {
+    if (!/GPU stall|swiftshader|WebGL|status of 400/i.test(message.text())) {
+      said.push(message.text());
+    }
+  });
+  page.on("pageerror", (problem) => said.push(String(problem)));
+  page.on("request", (request) => {
+    if (
+      !request.url().startsWith(new URL(address).origin) &&
+      !/^(data|blob):/.test(request.url())
+    ) {
+      said.push(`asks for ${request.url()}`);
+    }
+  });
+  await page.setViewport({ width: 1400, height: 860 });
+  await page.goto(address);
+  await idle();
+});
+after(async () => {
+  await browser?.close();
+  if (served !== undefined) {
+    const ended = new Promise((code) => served.once("exit", code));
+    served.kill("SIGINT");
+    assert.equal(await ended, 0);
+  }
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const idle = (): Promise<unknown> =>
+  page.waitForFunction(() => (window as unknown as Shown).lab?.state().idle === true);
+const lab = (): Promise<LabState> => page.evaluate(() => (window as unknown as Shown).lab.state());
+const shown = (): Promise<{ recordings: number; end: number; geometries: number; time: number }> =>
+  page.evaluate(() => (window as unknown as Shown).limpet.state());
+async function picture(name: string): Promise<void> {
+  if (process.env.LIMPET_PICTURES !== undefined) {
+    writeFileSync(join(process.env.LIMPET_PICTURES, name), await page.screenshot());
+  }
+}
+/** As a hand does it: some moves, then the release. */
+async function drag(key: string, values: number[]): Promise<void> {
+  for (const [k, value] of values.entries()) {
+    await page.evaluate(
+      (row, to, last) => {
+        const slider = document.querySelector<HTMLInputElement>(
+          `[data-key="${row}"] input[type=range]`,
+        ) as HTMLInputElement;
+        slider.value = String(to);
+        slider.dispatchEvent(new Event(last ? "change" : "input", { bubbles: true }));
+      },
+      key,
+      value,
+      k === values.length - 1,
+    );
+    await idle();
+  }
+}
+
+test("changes go into an address and a command, and back", () => {
+  const changes = new Changes();
+  changes.scenario = "hover";
+  changes.set("guidance.hold_s", "0.6");
+  changes.set("wall.surface", "metal");
+  assert.equal(
+    changes.command(),
+    "limpet fly hover --set wall.surface=metal --set guidance.hold_s=0.6",
+  );
+  assert.deepEqual(Changes.from(changes.toHash()).list(), changes.list());
+});
+
+test("a slider goes where it makes sense", () => {
+  assert.deepEqual(slide(1.1, 0.01, 3), [0.01, 3]);
+  assert.deepEqual(slide(0.5, 0.05, 100), [0.125, 2]);
+  assert.deepEqual(slide(0, -30, 30), [-10, 10]);
+  assert.equal(rounded(0.123456, 0, 2), 0.123);
+});
+
+test("what is dragged is flown, over the flight that stood", { skip }, async () => {
+  assert.equal((await shown()).recordings, 1);
+  const before = await shown();
+  await drag("guidance.rest_s", [5, 3]);
+  const now = await shown();
+  assert.equal(now.recordings, 2);
+  assert.ok(Math.abs(before.end - now.end - 4) < 0.3, `${before.end} then ${now.end}`);
+  assert.deepEqual((await lab()).changes, ["guidance.rest_s=3"]);
+  assert.match(page.url(), /set=guidance.rest_s%3D3/);
+  await picture("lab.png");
+});
+
+test("the address alone brings it back", { skip }, async () => {
+  const other = await browser.newPage();
+  await other.goto(page.url());
+  await other.waitForFunction(() => (window as unknown as Shown).lab?.state().idle === true);
+  const state = await other.evaluate(() => (window as unknown as Shown).lab.state());
+  assert.deepEqual(state.changes, ["guidance.rest_s=3"]);
+  await other.close();
+});
+
+test("the command it tells flies the same", { skip }, async () => {
+  const { command } = await lab();
+  const words = command.split(" ").slice(1);
+  const flown = spawnSync(program, [...words, "--no-record", "--json"], { encoding: "utf8" });
+  assert.equal(flown.status, 0, flown.stderr);
+  const { end } = await shown();
+  assert.ok(Math.abs(JSON.parse(flown.stdout).simulated_s - end) < 0.05);
+});
+
+test("what is saved is a scenario", { skip }, async () => {
+  const session = await page.createCDPSession();
+  await session.send("Page.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await page.evaluate(() => {
+    [...document.querySelectorAll("button")].find((b) => b.textContent === "Save YAML")?.click();
+  });
+  const file = join(folder, "perch_metal_valve_changed.yaml");
+  for (let waited = 0; waited < 100 && !existsSync(file); ++waited) {
+    await new Promise((passed) => setTimeout(passed, 50));
+  }
+  assert.match(readFileSync(file, "utf8"), /rest_s: 3/);
+  assert.equal(spawnSync(program, ["check", file]).status, 0);
+});
+
+test("what cannot be is said, and the last flight stays", { skip }, async () => {
+  await page.evaluate(() => {
+    const number = document.querySelector<HTMLInputElement>(
+      '[data-key="guidance.rest_s"] input[type=number]',
+    ) as HTMLInputElement;
+    number.value = "-1";
+    number.dispatchEvent(new Event("change", { bubbles: true }));
+  });
+  await idle();
+  const text = await page.$eval("#problem", (e) => e.textContent);
+  assert.match(text ?? "", /guidance.rest_s=-1: -1 is out of range, allowed 0..86400 s/);
+  assert.ok((await shown()).recordings > 0);
+  await drag("guidance.rest_s", [3]);
+  assert.equal(await page.$eval("#problem", (e) => (e as HTMLElement).hidden), true);
+});
+
+test("another surface, another scenario, found parameters", { skip }, async () => {
+  await page.select("#lab select", "hover");
+  await page.waitForFunction(
+    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
+  );
+  await idle();
+  await page.type("#lab input[type=search]", "gust");
+  const found = await page.$$eval(
+    "#lab .row",
+    (rows) => rows.filter((row) => (row as HTMLElement).offsetParent !== null).length,
+  );
+  assert.ok(found > 0 && found < 10, `${found} rows`);
+  await page.$eval("#lab input[type=search]", (input) => {
+    input.value = "";
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+});
+
+test("re-flown a hundred times, the memory is flat; how long a hand waits", { skip }, async () => {
+  await page.select("#lab select", "perch_concrete");
+  await page.waitForFunction(() =>
+    (window as unknown as Shown).lab.state().command.endsWith("perch_concrete"),
+  );
+  await idle();
+  const speeds = Array.from({ length: 100 }, (_, k) => 0.8 + 0.006 * k);
+  await drag("guidance.dock_speed_m_s", speeds.slice(0, 20));
+  const early = (await shown()).geometries;
+  const used = async (): Promise<number> => (await page.metrics()).JSHeapUsedSize ?? 0;
+  const heap = await used();
+  await drag("guidance.dock_speed_m_s", speeds.slice(20));
+  assert.equal((await shown()).geometries, early);
+  assert.ok((await used()) < heap + 60e6, `${heap} then ${await used()} bytes`);
+  const delays = (await lab()).delays.slice(-80).sort((a, b) => a - b);
+  console.log(
+    `      slider to picture: ${(delays[40] ?? 0).toFixed(0)} ms in the median, ${(delays[72] ?? 0).toFixed(0)} ms at 90 % (software renderer)`,
+  );
+});
+
+test("readable for everybody, also on a phone", { skip }, async () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  await page.evaluate(axe);
+  const wrong = await page.evaluate(async () => {
+    const found = await (
+      window as unknown as {
+        axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+      }
+    ).axe.run();
+    return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
+  });
+  assert.deepEqual(wrong, []);
+  await page.setViewport({ width: 400, height: 800 });
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(wide <= 400, `${wide} pixels wide`);
+  await picture("lab_phone.png");
+  assert.deepEqual(said, []);
+});
