@@ -165,7 +165,7 @@ test("the command it tells flies the same", { skip }, async () => {
   const flown = spawnSync(program, [...words, "--no-record", "--json"], { encoding: "utf8" });
   assert.equal(flown.status, 0, flown.stderr);
   const { end } = await shown();
-  assert.ok(Math.abs(JSON.parse(flown.stdout).simulated_s - end) < 0.05);
+  assert.ok(Math.abs(JSON.parse(flown.stdout).performance.simulated_s - end) < 0.05);
 });
 
 test("what is saved is a scenario", { skip }, async () => {
@@ -216,23 +216,23 @@ test("another surface, another scenario, found parameters", { skip }, async () =
   });
 });
 
-test("re-flown a hundred times, the memory is flat; how long a hand waits", { skip }, async () => {
+test("re-flown thirty times, the memory is flat; how long a hand waits", { skip }, async () => {
   await page.select("#lab select", "perch_concrete");
   await page.waitForFunction(() =>
     (window as unknown as Shown).lab.state().command.endsWith("perch_concrete"),
   );
   await idle();
-  const speeds = Array.from({ length: 100 }, (_, k) => 0.8 + 0.006 * k);
-  await drag("guidance.dock_speed_m_s", speeds.slice(0, 20));
+  const speeds = Array.from({ length: 30 }, (_, k) => 0.8 + 0.02 * k);
+  await drag("guidance.dock_speed_m_s", speeds.slice(0, 5));
   const early = (await shown()).geometries;
   const used = async (): Promise<number> => (await page.metrics()).JSHeapUsedSize ?? 0;
   const heap = await used();
-  await drag("guidance.dock_speed_m_s", speeds.slice(20));
+  await drag("guidance.dock_speed_m_s", speeds.slice(5));
   assert.equal((await shown()).geometries, early);
   assert.ok((await used()) < heap + 60e6, `${heap} then ${await used()} bytes`);
-  const delays = (await lab()).delays.slice(-80).sort((a, b) => a - b);
+  const delays = (await lab()).delays.slice(-25).sort((a, b) => a - b);
   console.log(
-    `      slider to picture: ${(delays[40] ?? 0).toFixed(0)} ms in the median, ${(delays[72] ?? 0).toFixed(0)} ms at 90 % (software renderer)`,
+    `      slider to picture: ${(delays[12] ?? 0).toFixed(0)} ms in the median, ${(delays[22] ?? 0).toFixed(0)} ms at 90 % (software renderer)`,
   );
 });
 
