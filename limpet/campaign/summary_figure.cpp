@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "limpet/campaign/summary.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
 #include "limpet/record/story.hpp"
+#include "limpet/scenario/sections.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -48,37 +48,37 @@ draw::ChartSeries fitted(const LogisticFit& fit, const draw::Range& range) {
     return curve;
 }
 
-/// How keys end that carry a unit, the longest first, and how people write it.
-constexpr std::pair<std::string_view, const char*> kUnits[] = {
-    {"_kg_m2", "kg m²"}, {"_N_m_rad", "N m/rad"},
-    {"_N_s_m", "N s/m"}, {"_m_s_s", "m/s²"},
-    {"_m_s2", "m/s²"},   {"_rad_s", "rad/s"},
-    {"_deg_s", "deg/s"}, {"_N_m", "N m"},
-    {"_m_s", "m/s"},     {"_deg", "deg"},
-    {"_rad", "rad"},     {"_Pa", "Pa"},
-    {"_hPa", "hPa"},     {"_mm", "mm"},
-    {"_Hz", "Hz"},       {"_ms", "ms"},
-    {"_kg", "kg"},       {"_Wh", "Wh"},
-    {"_N", "N"},         {"_m", "m"},
-    {"_s", "s"},         {"_V", "V"},
-    {"_A", "A"},         {"_W", "W"}};
+/// Of a key's row in the parameter tables; empty for what is no number there.
+std::string_view unit_of(std::string_view section, std::string_view name) {
+    scenario::Scenario defaults;
+    for (const scenario::Section& one : scenario_sections(defaults)) {
+        for (const BoundParameter& row : one.rows) {
+            if (one.name == section && row.name == name) {
+                return row.unit;
+            }
+        }
+    }
+    return {};
+}
 
 /// "impact speed  [m/s], pendulum" of pendulum.impact_speed_m_s.
 std::string label_of(std::string_view key) {
     const std::size_t dot = key.rfind('.');
     const std::string_view section = dot == key.npos ? "" : key.substr(0, dot);
     std::string_view name = dot == key.npos ? key : key.substr(dot + 1);
-    std::string unit;
-    for (const auto& [ending, written] : kUnits) {
-        if (unit.empty() && name.size() > ending.size() &&
-            name.substr(name.size() - ending.size()) == ending) {
-            name.remove_suffix(ending.size());
-            unit = fmt::format("  [{}]", written);
-        }
+    const std::string_view unit = unit_of(section, name);
+    std::string ending = "_";  // "m/s^2" is _m_s2 in a name
+    for (const char c : unit) {
+        ending += c == '/' || c == ' ' ? "_" : c == '^' ? "" : std::string(1, c);
+    }
+    if (ending.size() > 1 && name.size() > ending.size() &&
+        name.substr(name.size() - ending.size()) == ending) {
+        name.remove_suffix(ending.size());
     }
     std::string place(section);
     std::replace(place.begin(), place.end(), '.', ' ');
-    return record::words(name) + unit + (place.empty() ? "" : ", " + record::words(place));
+    return record::words(name) + (unit.empty() || unit == "-" ? "" : fmt::format("  [{}]", unit)) +
+           (place.empty() ? "" : ", " + record::words(place));
 }
 
 draw::ChartPanel success_against(const KeySummary& key) {

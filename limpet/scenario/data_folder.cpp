@@ -22,9 +22,9 @@ bool holds_data(const fs::path& folder) {
     return fs::is_regular_file(folder / "surfaces.yaml", ignored);
 }
 
-/// From bin/, lib/x86_64-linux-gnu/ or lib/python3/dist-packages/limpet/ to what they are in; build
-/// trees have a link there.
-constexpr int kFoldersUp = 5;
+/// From bin/, lib/ or lib/x86_64-linux-gnu/ to what they are in; build trees and the Python package
+/// have a link there.
+constexpr int kFoldersUp = 3;
 
 /// The program, or the library when this has been linked into one.
 fs::path file_of_this_code() {

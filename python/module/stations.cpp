@@ -23,8 +23,9 @@ public:
     Held(const Held&) = delete;
     Held& operator=(const Held&) = delete;
     ~Held() {
-        const py::gil_scoped_acquire gil;
-        object_ = py::object();
+        const PyGILState_STATE gil = PyGILState_Ensure();
+        object_.release().dec_ref();
+        PyGILState_Release(gil);
     }
     [[nodiscard]] std::size_t memory_size() const { return memory_size_; }
     template <class... Arguments>

@@ -138,8 +138,8 @@ TEST_F(Flown, SummaryForPeopleAndForPrograms) {
     EXPECT_THAT(bench_.files(),
                 testing::IsSupersetOf({"figures/summary.png", "figures/summary.svg"}));
     const std::string svg = text_of(bench_.folder() / "figures/summary.svg");
-    EXPECT_THAT(svg, HasSubstr("hover  [s], simulation"));
-    EXPECT_THAT(svg, testing::Not(HasSubstr("simulation.hover_s")));
+    EXPECT_THAT(svg, HasSubstr("start offset  [m], simulation"));
+    EXPECT_THAT(svg, testing::Not(HasSubstr("simulation.start_offset_m")));
     const auto json = nlohmann::json::parse(bench_.run({"summary", ".", "--json"}).out);
     EXPECT_EQ(json["success"]["successes"], 6);
     EXPECT_EQ(json["keys"][1]["groups"][0]["value"], "iris");

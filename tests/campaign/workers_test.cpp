@@ -188,7 +188,7 @@ TEST(Summary, CountsWhatTheRowsSay) {
     const auto files = draw_summary(summary, bench.folder());
     ASSERT_EQ(files.size(), 2U);
     EXPECT_GT(fs::file_size(files[0]), 10'000U);
-    EXPECT_THAT(text_of(files[1]), HasSubstr("guidance.dock_speed_m_s"));
+    EXPECT_THAT(text_of(files[1]), HasSubstr("dock speed  [m/s], guidance"));
 }
 
 }  // namespace

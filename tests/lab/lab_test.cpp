@@ -9,6 +9,7 @@
 
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/view.hpp"
 
