@@ -5,11 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <thread>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/suggestion.hpp"
 
 namespace limpet::app {
 namespace {
@@ -71,14 +74,42 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') {
         return;
     }
-    std::string names;
+    std::vector<std::string_view> names;
     for (const Verb& verb : verbs) {
         if (verb.name == argv[1]) {
             return;
         }
-        names += (names.empty() ? "" : ", ") + verb.name;
+        names.push_back(verb.name);
     }
-    throw InputError("\"" + std::string(argv[1]) + "\": no such verb; there are " + names);
+    const std::string_view near = scenario::nearest(argv[1], names);
+    throw InputError(fmt::format("{}: no such verb{}; there are {}", in_quotes(argv[1]),
+                                 near.empty() ? "" : fmt::format(", did you mean {}?", near),
+                                 fmt::join(names, ", ")));
+}
+
+/// `limpet help fly` is `limpet fly --help`.
+std::vector<char*> without_help_verb(int argc, char** argv) {
+    static char help[] = "--help";
+    std::vector<char*> words(argv, argv + argc);
+    if (argc >= 2 && std::string_view(argv[1]) == "help") {
+        words.erase(words.begin() + 1);
+        words.resize(std::min<std::size_t>(words.size(), 2));
+        words.push_back(help);
+    }
+    return words;
+}
+
+/// A vehicle's path counts from where the command is given, not from the scenario's file.
+std::string from_here(std::string text) {
+    constexpr std::string_view kVehicle = "vehicle=";
+    if (text.starts_with(kVehicle)) {
+        const std::string wanted = text.substr(kVehicle.size());
+        std::error_code ignored;
+        if (scenario::is_path(wanted) && std::filesystem::exists(wanted, ignored)) {
+            return std::string(kVehicle) + std::filesystem::absolute(wanted).string();
+        }
+    }
+    return text;
 }
 
 }  // namespace
@@ -122,8 +153,10 @@ OptionRule not_with(const char* other) {
 }
 
 Option overrides_option(std::vector<std::string>& overrides, const char* about) {
-    return {"--set KEY=VALUE", &overrides, about,
-            [](CLI::App&, CLI::Option& option) { option.expected(1)->take_all(); }};
+    return {"--set KEY=VALUE", &overrides, about, [](CLI::App&, CLI::Option& option) {
+                option.expected(1)->take_all();
+                option.transform(from_here, "");
+            }};
 }
 
 Option jobs_option(int& jobs) {
@@ -172,7 +205,9 @@ void only_with(const Given& given, bool used, std::initializer_list<const char*>
 
 ExitCode run(const Program& program, int argc, char** argv) {
     require_utf8(argc, argv);
-    require_verb(program.verbs, argc, argv);
+    std::vector<char*> words = without_help_verb(argc, argv);
+    const int count = static_cast<int>(words.size());
+    require_verb(program.verbs, count, words.data());
     CLI::App app{program.about, program.name};
     app.footer(program.footer);
     app.set_version_flag("--version", program.version);
@@ -191,7 +226,7 @@ ExitCode run(const Program& program, int argc, char** argv) {
         });
     }
     try {
-        app.parse(argc, argv);
+        app.parse(count, words.data());
     } catch (const CLI::Success& help) {
         (void)app.exit(help);
     } catch (const CLI::ParseError& error) {

@@ -25,15 +25,15 @@ void print_list(const std::string& kind) {
 }
 
 OptionList kind_option(std::string& kind) {
-    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces or vehicles",
-             one_of({"scenarios", "campaigns", "surfaces", "vehicles"})}};
+    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces, vehicles or companions",
+             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions"})}};
 }
 
 }  // namespace
 
 Verb list_verb() {
-    return verb<std::string>("list", "List scenarios, campaigns, surfaces or vehicles", kind_option,
-                             print_list);
+    return verb<std::string>("list", "List scenarios, campaigns, surfaces, vehicles or companions",
+                             kind_option, print_list);
 }
 
 }  // namespace limpet::app

@@ -45,6 +45,25 @@ TEST(Verbs, HelpEndsWithTheProgramsFooterUnlessAVerbHasItsOwn) {
     EXPECT_THAT(bench.run({"check", "--help"}).out, Not(HasSubstr("Start here:")));
 }
 
+TEST(Verbs, HelpIsAVerbToo) {
+    const Bench bench;
+    EXPECT_EQ(bench.run({"help"}).out, bench.run({"--help"}).out);
+    EXPECT_EQ(bench.run({"help", "fly"}).out, bench.run({"fly", "--help"}).out);
+    const Finished wrong = bench.run({"help", "flyy"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("\"flyy\": no such verb, did you mean fly?"));
+}
+
+TEST(Verbs, AVehiclesPathCountsFromWhereTheCommandIsGiven) {
+    const Bench bench;
+    std::filesystem::copy(std::filesystem::path(LIMPET_SOURCE_DIR) / "vehicles/perching_uav.yaml",
+                          bench.folder() / "mine.yaml");
+    const Finished own = bench.run({"fly", "hover", "--set", "vehicle=mine.yaml", "--no-record"});
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    const Finished none = bench.run({"fly", "hover", "--set", "vehicle=none.yaml", "--no-record"});
+    EXPECT_EQ(none.exit_code, 2);
+}
+
 TEST(Verbs, Version) {
     const Finished version = Bench{}.run({"--version"});
     EXPECT_EQ(version.exit_code, 0);

@@ -249,8 +249,8 @@ test("readable for everybody, also on a phone", { skip }, async () => {
   });
   assert.deepEqual(wrong, []);
   await page.setViewport({ width: 400, height: 800 });
-  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-  assert.ok(wide <= 400, `${wide} pixels wide`);
+  // once the charts have followed
+  await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
   await picture("lab_phone.png");
   assert.deepEqual(said, []);
 });

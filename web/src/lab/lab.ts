@@ -117,7 +117,7 @@ export class Lab {
         "select",
         {},
         ...names.map(({ name, description }) =>
-          element("option", { value: name, title: description }, name),
+          element("option", { value: name, title: description }, name || description),
         ),
       );
       list.value = chosen;
@@ -130,7 +130,7 @@ export class Lab {
       rebuild();
     };
     const vehicle = this.changes.get("vehicle");
-    const unchanged = [{ name: "", description: "the scenario's" }];
+    const unchanged = [{ name: "", description: "that of the scenario" }];
     const seed = element("input", {
       type: "number",
       min: "0",

@@ -63,11 +63,12 @@ export class Stage {
     this.scene.add(new HemisphereLight(0xffffff, 0x888888, 1.0));
   }
 
+  private readonly replaced: FlightView[] = [];
   setFlights(flights: FlightView[]): void {
     for (const flight of this.flights) {
       this.scene.remove(flight.root);
-      flight.dispose();
     }
+    this.replaced.push(...this.flights);
     this.flights = flights;
     this.scene.add(...flights.map((flight) => flight.root));
   }
@@ -158,6 +159,10 @@ export class Stage {
       this.camera.updateProjectionMatrix();
     }
     this.renderer.render(this.scene, this.camera);
+    // Not before the next are drawn: a shader without a material is compiled anew.
+    for (const flight of this.replaced.splice(0)) {
+      flight.dispose();
+    }
   }
   /** Where the vehicle is in the picture: x, y from -1 to 1, and whether it is in it. */
   vehicleInPicture(): { x: number; y: number; seen: boolean } {
