@@ -141,10 +141,10 @@ def draw(folder, curve, shares, flights):
     middle.set_xticks(range(len(shares)), list(shares))
     middle.set(xlim=(-0.5, len(shares) - 0.3), ylim=(0, 1.03), ylabel="attached, 95 % intervals",
                title=f"{FINAL} fresh walls each")
-    for name, rows in flights.items():
-        right.plot(rows[:, 0], rows[:, 1], label=f"{name}: towards the wall [m/s]")
-    right.set(xlabel="time [s]", ylabel="speed [m/s]", title="one wall, flown by both")
-    right.legend(loc="lower right")
+    for (name, rows), color in zip(flights.items(), ("C0", "C2")):
+        right.plot(rows[:, 0], rows[:, 1], color=color, label=name)
+    right.set(xlabel="time [s]", ylabel="speed towards the wall [m/s]", title="one wall, flown by both")
+    right.legend(loc="upper right")
     for axis in (left, middle, right):
         axis.grid(alpha=0.3)
     figure.savefig(folder / "learn_to_dock.png", dpi=130)

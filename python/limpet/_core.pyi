@@ -144,6 +144,8 @@ class Readings:
     def motion_capture_p_WB_m(self) -> Array: ...
 
 class Setpoint:
+    @property
+    def thrust(self) -> Optional[float]: ...
     armed: bool
     pump_on: bool
     valve_open: bool

@@ -8,12 +8,12 @@ installed; nothing here needs it).
 
 A vector of n environments: limpet.gym.make_vec("limpet/Dock-v0", n). The same seeds give the same
 numbers bit for bit, whatever n and the jobs. Observations are what the vehicle can know (estimate
-and sensors), but for the truth that rewards are made of."""
+and sensors); only rewards are made of the truth."""
 
 from __future__ import annotations
 
 import os
-from typing import Any, Mapping, Optional
+from typing import Any, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -62,31 +62,29 @@ ATTACHED = 3.0  # of the channel cup_phase
 
 
 class Task:
-    """What an environment asks; numbers are rows, one a flight."""
+    """What an environment asks. Observations and set-points are linear in channels and actions, so
+    that a whole vector of them is a few operations."""
 
     kind = "velocity"
-    channels: tuple[str, ...] = ()
+    seen: tuple[tuple[str, float, float], ...] = ()   # channel, its zero, scale
+    since_start: tuple[str, ...] = ()                  # of them, those whose zero is their first value
+    judged: tuple[str, ...] = ()                       # channels of the reward
+    acted: tuple[tuple[float, float], ...] = ()        # middle and span of the four set-points
+    acts_on: tuple[int, ...] = ()                      # which of them an action's numbers are
+    pump_on = True
     limit_s = 10.0
-    actions = 0
-    observations = 0
 
     def begin(self, rng: np.random.Generator) -> tuple[_core.Scenario, int, Optional[_core.Moment]]:
         """Scenario, run and where from of an episode."""
         raise NotImplementedError
 
-    def setpoints(self, actions: np.ndarray, seen: np.ndarray) -> np.ndarray:
-        """(n, 6) as Flights.step() takes them; actions are within -1..1."""
+    def judge(self, *judged: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(reward, over, success) of a step, from the judged channels after it."""
         raise NotImplementedError
 
-    def observe(self, seen: np.ndarray) -> np.ndarray:
-        raise NotImplementedError
 
-    def judge(self, seen: np.ndarray, before: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(reward, over, success) of the step that led from `before` to `seen`."""
-        raise NotImplementedError
-
-    def of(self, seen: np.ndarray, name: str) -> np.ndarray:
-        return seen[:, self.channels.index(name)]
+VACUUM = ("measured_cup_pressure_Pa", 101325.0, -1e-4)
+FORCE = ("measured_force_N", 0.0, 0.1)
 
 
 class Dock(Task):
@@ -94,17 +92,20 @@ class Dock(Task):
     that the cup seals and holds.
 
     action       forward 0..2 m/s, right and down -0.4..0.4 m/s of the heading, turn -0.5..0.5 rad/s
-    observation  LiDARs left, right [m], velocity forward, right, down [m/s], roll, pitch [rad],
-                 heading since the start [rad], force [10 N], cup's vacuum [100 hPa]
+    observation  LiDARs left, right [m]; estimated velocity forward, right, down [m/s], roll, pitch
+                 [rad], heading since the start [rad]; force [10 N], cup's vacuum [100 hPa]
     reward       -0.01 a step, +1 attached, -1 crashed; over with either, cut off after 8 s
     spread       start_yaw +-8 deg, start_offset +-0.15 m, lean +-3 deg, friction lognormal"""
 
-    channels = ("yaw_rad", "roll_rad", "pitch_rad", "velocity_north_m_s", "velocity_east_m_s",
-                "velocity_down_m_s", "lidar_left_m", "lidar_right_m", "measured_force_N",
-                "measured_cup_pressure_Pa", "cup_phase")
+    seen = (("lidar_left_m", 0.0, 1.0), ("lidar_right_m", 0.0, 1.0),
+            ("estimated_velocity_forward_m_s", 0.0, 1.0), ("estimated_velocity_right_m_s", 0.0, 1.0),
+            ("estimated_velocity_down_m_s", 0.0, 1.0), ("estimated_roll_rad", 0.0, 1.0),
+            ("estimated_pitch_rad", 0.0, 1.0), ("estimated_yaw_rad", 0.0, 1.0), FORCE, VACUUM)
+    since_start = ("estimated_yaw_rad",)
+    judged = ("cup_phase",)
+    acted = ((1.0, 1.0), (0.0, 0.4), (0.0, 0.4), (0.0, 0.1))  # the heading a fifth of a second ahead
+    acts_on = (0, 1, 2, 3)
     limit_s = 8.0
-    actions = 4
-    observations = 10
 
     def __init__(self, changes: Optional[Mapping[str, Any]] = None):
         self.scenario = load("perch_concrete", {
@@ -117,28 +118,9 @@ class Dock(Task):
                    "wall.lean_deg": round(float(rng.uniform(-3, 3)), 4)}
         return load(self.scenario, changes, seed=int(rng.integers(1, 2**31))), 0, None
 
-    def setpoints(self, actions: np.ndarray, seen: np.ndarray) -> np.ndarray:
-        yaw = self.of(seen, "yaw_rad")
-        forward, right = actions[:, 0] + 1.0, 0.4 * actions[:, 1]
-        turn = 0.5 * actions[:, 3] * 0.2  # heading a fifth of a second ahead
-        north = np.cos(yaw) * forward - np.sin(yaw) * right
-        east = np.sin(yaw) * forward + np.cos(yaw) * right
-        on, off = np.ones_like(yaw), np.zeros_like(yaw)
-        return np.stack([north, east, 0.4 * actions[:, 2], yaw + turn, on, off], axis=1)
-
-    def observe(self, seen: np.ndarray) -> np.ndarray:
-        yaw = self.of(seen, "yaw_rad")
-        north, east = self.of(seen, "velocity_north_m_s"), self.of(seen, "velocity_east_m_s")
-        return np.stack([
-            self.of(seen, "lidar_left_m"), self.of(seen, "lidar_right_m"),
-            np.cos(yaw) * north + np.sin(yaw) * east, np.cos(yaw) * east - np.sin(yaw) * north,
-            self.of(seen, "velocity_down_m_s"), self.of(seen, "roll_rad"), self.of(seen, "pitch_rad"),
-            yaw, 0.1 * self.of(seen, "measured_force_N"),
-            (101325.0 - self.of(seen, "measured_cup_pressure_Pa")) / 1e4], axis=1)
-
-    def judge(self, seen: np.ndarray, before: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        attached = self.of(seen, "cup_phase") == ATTACHED
-        return -0.01 + 1.0 * attached, attached, attached.copy()
+    def judge(self, *judged: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        attached = judged[0] == ATTACHED
+        return attached - 0.01, attached, attached.copy()
 
 
 class Swing(Task):
@@ -146,43 +128,34 @@ class Swing(Task):
     The motors are slow, so that the autopilot's own ways swing (scenario slow_motors_metal).
 
     action       pitch -12..12 deg, thrust +-0.2 about that which carries the weight
-    observation  pitch [0.1 rad], pitch rate [rad/s], slider force [10 N], vacuum [100 hPa]
+    observation  estimated pitch [0.1 rad] and pitch rate [rad/s], slider force [10 N], vacuum [100 hPa]
     reward       -(pitch / 0.1 rad)^2 dt, -5 for more than 20 deg; over then, or when let go"""
 
     kind = "attitude"
-    channels = ("pitch_rad", "rate_pitch_rad_s", "measured_force_N", "measured_cup_pressure_Pa",
-                "cup_phase", "yaw_rad")
+    seen = (("estimated_pitch_rad", 0.0, 10.0), ("estimated_rate_pitch_rad_s", 0.0, 1.0), FORCE, VACUUM)
+    judged = ("pitch_rad", "cup_phase")
+    acts_on = (1, 3)
+    pump_on = False
     limit_s = 20.0
-    actions = 2
-    observations = 4
 
     def __init__(self, scenario: str = "slow_motors_metal"):
         self.scenario = load(scenario)
         flight = _core.Flight(self.scenario)
         while flight.tick() and not any(event.name == "pump_off" for event in flight.events):
             pass
-        if flight.ended:
+        hover = flight.setpoint.thrust  # what guidance asks for there
+        if flight.ended or hover is None:
             raise _core.InputError(f"{self.scenario.name}: comes to no release to wait for")
         self.moment = flight.save()
-        self.hover_thrust = 0.657
+        self.acted = ((0.0, 0.0), (0.0, float(np.radians(12.0))), (0.0, 0.0), (hover, 0.2))
 
     def begin(self, rng: np.random.Generator) -> tuple[_core.Scenario, int, Optional[_core.Moment]]:
         return load(self.scenario, seed=int(rng.integers(1, 2**31))), 0, self.moment
 
-    def setpoints(self, actions: np.ndarray, seen: np.ndarray) -> np.ndarray:
-        zero = np.zeros(len(actions))
-        return np.stack([zero, np.radians(12.0) * actions[:, 0], self.of(seen, "yaw_rad"),
-                         self.hover_thrust + 0.2 * actions[:, 1], zero, zero], axis=1)
-
-    def observe(self, seen: np.ndarray) -> np.ndarray:
-        return np.stack([10.0 * self.of(seen, "pitch_rad"), self.of(seen, "rate_pitch_rad_s"),
-                         0.1 * self.of(seen, "measured_force_N"),
-                         (101325.0 - self.of(seen, "measured_cup_pressure_Pa")) / 1e4], axis=1)
-
-    def judge(self, seen: np.ndarray, before: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        pitch = self.of(seen, "pitch_rad")
+    def judge(self, *judged: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        pitch, phase = judged
         lost = np.abs(pitch) > np.radians(20.0)
-        free = self.of(seen, "cup_phase") == 0.0
+        free = phase == 0.0
         return (-(pitch / 0.1) ** 2 * (TICKS * 1e-3) - 5.0 * lost, lost | free, free & ~lost)
 
 
@@ -195,52 +168,73 @@ class VectorFlights(_VectorEnv):
 
     def __init__(self, task: Task, num_envs: int, jobs: Optional[int] = None):
         self.task, self.num_envs = task, num_envs
-        self.single_observation_space = Box(np.full(task.observations, -np.inf, np.float32),
-                                            np.full(task.observations, np.inf, np.float32), dtype=np.float32)
-        self.single_action_space = Box(-np.ones(task.actions, np.float32),
-                                       np.ones(task.actions, np.float32), dtype=np.float32)
+        observed, acted = len(task.seen), len(task.acts_on)
+        self.single_observation_space = Box(np.full(observed, -np.inf, np.float32),
+                                            np.full(observed, np.inf, np.float32), dtype=np.float32)
+        self.single_action_space = Box(-np.ones(acted, np.float32), np.ones(acted, np.float32),
+                                       dtype=np.float32)
         wide = (num_envs, 1)
         self.observation_space = Box(np.tile(self.single_observation_space.low, wide),
                                      np.tile(self.single_observation_space.high, wide), dtype=np.float32)
         self.action_space = Box(np.tile(self.single_action_space.low, wide),
                                 np.tile(self.single_action_space.high, wide), dtype=np.float32)
-        self.flights = _core.Flights(num_envs, jobs or os.cpu_count() or 1, list(task.channels))
+        names = [name for name, _, _ in task.seen]
+        self.flights = _core.Flights(num_envs, jobs or os.cpu_count() or 1, [*names, *task.judged])
+        self._zero = np.tile([zero for _, zero, _ in task.seen], wide)
+        self._scale = np.array([scale for _, _, scale in task.seen])
+        self._since_start = np.array([name in task.since_start for name in names])
+        columns = list(task.acts_on)
+        self._acts_on = slice(columns[0], columns[-1] + 1, columns[1] - columns[0] if acted > 1 else 1)
+        self._middle, self._span = np.array([task.acted[k] for k in columns]).T
+        self._told = np.tile([*(middle for middle, _ in task.acted), float(task.pump_on), 0.0], wide)
+        self._seen = np.zeros((num_envs, observed + len(task.judged)))
         self.steps = np.zeros(num_envs, int)
-        self.seen = np.zeros((num_envs, len(task.channels)))
         self.random: list[np.random.Generator] = []
+
+    def setpoints(self, actions: Any) -> np.ndarray:
+        """(n, 6) as Flights.step() takes them, the same array each time."""
+        wanted = np.minimum(np.maximum(np.asarray(actions, float).reshape(self.num_envs, -1), -1.0), 1.0)
+        self._told[:, self._acts_on] = wanted * self._span + self._middle
+        return self._told
+
+    def _observation(self) -> np.ndarray:
+        return ((self._seen[:, :len(self._scale)] - self._zero) * self._scale).astype(np.float32)
 
     def _begin(self, which: np.ndarray) -> None:
         for i in np.flatnonzero(which):
             scenario, run, start = self.task.begin(self.random[i])
             self.flights.start(int(i), scenario, run, start)
             self.steps[i] = 0
-        self.seen = self.flights.observe()
+        self._seen = self.flights.observe()
+        begun = np.outer(which, self._since_start)
+        self._zero[begun] = self._seen[:, :len(self._scale)][begun]
 
     def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict]:
         if seed is not None or not self.random:
             self.random = [np.random.default_rng([seed or 0, i] if seed is not None else None)
                            for i in range(self.num_envs)]
         self._begin(np.ones(self.num_envs, bool))
-        return self.task.observe(self.seen).astype(np.float32), {}
+        return self._observation(), {}
 
     def step(self, actions: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict]:
-        wanted = np.clip(np.asarray(actions, float).reshape(self.num_envs, -1), -1.0, 1.0)
-        before = self.seen
-        self.flights.step(self.task.kind, self.task.setpoints(wanted, before), TICKS)
-        self.seen = self.flights.observe()
-        reward, over, success = self.task.judge(self.seen, before)
+        self.flights.step(self.task.kind, self.setpoints(actions), TICKS)
+        self._seen = self.flights.observe()
+        reward, over, success = self.task.judge(*self._seen[:, len(self._scale):].T)
         self.steps += 1
         ended = self.flights.ended
-        for i in np.flatnonzero(ended):
-            if self.flights.outcome(int(i)) == "crashed":
-                reward[i], success[i] = -1.0, False
+        if ended.any():
+            for i in np.flatnonzero(ended):
+                if self.flights.outcome(int(i)) == "crashed":
+                    reward[i], success[i] = -1.0, False
         terminated = over | ended
         truncated = ~terminated & (self.steps * TICKS * 1e-3 >= self.task.limit_s)
         info: dict[str, Any] = {"success": success}
-        if np.any(terminated | truncated):
-            info["final_obs"] = self.task.observe(self.seen).astype(np.float32)
-            self._begin(terminated | truncated)
-        return (self.task.observe(self.seen).astype(np.float32), reward, terminated, truncated, info)
+        observation, done = self._observation(), terminated | truncated
+        if done.any():
+            info["final_obs"] = observation
+            self._begin(done)
+            observation = self._observation()
+        return observation, reward, terminated, truncated, info
 
     def close(self, **_: Any) -> None:
         pass

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "channels.hpp"
 
+#include <cmath>
+
 namespace limpet::python {
 namespace {
 
@@ -12,6 +14,16 @@ const Kinematics& base(const Flight& flight) {
 }
 Euler euler(const Flight& flight) {
     return euler_from_quaternion(base(flight).q_WF);
+}
+Euler estimated(const Flight& flight) {
+    return euler_from_quaternion(flight.estimate().q_WB);
+}
+/// Believed velocity along the believed heading and right of it.
+double along(const Flight& flight, double forward, double right) {
+    const Vector3& v_W = flight.estimate().v_WB_m_s;
+    const double yaw = estimated(flight).yaw_rad;
+    return forward * (std::cos(yaw) * v_W.x() + std::sin(yaw) * v_W.y()) +
+           right * (std::cos(yaw) * v_W.y() - std::sin(yaw) * v_W.x());
 }
 double yes(bool is) {
     return is ? 1.0 : 0.0;
@@ -54,6 +66,14 @@ const std::vector<Channel>& channel_table() {
          [](F f) { return f.estimate().p_WB_m.x(); }},
         {"estimated_east_m", "", [](F f) { return f.estimate().p_WB_m.y(); }},
         {"estimated_down_m", "", [](F f) { return f.estimate().p_WB_m.z(); }},
+        {"estimated_velocity_forward_m_s", "along the estimated heading",
+         [](F f) { return along(f, 1.0, 0.0); }},
+        {"estimated_velocity_right_m_s", "right of it", [](F f) { return along(f, 0.0, 1.0); }},
+        {"estimated_velocity_down_m_s", "", [](F f) { return f.estimate().v_WB_m_s.z(); }},
+        {"estimated_roll_rad", "", [](F f) { return estimated(f).roll_rad; }},
+        {"estimated_pitch_rad", "", [](F f) { return estimated(f).pitch_rad; }},
+        {"estimated_yaw_rad", "", [](F f) { return estimated(f).yaw_rad; }},
+        {"estimated_rate_pitch_rad_s", "in B", [](F f) { return f.estimate().w_WB_B_rad_s.y(); }},
         {"measured_force_N", "of the force sensor",
          [](F f) { return f.readings().force.value.axial_N; }},
         {"measured_cup_pressure_Pa", "of the pressure sensor",

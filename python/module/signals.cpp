@@ -185,6 +185,13 @@ void add_setpoints(py::module_& module) {
             },
             py::arg("armed") = false, py::arg("pump_on") = false, py::arg("valve_open") = false,
             "Motors off, or armed at their idle speed.")
+        .def_property_readonly(
+            "thrust",
+            [](const Setpoint& s) -> std::optional<double> {
+                const auto* attitude = std::get_if<AttitudeSetpoint>(&s.motion);
+                return attitude == nullptr ? std::nullopt : std::optional(attitude->thrust);
+            },
+            "collective, 0..1, of a set-point for the attitude, else None")
         .def_readwrite("armed", &Setpoint::armed)
         .def_readwrite("pump_on", &Setpoint::pump_on)
         .def_readwrite("valve_open", &Setpoint::valve_open)

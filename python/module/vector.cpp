@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -56,8 +57,10 @@ public:
         seat.guidance->said = seat.flight->setpoint();
     }
 
-    /// @param kind     "velocity": north, east, down [m/s], yaw [rad]; "attitude": roll, pitch, yaw
-    ///                 [rad], thrust 0..1
+    /// @param kind     "velocity": forward, right (of the estimated heading), down [m/s], turn
+    /// [rad];
+    ///                 "attitude": roll, pitch, turn [rad], thrust 0..1; turns are from the
+    ///                 estimated heading
     /// @param numbers  a row a flight: those four, then pump and valve, > 0.5 is on
     void step(const std::string& kind,
               const py::array_t<double, py::array::c_style | py::array::forcecast>& numbers,
@@ -112,15 +115,19 @@ private:
         std::optional<Flight> flight;
 
         void tell(const double* row, bool velocity) {
-            if (guidance == nullptr) {
+            if (!flight) {
                 return;
             }
             Setpoint& said = guidance->said;
+            const double yaw = euler_from_quaternion(flight->estimate().q_WB).yaw_rad;
             if (velocity) {
-                said.motion = VelocitySetpoint{Vector3(row), row[3], Vector3::Zero()};
+                const double cos = std::cos(yaw), sin = std::sin(yaw);
+                const Vector3 v_W(cos * row[0] - sin * row[1], sin * row[0] + cos * row[1], row[2]);
+                said.motion = VelocitySetpoint{v_W, yaw + row[3], Vector3::Zero()};
             } else {
-                said.motion = AttitudeSetpoint{quaternion_from_euler({row[0], row[1], row[2]}),
-                                               std::clamp(row[3], 0.0, 1.0)};
+                said.motion =
+                    AttitudeSetpoint{quaternion_from_euler({row[0], row[1], yaw + row[2]}),
+                                     std::clamp(row[3], 0.0, 1.0)};
             }
             said.armed = true;
             said.pump_on = row[4] > 0.5;
@@ -173,9 +180,9 @@ void add_vector(py::module_& module) {
         .def("start", &Flights::start, py::arg("place"), py::arg("scenario"), py::arg("run") = 0,
              py::arg("start") = nullptr, "Another flight at this place.")
         .def("step", &Flights::step, py::arg("kind"), py::arg("setpoints"), py::arg("ticks"),
-             "Set-points (flights, 6), kind \"velocity\": north, east, down [m/s], yaw [rad]; "
-             "\"attitude\": roll, pitch, yaw [rad], thrust 0..1; then pump and valve, 0 or 1. Each "
-             "flight then goes on for so many milliseconds.")
+             "Set-points (flights, 6), kind \"velocity\": forward, right of the estimated heading, "
+             "down [m/s], turn from it [rad]; \"attitude\": roll, pitch, turn [rad], thrust 0..1; "
+             "then pump and valve, 0 or 1. Each flight then goes on for so many milliseconds.")
         .def("observe", &Flights::observe, "(flights, channels)")
         .def_property_readonly("ended", &Flights::ended)
         .def("outcome", &Flights::outcome, py::arg("place"), "empty: it flies");

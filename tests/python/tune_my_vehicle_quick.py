@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The example's race finds settings that are worth more than the guidance's own, on missions that none
+of them has flown; what it writes flies."""
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, sys.argv[1] + "/examples/python")
+import limpet
+import tune_my_vehicle as example
+
+out = Path(tempfile.mkdtemp())
+sys.argv = ["tune_my_vehicle.py", "--candidates", "9", "--missions", "8", "--final", "40", "--jobs", "2", "--out", str(out)]
+example.main()
+assert (out / "tune_my_vehicle.png").stat().st_size > 20000
+tuned = limpet.load(out / "tuned.yaml")
+assert "mass_kg: 3.9" in tuned.yaml, "the vehicle is not that which was tuned"
+assert limpet.fly(tuned).outcome == "released"
+fixed = {**example.MINE, "guidance.attempts": 1}
+race = example.race(fixed, [{"guidance.dock_speed_m_s": 0.4}, {"guidance.dock_speed_m_s": 1.2}, {}], 12, 2)
+assert race[0] != {"guidance.dock_speed_m_s": 0.4} and len(race[1]) == 3, "the slowest has won"
+assert all(np.isfinite(score) for _, _, score in race[1])
