@@ -62,10 +62,16 @@ void fly_parts(const ReproduceOptions& options) {
                                       report::to_text(claim.simulated), claim.unit));
         }
     }
-    terminal.line("claims", fmt::format("{} reproduced, {} differ, {} not modelled",
-                                        result.count(report::Verdict::reproduced),
-                                        result.count(report::Verdict::differs),
-                                        result.count(report::Verdict::not_modelled)));
+    const auto count = [&](const char* name) {
+        return result.counts.get(std::string("statements.") + name);
+    };
+    terminal.line("measured", fmt::format("{} claims reproduced, {} differ", count("measured"),
+                                          count("measured_differs")));
+    terminal.line("else", fmt::format("as set {}, recovered {}, fitted {}, by construction {}; {} "
+                                      "of those differ; {} not modelled",
+                                      count("as_set"), count("recovered"), count("fitted"),
+                                      count("by_construction"), count("others_differ"),
+                                      count("not_modelled")));
     terminal.written(result.files);
 }
 

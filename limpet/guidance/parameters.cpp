@@ -57,7 +57,7 @@ const ParameterTable<PerchingParameters>& perching_table() {
         {"land_pressure_Pa", "Pa", 1000.0, 101325.0, &P::land_pressure_Pa,
          "below it the vehicle may land on the wall, P_land", "paper, section IV"},
         {"perched_pitch_deg", "deg", 5.0, 90.0, &P::perched_pitch_deg,
-         "pitch at which the legs stand on the wall", "baseline.md"},
+         "pitch at which the legs stand on the wall", "of the vehicle's legs and cup"},
         {"pitch_over_travel_deg", "deg", -10.0, 20.0, &P::pitch_over_travel_deg,
          "asked beyond it, so that the legs press", "baseline.md"},
         {"land_pitch_s", "s", 0.1, 60.0, &P::land_pitch_s, "duration of the pitch-up",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpet/paper/evidence.hpp"
@@ -10,11 +12,16 @@
 
 namespace limpet::paper {
 
+/// How a value came about. "as set": read from the configuration; "recovered": measured, from what
+/// was set so; "fitted": a free number was chosen so; "by construction": it cannot come out
+/// otherwise; "measured": none of these.
+inline constexpr std::array<std::string_view, 5> kBases = {"as set", "recovered", "fitted",
+                                                           "by construction", "measured"};
+
 /// A statement of the paper and what would bear it out. The verdict is not in it: judge() finds it.
 struct PaperStatement {
-    /// What the paper says, the bounds' reasons, where to see it; its basis is "as set" (read from
-    /// the configuration), "recovered" (measured, from what was set), "by the method" (its own
-    /// limits and orders), "measured", or empty when not modelled.
+    /// What the paper says, the bounds' reasons, where to see it; its basis is one of kBases, or
+    /// empty when not modelled.
     report::Claim claim = {};
     std::string evidence = {};  ///< name in Evidence; empty: the simulation has no such thing
     draw::Range accepted = {};  ///< of the evidence, ends included

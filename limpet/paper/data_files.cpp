@@ -69,12 +69,23 @@ std::string one_of(const scenario::YamlNode& node, const std::vector<std::string
     return text;
 }
 
+std::vector<std::string> texts(const scenario::YamlNode& list) {
+    if (list.kind != scenario::YamlNode::Kind::list) {
+        fail(list, "must be a list");
+    }
+    std::vector<std::string> read;
+    for (const scenario::YamlNode& item : list.children) {
+        read.push_back(read_text(item));
+    }
+    return read;
+}
+
 /// The keys that say what bears a statement out, or none of them.
 void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_view>& measured,
                    PaperStatement& statement) {
     const scenario::YamlNode* evidence = map.find("evidence");
     if (evidence == nullptr) {
-        for (const char* key : {"unit", "accepted", "at_least", "basis"}) {
+        for (const char* key : {"unit", "accepted", "at_least", "basis", "assumes", "same_as"}) {
             if (const scenario::YamlNode* node = map.find(key)) {
                 fail(*node, "stands without evidence");
             }
@@ -83,8 +94,17 @@ void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_
         return;
     }
     statement.evidence = one_of(*evidence, measured, "is measured by no part");
-    statement.claim.basis = one_of(
-        wanted(map, "basis"), {"as set", "recovered", "by the method", "measured"}, "is no basis");
+    statement.claim.basis =
+        one_of(wanted(map, "basis"), {kBases.begin(), kBases.end()}, "is no basis");
+    const bool rests = statement.claim.basis == "fitted" || statement.claim.basis == "measured";
+    if (const scenario::YamlNode* assumes = map.find("assumes")) {
+        if (!rests) {
+            fail(*assumes, "stands with what is neither fitted nor measured");
+        }
+        statement.claim.assumes = texts(*assumes);
+    } else if (rests) {
+        (void)wanted(map, "assumes");
+    }
     const scenario::YamlNode* least = map.find("at_least");
     if (least != nullptr && map.find("accepted") != nullptr) {
         fail(*least, "stands beside accepted, one of the two");
@@ -106,17 +126,6 @@ std::string paragraph(const scenario::YamlNode& node, const std::vector<std::str
         fail(node, fmt::format("has a format that is none: {}", error.what()));
     }
     return text;
-}
-
-std::vector<std::string> texts(const scenario::YamlNode& list) {
-    if (list.kind != scenario::YamlNode::Kind::list) {
-        fail(list, "must be a list");
-    }
-    std::vector<std::string> read;
-    for (const scenario::YamlNode& item : list.children) {
-        read.push_back(read_text(item));
-    }
-    return read;
 }
 
 report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& part) {
@@ -143,6 +152,28 @@ report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& pa
                               .wide = wide != nullptr && read_flag(*wide)};
 }
 
+/// Two statements of one evidence say the same, unless one of them says of which it is the same.
+void check_same(const scenario::YamlNode& root, const std::vector<PaperStatement>& statements) {
+    for (std::size_t i = 0; i < statements.size(); ++i) {
+        const PaperStatement& one = statements[i];
+        const scenario::YamlNode& map = root.children[i];
+        const auto named = [&](const PaperStatement& other) {
+            return other.claim.id == one.claim.same_as;
+        };
+        if (!one.claim.same_as.empty() &&
+            std::none_of(statements.begin(), statements.end(), named)) {
+            fail(*map.find("same_as"), "names no statement");
+        }
+        for (std::size_t k = 0; k < i && !one.evidence.empty(); ++k) {
+            if (statements[k].evidence == one.evidence &&
+                one.claim.same_as != statements[k].claim.id) {
+                fail(map, fmt::format("has the evidence of {}: same_as is missing",
+                                      statements[k].claim.id));
+            }
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
@@ -158,7 +189,7 @@ std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
             fail(map, "is empty");
         }
         check_keys(map, {"section", "says", "paper", "unit", "evidence", "accepted", "at_least",
-                         "basis", "note", "figure", "flight"});
+                         "basis", "assumes", "same_as", "note", "figure", "flight"});
         PaperStatement& statement = statements.emplace_back();
         const std::string unit = text_or_nothing(map, "unit"),
                           flight = text_or_nothing(map, "flight");
@@ -169,11 +200,13 @@ std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
             .statement = read_text(wanted(map, "says")),
             .paper = quantity(wanted(map, "paper")),
             .unit = statement.yes_no ? "" : unit,
+            .same_as = text_or_nothing(map, "same_as"),
             .note = text_or_nothing(map, "note"),
             .figure = text_or_nothing(map, "figure"),
             .recording = flight.empty() ? "" : fmt::format("flights/{}/flight.mcap", flight)};
         read_evidence(map, names, statement);
     }
+    check_same(root, statements);
     return statements;
 }
 

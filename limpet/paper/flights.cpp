@@ -45,6 +45,17 @@ struct Samples {
     }
 };
 
+/// Pearson's; NaN for fewer than two pairs.
+double correlation(const Samples& a, const Samples& b) {
+    const std::size_t n = std::min(a.values.size(), b.values.size());
+    double aa = 0.0, bb = 0.0, ab = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double da = a.values[i] - a.mean(), db = b.values[i] - b.mean();
+        aa += da * da, bb += db * db, ab += da * db;
+    }
+    return n < 2 ? kNaN : ab / std::sqrt(aa * bb);
+}
+
 /// An event; its time and numbers are NaN when it did not come to pass.
 class Instant {
 public:
@@ -139,6 +150,9 @@ public:
         set("landing_pitch_rise_deg", end["pitch_deg"] - start["pitch_deg"]);
         set("landing_force_rise_N", end["force_N"] - start["force_N"]);
         set("landing_s", end.time_s() - start.time_s());
+        set("landing_force_lift_correlation",
+            correlation(within(kTruth, "slider_force_N", start.time_s(), end.time_s()),
+                        within(kTruth, "thrust_N", start.time_s(), end.time_s())));
         set("thrust_when_perched_N",
             within(kTruth, "thrust_N", start.time_s(), end.time_s()).last());
     }
@@ -169,6 +183,26 @@ public:
         const Instant end = released.came() ? released : first("aborted", off.time_s());
         set("waited_s", end.time_s() - off.time_s());
         set("back_at_m", last("backed_off")["distance_m"]);
+    }
+
+    /// From pump off until nine tenths of the vacuum are gone, by the true pressure.
+    void regain() {
+        const Instant off = last("pump_off");
+        const record::Table* cup = find_table(recording_, "/cup");
+        const record::Column* pressure = cup == nullptr ? nullptr : cup->find("pressure_Pa");
+        double begin_Pa = kNaN, regained_s = kNaN;
+        for (std::size_t i = 0; pressure != nullptr && i < pressure->values.size(); ++i) {
+            if (!(cup->time_s[i] >= off.time_s())) {
+                continue;
+            }
+            const double now_Pa = pressure->values[i];
+            begin_Pa = std::isnan(begin_Pa) ? now_Pa : begin_Pa;
+            if (kAtmosphere_Pa - now_Pa <= 0.1 * (kAtmosphere_Pa - begin_Pa)) {
+                regained_s = cup->time_s[i] - off.time_s();
+                break;
+            }
+        }
+        set("pressure_regained_s", regained_s);
     }
 
     void first_failure() {
@@ -245,7 +279,10 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
     take.landing();
     take.rest();
     take.take_off();
+    take.regain();
     take.first_failure();
+    take.set("rested", take.first("motors_off").came() ? 1.0 : 0.0);
+    take.set("approached", take.first("approach_started").came() ? 1.0 : 0.0);
 }
 
 }  // namespace limpet::paper

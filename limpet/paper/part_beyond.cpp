@@ -29,6 +29,12 @@ void study_releases(Study& study) {
                        times.back().without_valve_s / times.back().with_valve_s);
 }
 
+void study_spread(Study& study) {
+    study.say("spread of release times");
+    study.evidence.set("release.valve_spread_ratio",
+                       valve_spread_ratio(study.quick ? 3 : 15, study.jobs));
+}
+
 void study_energy(Study& study) {
     study.say("energy");
     draw::ChartPanel panel{.y_label = "energy for an hour  [Wh]",
@@ -47,6 +53,7 @@ void study_energy(Study& study) {
 
 void study_beyond(Study& study) {
     study_releases(study);
+    study_spread(study);
     study_energy(study);
     TableRows rows;
     for (const BreakOff& load : break_off_loads()) {
@@ -62,7 +69,7 @@ StudyPart beyond_part() {
     return {"beyond",
             "Beyond the paper",
             study_beyond,
-            {"release.valve_gain_metal", "energy.perched_share"},
+            {"release.valve_gain_metal", "release.valve_spread_ratio", "energy.perched_share"},
             {"fig-valve", "release-table", "fig-energy", "energy-table", "break-off-table"}};
 }
 

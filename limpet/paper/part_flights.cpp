@@ -13,6 +13,7 @@
 #include "limpet/record/story.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
+#include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -26,6 +27,16 @@ const std::vector<FlightOrder>& orders() {
         {.name = "failed_perch_stiff_slider",
          .scenario = "failed_perch",
          .overrides = {"vehicle.slider.stiffness_N_m=20000", "guidance.attempts=1"}},
+        {.name = "perch_cad",
+         .scenario = "perch_concrete",
+         .overrides = {"vehicle=" +
+                       (scenario::data_root() / "vehicles" / "cad_uav" / "cad_uav.yaml").string()}},
+        {.name = "perch_near",
+         .scenario = "perch_concrete",
+         .overrides = {"guidance.pre_distance_m=1.2"}},
+        {.name = "perch_low_wall",
+         .scenario = "perch_concrete",
+         .overrides = {"wall.height_m=0.8", "guidance.attempts=1"}},
     };
     return all;
 }
@@ -63,6 +74,12 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                           evidence.get("vehicle.pitch_on_legs_deg")));
     evidence.set("slider.contact_ratio", evidence.get("failed_perch.contact_s") /
                                              evidence.get("failed_perch_stiff_slider.contact_s"));
+    evidence.set("perch_near.approach_ratio", evidence.get("perch_near.spike_after_s") /
+                                                  evidence.get("perch_concrete.spike_after_s"));
+    evidence.set("perch_low_wall.was_needed", evidence.get("perch_low_wall.approached") > 0.5 &&
+                                                      evidence.get("perch_low_wall.rested") < 0.5
+                                                  ? 1.0
+                                                  : 0.0);
     const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
     const record::RecordedEvent* approach = first_event(concrete, "approach_started");
     const auto chapter = perching(concrete);

@@ -252,8 +252,9 @@ void study_missions(Study& study) {
     panel.series = {medians};
     study.draw("fig-swing", {.panels = {panel}, .column_px = 1000.0});
     study.table("swing-missions", rows);
-    study.evidence.set("swing.concrete_ratio", of(cases, "concrete").median_swing_deg() /
-                                                   of(cases, "gazebo_concrete").median_swing_deg());
+    study.evidence.set(
+        "swing.concrete_more_deg",
+        of(cases, "concrete").median_swing_deg() - of(cases, "gazebo_concrete").median_swing_deg());
     study.evidence.set("swing.metal_over_concrete",
                        of(cases, "metal").quantile(0.5) / of(cases, "concrete").quantile(0.5));
 }
@@ -294,7 +295,7 @@ StudyPart oscillation_part() {
     return {"oscillation",
             "The open question: why real flights swing",
             study_oscillation,
-            {"swing.concrete_ratio", "swing.metal_over_concrete", "swing.metal_median_deg",
+            {"swing.concrete_more_deg", "swing.metal_over_concrete", "swing.metal_median_deg",
              "swing.gazebo_metal_p95_deg", "swing.gazebo_air_metal_median_deg",
              "swing.rate_p_growth_1_s", "swing.valve_median_deg", "swing.pivot_m",
              "swing.inertia_ratio", "swing.motor_lag_ms", "swing.dead_time_ms",

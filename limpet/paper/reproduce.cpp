@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -12,7 +13,6 @@
 #include "limpet/core/version.hpp"
 #include "limpet/paper/claims.hpp"
 #include "limpet/paper/study.hpp"
-#include "limpet/record/story.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 
@@ -69,28 +69,28 @@ std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPar
     return claims;
 }
 
-/// What the summary tells of: statements by their verdict, those reproduced by their basis.
-Evidence counted(const std::vector<report::Claim>& claims) {
-    Evidence counts;
-    for (const std::string& name : kSummaryCounts) {
-        const std::string key = record::words(name.substr(name.find('.') + 1));
-        counts.set(name, static_cast<double>(std::count_if(
-                             claims.begin(), claims.end(), [&](const report::Claim& claim) {
-                                 const bool reproduced =
-                                     claim.verdict == report::Verdict::reproduced;
-                                 return key == to_text(claim.verdict) ||
-                                        (reproduced && key == claim.basis);
-                             })));
-    }
-    return counts;
-}
-
 }  // namespace
 
-std::size_t Reproduction::count(report::Verdict verdict) const {
-    return static_cast<std::size_t>(
-        std::count_if(page.claims.begin(), page.claims.end(),
-                      [&](const report::Claim& claim) { return claim.verdict == verdict; }));
+Evidence counted(const std::vector<report::Claim>& claims) {
+    std::map<std::string, double> counts;
+    for (const report::Claim& claim : claims) {
+        const bool reproduced = claim.verdict == report::Verdict::reproduced;
+        std::string name = claim.basis;
+        std::replace(name.begin(), name.end(), ' ', '_');
+        if (claim.verdict == report::Verdict::not_modelled) {
+            name = "not_modelled";
+        } else if (!claim.same_as.empty()) {
+            name = "said_twice";
+        } else if (!reproduced) {
+            name = claim.basis == "measured" ? "measured_differs" : "others_differ";
+        }
+        counts["statements." + name] += 1.0;
+    }
+    Evidence all;
+    for (const std::string& name : kSummaryCounts) {
+        all.set(name, counts[name]);
+    }
+    return all;
 }
 
 std::vector<std::pair<std::string, std::string>> part_titles() {
@@ -148,10 +148,10 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
                              .title = "What the paper says, line by line",
                              .blocks = {report::ClaimTable{}}});
     page.claims = judged(study, chosen, options.only.empty());
-    const Evidence counts = counted(page.claims);
+    result.counts = counted(page.claims);
     for (const std::string& paragraph : text.summary) {
         page.summary.push_back(
-            filled(paragraph, [&](const std::string& name) { return counts.get(name); }));
+            filled(paragraph, [&](const std::string& name) { return result.counts.get(name); }));
     }
     page.environment = {
         {"version", std::string(kVersion)},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/paper/evidence.hpp"
 #include "limpet/report/page.hpp"
 
 namespace limpet::paper {
@@ -30,9 +31,9 @@ struct ReproduceWatch {
 };
 
 struct Reproduction {
-    report::Page page;
-    std::vector<std::filesystem::path> files;  ///< index.html, results.json
-    [[nodiscard]] std::size_t count(report::Verdict verdict) const;
+    report::Page page = {};
+    std::vector<std::filesystem::path> files = {};  ///< index.html, results.json
+    Evidence counts = {};                           ///< of the statements: kSummaryCounts
 };
 
 /// Names of the parts that `only` takes, with their titles.

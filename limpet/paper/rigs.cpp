@@ -25,24 +25,14 @@ constexpr std::array<Wall, 4> kWalls = {{{"porous concrete", "perch_concrete"},
                                          {"turbine blade", "perch_turbine_blade"},
                                          {"metal", "perch_metal"}}};
 
-/// Pitch at which cup and leg tips meet a vertical wall, the lip flat on it.
-double pitch_on_legs_rad(const vehicle::Airframe& airframe) {
-    // In the vehicle's plane: the tip's surface is `lip` beyond the joint's distance to the wall.
-    const double ahead_m = airframe.cup.joint_x_m - airframe.legs.tip_x_m;
-    const double below_m = airframe.legs.tip_z_m - airframe.cup.joint_z_m;
-    const double reach_m = airframe.legs.tip_radius_m - airframe.cup.lip_offset_m;
-    // below sin(pitch) - ahead cos(pitch) + reach = 0
-    return std::atan2(ahead_m, below_m) - std::asin(reach_m / std::hypot(ahead_m, below_m));
-}
-
 /// A thrown, tumbling rigid vehicle against gravity and the conservation of spin and energy.
-double free_body_error() {
-    const vehicle::Airframe airframe =
-        scenario::load_scenario("hover", {.overrides = {"vehicle=iris"}}).airframe;
+double free_body_error(const plant::Engine& engine) {
+    vehicle::Airframe airframe = scenario::load_scenario("perch_concrete").airframe;
+    airframe.has_cup = false;  // eqs. (1), (2) are those of one body
     models::Scene scene;
     scene.wall.present = false;
     scene.ground_z_W_m = 100.0;
-    const std::unique_ptr<plant::Plant> made = plant::kMujocoEngine.make(airframe, scene)->make();
+    const std::unique_ptr<plant::Plant> made = engine.make(airframe, scene)->make();
     plant::Plant& plant = *made;
     const Vector3 v0(1.0, -0.5, -2.0), w0(3.0, 2.0, -1.0);
     plant.set_pose(Vector3::Zero(), Quaternion::Identity(), v0, w0);
@@ -114,6 +104,18 @@ EnergyUse energy_of(const std::string& what, double energy_Wh, double time_s,
     return {.what = what, .power_W = power_W, .endurance_h = battery_Wh / power_W};
 }
 
+/// From pump off to detached, in a whole flight with all the time in the world.
+double release_s(const Wall& wall, bool valve, std::vector<std::string> overrides) {
+    for (const char* key :
+         {"guidance.rest_s=1", "guidance.release_limit_s=600", "guidance.stuck_s=60"}) {
+        overrides.emplace_back(key);
+    }
+    overrides.emplace_back(valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0");
+    return simulation::fly(simulation::build_model(
+                               scenario::load_scenario(wall.scenario, {.overrides = overrides})))
+        .metrics.release_s;
+}
+
 }  // namespace
 
 void measure_vehicle(Evidence& evidence) {
@@ -134,8 +136,9 @@ void measure_vehicle(Evidence& evidence) {
         static_cast<double>(std::count_if(links.begin(), links.end(), [](const models::Link& l) {
             return l.joint && l.joint->kind == models::Joint::Kind::revolute;
         })));
-    evidence.set("vehicle.pitch_on_legs_deg", degrees(pitch_on_legs_rad(airframe)));
-    evidence.set("free_body.relative_error", free_body_error());
+    evidence.set("vehicle.pitch_on_legs_deg", degrees(vehicle::pitch_on_legs_rad(airframe)));
+    evidence.set("free_body.relative_error", std::max(free_body_error(plant::kReducedEngine),
+                                                      free_body_error(plant::kMujocoEngine)));
     evidence.set(
         "estimator.motion_capture_only",
         scenario.autopilot.EKF2_EV_CTRL > 0 && scenario.autopilot.EKF2_GPS_CTRL == 0 ? 1.0 : 0.0);
@@ -178,17 +181,40 @@ std::vector<ReleaseTime> release_times(int jobs) {
     for_each_index(2 * kWalls.size(), jobs, [&](std::size_t i) {
         const Wall& wall = kWalls[i / 2];
         const bool valve = i % 2 == 1;
-        const simulation::FlightResult result =
-            simulation::fly(simulation::build_model(scenario::load_scenario(
-                wall.scenario,
-                {.overrides = {"guidance.rest_s=1", "guidance.release_limit_s=600",
-                               "guidance.stuck_s=60",
-                               valve ? "suction.valve_fitted=1" : "suction.valve_fitted=0"}})));
         times[i / 2].surface = wall.surface;
         (valve ? times[i / 2].with_valve_s : times[i / 2].without_valve_s) =
-            result.metrics.release_s;
+            release_s(wall, valve, {});
     });
     return times;
+}
+
+double valve_spread_ratio(int flights, int jobs) {
+    const std::size_t each = kWalls.size() * static_cast<std::size_t>(flights);
+    std::array<std::vector<double>, 2> times{std::vector<double>(each), std::vector<double>(each)};
+    for_each_index(2 * each, jobs, [&](std::size_t i) {
+        const bool valve = i >= each;
+        const std::size_t of = i % each;
+        const Wall& wall = kWalls[of % kWalls.size()];
+        const std::size_t k = of / kWalls.size();
+        const suction::Surface surface = scenario::load_scenario(wall.scenario).wall.surface;
+        // Evenly from one end of the tolerance to the other.
+        const double within =
+            flights < 2 ? 0.0 : 2.0 * static_cast<double>(k) / (flights - 1) - 1.0;
+        const double tau_2_s =
+            surface.unsealing_time_constant_s + within * surface.unsealing_time_tolerance_s;
+        times[valve ? 1 : 0][of] =
+            release_s(wall, valve,
+                      {fmt::format("seed={}", k + 1),
+                       fmt::format("wall.surface.unsealing_time_constant_s={:.6f}", tau_2_s)});
+    });
+    const auto spread_s = [](std::vector<double>& of) {
+        std::sort(of.begin(), of.end());
+        const auto at = [&](double share) {
+            return of[static_cast<std::size_t>(share * static_cast<double>(of.size() - 1))];
+        };
+        return at(0.95) - at(0.05);
+    };
+    return spread_s(times[1]) / spread_s(times[0]);
 }
 
 }  // namespace limpet::paper

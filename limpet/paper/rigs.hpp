@@ -45,4 +45,9 @@ struct ReleaseTime {
 /// Whole flights with all the time in the world, on each surface.
 [[nodiscard]] std::vector<ReleaseTime> release_times(int jobs);
 
+/// How far release times are spread, with the valve over without: from 5 to 95 % of flights on
+/// every surface, each with another seed and another tau_2 within Table II's tolerance.
+/// @param flights  on each surface, with and without
+[[nodiscard]] double valve_spread_ratio(int flights, int jobs);
+
 }  // namespace limpet::paper

@@ -83,11 +83,16 @@ struct PageText {
     std::map<std::string, std::vector<report::PageBlock>> blocks = {};
 };
 
-/// Counts of statements that the summary may name.
+/// Counts of statements that the summary may name: those measured and reproduced, measured and not;
+/// of every other basis those reproduced, and how many of them all are not; those that say once
+/// more what another does, which no other count holds; those not modelled.
 inline const std::vector<std::string> kSummaryCounts = {
-    "statements.reproduced", "statements.differs",       "statements.not_modelled",
-    "statements.as_set",     "statements.by_the_method", "statements.recovered",
-    "statements.measured"};
+    "statements.measured",      "statements.measured_differs", "statements.as_set",
+    "statements.recovered",     "statements.fitted",           "statements.by_construction",
+    "statements.others_differ", "statements.said_twice",       "statements.not_modelled"};
+
+/// @return all of kSummaryCounts
+[[nodiscard]] Evidence counted(const std::vector<report::Claim>& claims);
 
 /// A file like paper/page.yaml, whose head says what its keys are.
 /// @param parts  all that there are; what they show and the file's tables and figures are the same

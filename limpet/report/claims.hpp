@@ -3,6 +3,7 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "limpet/draw/chart.hpp"
 
@@ -31,9 +32,11 @@ struct Claim {
     Quantity difference = {};  ///< simulated less paper, or words
     Verdict verdict = Verdict::not_modelled;
     std::string accepted = {};  ///< of the simulated value: "0.8 … 1.4", "at least 2"; may be empty
-    std::string basis = {};     ///< what the simulated value rests on: "measured"; may be empty
-    std::string note = {};      ///< why it differs, what is assumed; may be empty
-    std::string figure = {};    ///< id of a figure of the page; may be empty
+    std::string basis = {};     ///< how the simulated value came about: "measured"; may be empty
+    std::vector<std::string> assumes = {};  ///< keys on whose assumed values the verdict rests
+    std::string same_as = {};    ///< id of a claim that says the same of the same; may be empty
+    std::string note = {};       ///< why it differs, where bounds come from; may be empty
+    std::string figure = {};     ///< id of a figure of the page; may be empty
     std::string recording = {};  ///< path relative to the page; may be empty
 };
 

@@ -2,6 +2,7 @@
 #include "limpet/report/page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -116,12 +117,13 @@ private:
             return;
         }
         text_ += "<ul class=\"verdicts\">\n";
-        for (const Verdict verdict :
-             {Verdict::reproduced, Verdict::differs, Verdict::not_modelled}) {
+        for (const Verdict verdict : {Verdict::reproduced, Verdict::differs}) {
             const auto count =
-                std::count_if(page_.claims.begin(), page_.claims.end(),
-                              [verdict](const Claim& c) { return c.verdict == verdict; });
-            add("<li>{}</li>\n", badge(verdict, fmt::format("{} {}", count, to_text(verdict))));
+                std::count_if(page_.claims.begin(), page_.claims.end(), [verdict](const Claim& c) {
+                    return c.verdict == verdict && c.basis == "measured" && c.same_as.empty();
+                });
+            add("<li>{}</li>\n",
+                badge(verdict, fmt::format("{} measured: {}", count, to_text(verdict))));
         }
         text_ += "</ul>\n";
     }
@@ -241,13 +243,22 @@ private:
             label ? fmt::format(" data-label=\"{}\"", name) : "", content);
     }
 
+    /// " Rests on assumed `a`, `b`." or nothing
+    static std::string rests_on(const Claim& claim) {
+        return claim.assumes.empty()
+                   ? ""
+                   : fmt::format("{}Rests on assumed `{}`.", claim.note.empty() ? "" : " ",
+                                 fmt::join(claim.assumes, "`, `"));
+    }
+
     void claim_row(const Claim& claim) {
         add("<tr role=\"row\" id=\"{}\">", claim.id);
         cell("id", breakable(claim.id), false);
         cell("where", escaped(claim.section), false);
         add("<th role=\"rowheader\" scope=\"row\">{}", draw::html::marked_up(claim.statement));
-        text_ +=
-            if_any("<span class=\"note\">{}</span>", draw::html::marked_up(claim.note)) + "</th>";
+        text_ += if_any("<span class=\"note\">{}</span>",
+                        draw::html::marked_up(claim.note + rests_on(claim))) +
+                 "</th>";
         cell("paper", with_unit(claim.paper, claim.unit));
         cell("simulated", with_unit(claim.simulated, claim.unit));
         cell("difference", with_unit(claim.difference, claim.unit, true));

@@ -39,6 +39,8 @@ Json json_of(const Claim& claim) {
             {"verdict", to_text(claim.verdict)},
             {"accepted", or_null(claim.accepted)},
             {"basis", or_null(claim.basis)},
+            {"assumes", claim.assumes},
+            {"same_as", or_null(claim.same_as)},
             {"note", or_null(claim.note)},
             {"figure", or_null(claim.figure)},
             {"recording", or_null(claim.recording)}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "limpet/core/frames.hpp"
 #include "limpet/sensors/magnetometer.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
@@ -22,6 +23,13 @@ double drag_1_s(const Scenario& scenario) {
     return kRotors * rotor.drag_constant_kg * hover_speed_rad_s / scenario.airframe.mass_kg;
 }
 
+/// Within what guidance takes: a vehicle without a cup has legs of no meaning.
+double perched_pitch_deg(const Scenario& scenario) {
+    constexpr double kLeast_deg = 5.0, kMost_deg = 90.0;
+    return std::clamp(degrees(vehicle::pitch_on_legs_rad(scenario.airframe)), kLeast_deg,
+                      kMost_deg);
+}
+
 using S = const Scenario&;
 
 struct DerivedKey {
@@ -36,6 +44,7 @@ constexpr DerivedKey kDerived[] = {
     {"guidance", "lidar_x_m", [](S s) { return s.airframe.lidar_x_m; }},
     {"guidance", "joint_x_m", [](S s) { return s.airframe.cup.joint_x_m; }},
     {"guidance", "joint_z_m", [](S s) { return s.airframe.cup.joint_z_m; }},
+    {"guidance", "perched_pitch_deg", &perched_pitch_deg},
     {"guidance", "hover_thrust", [](S s) { return hover_command(s.airframe); }},
     {"guidance", "zero_thrust", &zero_thrust},
     {"guidance", "drag_1_s", &drag_1_s},

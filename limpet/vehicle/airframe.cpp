@@ -44,6 +44,16 @@ void require_physical(const std::string& what, double mass_kg, const Matrix3& in
     }
 }
 
+double pitch_on_legs_rad(const Airframe& airframe) {
+    // In the vehicle's plane: the tip's surface is `reach` beyond the joint's distance to the wall,
+    // below sin(pitch) - ahead cos(pitch) + reach = 0.
+    const double ahead_m = airframe.cup.joint_x_m - airframe.legs.tip_x_m;
+    const double below_m = airframe.legs.tip_z_m - airframe.cup.joint_z_m;
+    const double reach_m = airframe.legs.tip_radius_m - airframe.cup.lip_offset_m;
+    const double across_m = std::hypot(ahead_m, below_m);
+    return std::atan2(ahead_m, below_m) - std::asin(std::clamp(reach_m / across_m, -1.0, 1.0));
+}
+
 void validate(const Airframe& airframe) {
     for (int i = 0; i < kRotors; ++i) {
         const auto index = static_cast<std::size_t>(i);

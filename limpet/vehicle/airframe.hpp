@@ -146,6 +146,9 @@ struct Airframe : AirframeNumbers {
 /// Numbers of the airframe itself: mass_kg, inertia_xx_kg_m2, lidar_x_m, ...
 [[nodiscard]] const ParameterTable<Airframe>& airframe_table();
 
+/// Pitch at which the leg tips and a lip that lies flat meet a vertical wall.
+[[nodiscard]] double pitch_on_legs_rad(const Airframe& airframe);
+
 /// @throws InputError when the parts do not make a body: the base's share of mass or inertia is not
 ///         positive or breaks the triangle inequality, a stated z differs from rotor.height_m
 void validate(const Airframe& airframe);

@@ -15,6 +15,8 @@
 #include "limpet/core/find_by.hpp"
 #include "limpet/paper/reproduce.hpp"
 #include "limpet/paper/study.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/sections.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -179,15 +181,22 @@ TEST_F(StatementsFile, IsReadAsItStands) {
 }
 
 TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
-    const std::string rest = "  basis: measured\n  accepted: [0, 1]\n";
+    const std::string rest = "  basis: measured\n  assumes: []\n  accepted: [0, 1]\n";
     EXPECT_EQ(error_of(good_ + "  evidence: x.frist_s\n" + rest),
               "5: a.evidence: \"x.frist_s\" is measured by no part, did you mean x.first_s?");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n" + rest), "");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [0, 1]\n"),
               "1: a: has no basis");
-    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n"),
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: by the method\n  at_least: 1\n"),
+              "6: a.basis: \"by the method\" is no basis; there are as set, recovered, fitted, by construction, measured");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n  at_least: 1\n"),
+              "1: a: has no assumes");
+    EXPECT_EQ(
+        error_of(good_ + "  evidence: x.first_s\n  basis: as set\n  assumes: []\n  at_least: 1\n"),
+        "7: a.assumes: stands with what is neither fitted nor measured");
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n  assumes: []\n"),
               "1: a: has no accepted");
-    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [2, 1]\n  basis: measured\n"),
+    EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [2, 1]\n  basis: as set\n"),
               "6: a.accepted: must begin with its lower end");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  at_least: 1\n" + rest),
               "6: a.at_least: stands beside accepted, one of the two");
@@ -196,6 +205,60 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
     EXPECT_EQ(error_of(good_), "1: a: has no note");
     EXPECT_EQ(error_of(good_ + "  notes: none\n"), "5: a.notes: unknown key, did you mean note?");
     EXPECT_THAT(error_of(good_ + "  note: none\n" + good_), testing::StartsWith("6: a: "));
+}
+
+TEST_F(StatementsFile, OneEvidenceBearsOutOneStatement) {
+    const std::string with = "  evidence: x.first_s\n  basis: as set\n  at_least: 1\n",
+                      again = "b:\n  section: I\n  says: so too\n  paper: 1\n";
+    EXPECT_EQ(error_of(good_ + with + again + with),
+              "8: b: has the evidence of a: same_as is missing");
+    EXPECT_EQ(error_of(good_ + with + again + with + "  same_as: a\n"), "");
+    EXPECT_EQ(error_of(good_ + with + "  same_as: c\n"), "8: a.same_as: names no statement");
+}
+
+/// The file's own rule: what a verdict rests on is said. Each key is one that can be set, and no
+/// source gives its value; a range that is not the paper's own is explained.
+TEST(Statements, NoteWhatTheyAssume) {
+    scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
+    std::map<std::string, std::string> sources;
+    for (const scenario::Section& section : scenario_sections(scenario)) {
+        for (const BoundParameter& row : section.rows) {
+            sources[section.name + "." + std::string(row.name)] = row.source;
+        }
+    }
+    for (const auto& [claim, evidence, accepted, yes_no] : statements()) {
+        for (const std::string& key : claim.assumes) {
+            ASSERT_TRUE(sources.count(key)) << claim.id << ": " << key;
+            EXPECT_FALSE(sources[key].rfind("paper", 0) == 0) << claim.id << ": " << key;
+        }
+        const draw::Range* range = std::get_if<draw::Range>(&claim.paper);
+        const bool its_own =
+            yes_no || (range && range->low == accepted.low && range->high == accepted.high);
+        if (claim.basis == "measured" && !its_own) {
+            EXPECT_THAT(claim.note,
+                        testing::AnyOf(testing::HasSubstr("assumed"),
+                                       testing::HasSubstr("facts.md"), testing::HasSubstr("95 %")))
+                << claim.id << ": where do its bounds come from?";
+        }
+    }
+}
+
+TEST(Counts, HeadlinesAreOfWhatWasMeasuredAlone) {
+    using report::Verdict;
+    const auto claim = [](const char* basis, Verdict verdict, const char* same_as = "") {
+        return report::Claim{.verdict = verdict, .basis = basis, .same_as = same_as};
+    };
+    const Evidence counts = counted(
+        {claim("measured", Verdict::reproduced), claim("measured", Verdict::reproduced, "other"),
+         claim("measured", Verdict::differs), claim("by construction", Verdict::reproduced),
+         claim("fitted", Verdict::differs), claim("", Verdict::not_modelled)});
+    EXPECT_EQ(counts.get("statements.measured"), 1.0);
+    EXPECT_EQ(counts.get("statements.measured_differs"), 1.0);
+    EXPECT_EQ(counts.get("statements.by_construction"), 1.0);
+    EXPECT_EQ(counts.get("statements.fitted"), 0.0);
+    EXPECT_EQ(counts.get("statements.others_differ"), 1.0);
+    EXPECT_EQ(counts.get("statements.said_twice"), 1.0);
+    EXPECT_EQ(counts.get("statements.not_modelled"), 1.0);
 }
 
 TEST(PageText, IsThatOfTheParts) {

@@ -78,6 +78,8 @@ inline report::Page sample_page() {
             .unit = "s",
             .difference = std::string("within"),
             .verdict = static_cast<report::Verdict>(i % 3),
+            .basis = i < 18 ? "measured" : "by construction",
+            .same_as = i == 1 ? "c5" : "",
             .note = i % 2 == 0 ? "The range is **assumed**; the paper says `about 1 s`." : "",
             .figure = i % 4 == 0 ? "fig-success" : "",
             .recording = i % 5 == 0 ? "flights/a b#1.mcap" : ""};

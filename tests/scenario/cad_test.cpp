@@ -11,7 +11,7 @@
 #include "limpet/scenario/parts.hpp"
 #include "tests/scenario/test_data.hpp"
 
-// tests/data/cad_uav is perching_uav as a CAD program exports it: its base taken apart into plate,
+// vehicles/cad_uav is perching_uav as a CAD program exports it: its base taken apart into plate,
 // motors, propellers and legs, seen from an origin of its own, names of its own.
 
 namespace limpet::scenario {
@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(LIMPET_SOURCE_DIR) / "tests/data/cad_uav";
+const fs::path kFolder = fs::path(LIMPET_SOURCE_DIR) / "vehicles/cad_uav";
 
 std::string text_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
