@@ -13,6 +13,7 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/suggestion.hpp"
+#include "manual.hpp"
 
 namespace limpet::app {
 namespace {
@@ -85,6 +86,67 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
     throw InputError(fmt::format("{}: no such verb{}; there are {}", in_quotes(argv[1]),
                                  near.empty() ? "" : fmt::format(", did you mean {}?", near),
                                  fmt::join(names, ", ")));
+}
+
+/// What an option takes, as the help tells it: "DIR", "KIND:{a,b}".
+OptionText text_of(const CLI::Option& option) {
+    OptionText text{.about = option.get_description(),
+                    .required = option.get_required(),
+                    .many = option.get_expected_max() > 1};
+    for (const std::string& name : option.get_lnames()) {
+        text.names.push_back("--" + name);
+    }
+    for (const std::string& name : option.get_snames()) {
+        text.names.push_back("-" + name);
+    }
+    if (option.get_expected_max() > 0) {
+        const std::string told = option.get_type_name();
+        text.value = told.substr(0, told.find_first_of(":["));
+        const std::size_t open = told.find('{'), close = told.find('}');
+        if (open != told.npos && close != told.npos) {
+            text.choices = CLI::detail::split(told.substr(open + 1, close - open - 1), ',');
+        }
+    }
+    return text;
+}
+
+ProgramText text_of(const Program& program, const CLI::App& app) {
+    ProgramText text{.name = program.name,
+                     .about = program.about,
+                     .footer = program.footer,
+                     .version = program.version};
+    for (const Verb& verb : program.verbs) {
+        VerbText& added = text.verbs.emplace_back(
+            VerbText{.name = verb.name, .about = verb.about, .footer = verb.footer});
+        for (const CLI::Option* option : app.get_subcommand(verb.name)->get_options()) {
+            if (!option->check_lname("help")) {
+                added.options.push_back(text_of(*option));
+            }
+        }
+    }
+    return text;
+}
+
+/// `limpet help --man`, `limpet help --completion bash|zsh`: for who installs it.
+/// @return whether that was asked for
+bool print_manual(const Program& program, const CLI::App& app, int argc, char** argv) {
+    if (argc < 3 || std::string_view(argv[1]) != "help") {
+        return false;
+    }
+    const std::string_view what = argv[2], shell = argc > 3 ? argv[3] : "";
+    if (what == "--man") {
+        fmt::print("{}", man_page(text_of(program, app)));
+        return true;
+    }
+    if (what != "--completion") {
+        return false;
+    }
+    if (shell != "bash" && shell != "zsh") {
+        throw InputError("help --completion: bash or zsh");
+    }
+    const ProgramText text = text_of(program, app);
+    fmt::print("{}", shell == "bash" ? bash_completion(text) : zsh_completion(text));
+    return true;
 }
 
 /// `limpet help fly` is `limpet fly --help`.
@@ -224,6 +286,9 @@ ExitCode run(const Program& program, int argc, char** argv) {
         parser->callback([&verb, &code, parser] {
             code = verb.run([parser](const char* option) { return parser->count(option) > 0; });
         });
+    }
+    if (print_manual(program, app, argc, argv)) {
+        return code;
     }
     try {
         app.parse(count, words.data());

@@ -7,14 +7,32 @@
 
 #include "command_line.hpp"
 #include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/sections.hpp"
 
 namespace limpet::app {
 namespace {
 
+/// What --set can turn.
+std::vector<scenario::CatalogueEntry> keys() {
+    scenario::Scenario scenario;
+    std::vector<scenario::CatalogueEntry> all;
+    for (const scenario::Section& section : scenario_sections(scenario)) {
+        for (const BoundParameter& row : section.rows) {
+            all.push_back(
+                {section.name + "." + std::string(row.name), std::string(row.description)});
+        }
+        for (const scenario::Choice& choice : section.choices) {
+            all.push_back({section.name + "." + std::string(choice.key), std::string(choice.kind)});
+        }
+    }
+    return all;
+}
+
 void print_list(const std::string& kind) {
     const auto root = scenario::data_root();
-    const auto rows =
-        kind == "surfaces" ? scenario::list_surfaces(root) : scenario::list_files(root / kind);
+    const auto rows = kind == "keys"       ? keys()
+                      : kind == "surfaces" ? scenario::list_surfaces(root)
+                                           : scenario::list_files(root / kind);
     std::size_t width = 0;
     for (const scenario::CatalogueEntry& row : rows) {
         width = std::max(width, row.name.size());
@@ -25,14 +43,15 @@ void print_list(const std::string& kind) {
 }
 
 OptionList kind_option(std::string& kind) {
-    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces, vehicles or companions",
-             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions"})}};
+    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces, vehicles, companions or keys",
+             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions", "keys"})}};
 }
 
 }  // namespace
 
 Verb list_verb() {
-    return verb<std::string>("list", "List scenarios, campaigns, surfaces, vehicles or companions",
+    return verb<std::string>("list",
+                             "List scenarios, campaigns, surfaces, vehicles, companions or keys",
                              kind_option, print_list);
 }
 
