@@ -152,15 +152,20 @@ def as_written(app, what, name, obj, options, lines):
         rest.pop()
     lines[:] = [line.replace("*", r"\*").replace("`", "``") for line in head]
     if rest:
-        lines += ["", "::", "", *("    " + line for line in rest)]
+        lines += ["", ".. code-block:: text", "", *("    " + line for line in rest)]
     lines.append("")
 
 
 def repair_theme(static):
-    """Debian's Furo leaves its style and its script in parts that a page which is opened as a file cannot load."""
+    """Debian's Furo leaves its style and its script in parts that a page which is opened as a file cannot load, and has the
+    dark colours only for who asks the page for them, not for whose machine is dark."""
     css, script, part = static / "styles/furo.css", static / "scripts/furo.js", static / "scripts/gumshoe-patched.js"
-    css.write_text(re.sub(r"@import url\(/javascript/([\w./-]+)\);",
-                          lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), css.read_text()))
+    style = re.sub(r"@import url\(/javascript/([\w./-]+)\);",
+                   lambda found: pathlib.Path("/usr/share/javascript", found[1]).read_text(), css.read_text())
+    dark = re.search(r'body\[data-theme="dark"\] \{([^}]*--color-background-primary[^}]*)\}', style)
+    if dark and "prefers-color-scheme" not in style:
+        style += f'@media (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {{{dark[1]}}} }}\n'
+    css.write_text(style)
     if script.read_text().startswith("import Gumshoe"):
         script.write_text(part.read_text() + re.sub(r"^import .*\n", "", script.read_text()))
 

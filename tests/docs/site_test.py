@@ -37,7 +37,9 @@ def look_at(browser, program, site):
                 report = browser.look(tab, process, page.as_uri())
                 own = f"asks for {site.as_uri()}/"  # style, scripts and pictures of the site are its own
                 wrong += [f"{page.relative_to(site)}: {problem}" for problem in report["problems"] if not problem.startswith(own)]
-                process.ask("Target.closeTarget", targetId=process.ask("Target.getTargets")["targetInfos"][0]["targetId"])
+                for target in process.ask("Target.getTargets")["targetInfos"]:
+                    if target["url"] == page.as_uri():
+                        process.ask("Target.closeTarget", targetId=target["targetId"])
         finally:
             process.close()
     print(f"{len(pages)} pages looked at")
