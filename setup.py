@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parent
 # A tree that is configured already, or one of its own.
 GIVEN = os.environ.get("LIMPET_BUILD_TREE")
 TREE = Path(GIVEN) if GIVEN else ROOT / "build" / "pip"
-DATA = ("campaigns", "companions", "layouts", "paper", "scenarios", "vehicles")
+DATA = ("campaigns", "companions", "layouts", "paper", "samples", "scenarios", "vehicles")
 
 
 class Build(build_py):

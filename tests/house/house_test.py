@@ -92,6 +92,9 @@ class House(unittest.TestCase):
             with self.subTest(f"{suite}.{name}"):
                 self.assertTrue((suite, name) in there if name != "*" else suite in suites, "no such test")
 
+    def test_the_readme_is_short(self):
+        self.assertLessEqual(len((ROOT / "README.md").read_text().split()), 500, "words")
+
     def test_the_examples_of_growth_still_apply(self):
         diffs = sorted((ROOT / "docs/extending").glob("*.diff"))
         self.assertEqual([diff.stem for diff in diffs],
