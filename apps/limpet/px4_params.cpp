@@ -57,11 +57,7 @@ px4::Px4Airframe airframe_of(const Px4Options& options) {
     px4::Px4Airframe airframe;
     airframe.name = vehicle.name;
     airframe.id = options.airframe_id;
-    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
-        airframe.rotors[i] = {.p_B_m = vehicle.rotor_p_B_m[i],
-                              .direction = static_cast<double>(vehicle.rotor_direction[i]),
-                              .moment_constant_m = vehicle.rotor.moment_constant_m};
-    }
+    airframe.rotors = scenario::rotor_geometry(vehicle);
     airframe.battery_cells = vehicle.battery.cells;
     airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;
     airframe.perches = vehicle.has_cup;
