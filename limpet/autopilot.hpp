@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -16,9 +15,9 @@ namespace limpet {
 /// What an autopilot may know of the vehicle that it flies.
 struct AutopilotVehicle {
     double mass_kg = 1.0;
-    Vector3 inertia_kg_m2 = Vector3::Ones();   ///< diagonal, about B
-    double hover_thrust = 0.5;                 ///< collective that carries the weight, 0..1
-    std::array<Vector3, kRotors> rotor_p_B_m;  ///< hubs
+    Vector3 inertia_kg_m2 = Vector3::Ones();  ///< diagonal, about B
+    double hover_thrust = 0.5;                ///< collective that carries the weight, 0..1
+    RotorList<Vector3> rotor_p_B_m;           ///< hubs
 };
 
 /// What it is given, at the rate of the IMU.
@@ -35,9 +34,10 @@ struct AutopilotInput {
 struct AutopilotOutput {
     double thrust = 0.0;               ///< collective, 0..1 of the motor command
     Vector3 torque = Vector3::Zero();  ///< about x, y, z of B, normalised, -1..1
-    /// In place of thrust and torque, 0..1 each: taken as they are. Otherwise rotors are mixed of
-    /// them by the vehicle's geometry; where they saturate, yaw yields first.
-    std::optional<std::array<double, kRotors>> rotors = {};
+    /// In place of thrust and torque, 0..1 each, as many as the vehicle has: taken as they are.
+    /// Otherwise rotors are mixed of them by the vehicle's geometry; where they saturate, yaw
+    /// yields first.
+    std::optional<RotorList<double>> rotors = {};
 };
 
 /// An autopilot in the loop. It has no state of its own: what it remembers are numbers of the

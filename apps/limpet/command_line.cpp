@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
+#include <sstream>
 #include <string_view>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "manual.hpp"
+#include "terminal.hpp"
 
 namespace limpet::app {
 namespace {
@@ -293,7 +295,15 @@ ExitCode run(const Program& program, int argc, char** argv) {
     try {
         app.parse(count, words.data());
     } catch (const CLI::Success& help) {
-        (void)app.exit(help);
+        std::ostringstream text;
+        (void)app.exit(help, text, text);
+        std::istringstream lines(text.str());
+        for (std::string line; std::getline(lines, line);) {
+            constexpr std::size_t kAbout = 30;  // CLI11's column of descriptions
+            const std::size_t start = line.find_first_not_of(' ');
+            fmt::print("{}\n", folded(line, columns_of(stdout),
+                                      line.size() > kAbout && start >= 2 ? kAbout : 2));
+        }
     } catch (const CLI::ParseError& error) {
         throw InputError(std::string(error.what()) + " (limpet --help)");
     }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
@@ -41,7 +42,7 @@ struct Subject {
 /// A name of a scenario, or a file that names a vehicle.
 bool is_scenario(const std::string& wanted, const fs::path& root) {
     if (scenario::is_path(wanted)) {
-        return scenario::parse_yaml_file(wanted).find("vehicle") != nullptr;
+        return scenario::kind_of(wanted) == scenario::FileKind::scenario;
     }
     const auto scenarios = scenario::names_in(root / "scenarios");
     const auto vehicles = scenario::names_in(root / "vehicles");
@@ -145,24 +146,26 @@ models::GazeboWorld furnished_world(const ExportOptions& options, const Subject&
 }
 
 /// The looks first: a world is there only with all that it needs.
-std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root) {
+std::string world_text(const ExportOptions& options, const Subject& subject, const fs::path& root,
+                       std::vector<fs::path>& written) {
     const models::GazeboWorld world = furnished_world(options, subject, root);
     if (world.textures) {
         for (const models::WorldFile& file : write_wall_looks(world)) {
             const fs::path path = fs::absolute(options.out).parent_path() / file.path;
             make_folder(path.parent_path());
             write_file(path, file.bytes);
+            written.push_back(path);
         }
     }
     return write_world(subject.airframe, world);
 }
 
-std::string model_text(const ExportOptions& options) {
+std::string model_text(const ExportOptions& options, std::vector<fs::path>& written) {
     const fs::path root = scenario::data_root();
     const Subject subject = load(options, root);
     return options.format == "sdf"     ? models::write_sdf(subject.airframe)
            : options.format == "urdf"  ? models::write_urdf(subject.airframe)
-           : options.format == "world" ? world_text(options, subject, root)
+           : options.format == "world" ? world_text(options, subject, root, written)
                                        : mjcf_text(options, subject, root);
 }
 
@@ -171,12 +174,16 @@ ExitCode export_model(const ExportOptions& options, const Given& given) {
     only_with(given, world, {"--sensors", "--ros", "--camera"}, "--format world");
     only_with(given, world || options.format == "mjcf", {"--wall"}, "--format mjcf or world");
     only_with(given, !options.camera.empty(), {"--view", "--camera-rate"}, "--camera");
-    const std::string text = model_text(options);
+    std::vector<fs::path> written;
+    const std::string text = model_text(options, written);
     if (options.out.empty()) {
         fmt::print("{}", text);
-    } else {
-        write_file(options.out, text);
+        return ExitCode::ok;
     }
+    make_folder(fs::absolute(options.out).parent_path());
+    write_file(options.out, text);
+    written.insert(written.begin(), options.out);
+    print_files(written);
     return ExitCode::ok;
 }
 

@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Tables and figures of the recording, beside it; returns what was written.
-std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path, Terminal& terminal) {
+std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path,
+                           const std::atomic<bool>& stop, Terminal& terminal) {
     if (!options.figures() && !options.csv) {
         return {};
     }
@@ -27,8 +28,14 @@ std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path, T
     }
     if (options.figures()) {
         terminal.progress("drawing figures ...");
-        const auto figures = report::plot(recording, path.parent_path()).files;
-        files.insert(files.end(), figures.begin(), figures.end());
+        try {
+            const auto figures = report::plot(recording, path.parent_path(), {.stop = &stop}).files;
+            files.insert(files.end(), figures.begin(), figures.end());
+        } catch (const std::exception&) {
+            if (!stop) {
+                throw;
+            }  // Ctrl-C ends gnuplot as well: what there is of the flight is told all the same
+        }
     }
     return files;
 }
@@ -88,8 +95,8 @@ void tell(const simulation::FlightResult& result, Terminal& terminal) {
 }
 
 ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& result,
-                  bool interrupted, const std::string& about, const std::string& text, Px4Link* px4,
-                  Terminal& terminal) {
+                  const std::atomic<bool>& stop, const std::string& about, const std::string& text,
+                  Px4Link* px4, Terminal& terminal) {
     tell(result, terminal);
     if (!text.empty()) {
         terminal.line(about, text);
@@ -102,7 +109,9 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
         const auto add = [&files](const std::vector<fs::path>& more) {
             files.insert(files.end(), more.begin(), more.end());
         };
-        add(draw(options, result.recording, terminal));
+        if (!stop) {
+            add(draw(options, result.recording, stop, terminal));
+        }
         if (px4 != nullptr) {
             add(px4->write(result.performance, result.recording.parent_path(), options.figures()));
         }
@@ -113,10 +122,11 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
     if (options.json) {
         fmt::print("{}\n", result_json(result));
     }
-    if (interrupted) {
-        throw Interrupted(result.recording.empty()
-                              ? "interrupted"
-                              : "interrupted; the recording is whole up to here");
+    if (stop) {
+        const bool in_flight = result.outcome == Outcome::interrupted;
+        throw Interrupted(result.recording.empty() ? "interrupted"
+                          : in_flight ? "interrupted; the recording is whole up to here"
+                                      : "interrupted after the flight; its recording is whole");
     }
     return judged(expected_outcome(options.expect), "flight", result.outcome, result.reason);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,11 +48,13 @@ void introduce(const scenario::Scenario& scenario, Terminal& terminal);
 void tell(const simulation::FlightResult& result, Terminal& terminal);
 
 /// Tells what came of a flight and its wires, draws it, names what was written.
+/// @throws Interrupted when `stop` is set, also while it draws
+/// @param stop         where it was set the rest is left out
 /// @param about, text  a line of the verb's own; none without a text
 /// @param px4          null: none was there
 [[nodiscard]] ExitCode conclude(const FlightOptions& options,
-                                const simulation::FlightResult& result, bool interrupted,
-                                const std::string& about, const std::string& text, Px4Link* px4,
-                                Terminal& terminal);
+                                const simulation::FlightResult& result,
+                                const std::atomic<bool>& stop, const std::string& about,
+                                const std::string& text, Px4Link* px4, Terminal& terminal);
 
 }  // namespace limpet::app

@@ -121,7 +121,8 @@ void GroundStation::tick(simulation::Flight& flight, const guidance::EventList& 
     telemetry_.update({.time_s = seconds(state.tick),
                        .estimate = state.autopilot.estimate,
                        .readings = state.sensors.readings,
-                       .armed = state.command.armed});
+                       .armed = state.command.armed,
+                       .rotors = state.command.command.size()});
     if (changed_) {
         flight.set_autopilot(wanted_);
         changed_ = false;

@@ -27,6 +27,11 @@ struct Defaults {
 /// Those of scenarios, and those of companions, whose names begin with "companion".
 std::vector<scenario::Section> sections_in(const std::string& room, Defaults& defaults) {
     std::vector<scenario::Section> all = scenario_sections(defaults.scenario);
+    const auto rotor = std::find_if(all.begin(), all.end(), [](const scenario::Section& section) {
+        return section.name == "vehicle.rotor";
+    });
+    all.insert(rotor + 1,
+               {"vehicle.rotors[0]", scenario::rotor_rows(defaults.scenario.airframe.rotors[0])});
     for (scenario::Section& section : companion_sections(defaults.companion)) {
         all.push_back(std::move(section));
     }

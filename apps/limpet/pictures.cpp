@@ -33,7 +33,7 @@ using Draw = std::function<draw::Pictures(const record::Recording&,
 /// Reads, says what is missing, draws what is there, prints what was written.
 void draw(const PictureOptions& options, const Draw& draw_it) {
     Terminal terminal(Terminal::Voice::machine);  // standard output lists the files
-    const Work work{.tell = [&terminal](const std::string& what) { terminal.progress(what); },
+    const Work work{.tell = [&terminal](const std::string& what) { terminal.slow_progress(what); },
                     .stop = stop_on_signals()};
     const record::Recording recording = record::read_recording(options.recording);
     work.say();

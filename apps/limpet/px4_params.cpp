@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct Px4Options {
     std::string wanted;
     std::vector<std::string> overrides;
-    std::string out = ".";
+    std::string out = "out/px4";
     int airframe_id = 22001;
     px4::Px4Target target = px4::Px4Target::sitl;
     bool mocap = false;
@@ -34,7 +34,7 @@ const std::map<std::string, px4::Px4Target> kTargets = {{"sitl", px4::Px4Target:
 
 bool is_vehicle(const std::string& wanted) {
     if (scenario::is_path(wanted)) {
-        return fs::absolute(wanted).parent_path().filename() == "vehicles";
+        return scenario::kind_of(wanted) == scenario::FileKind::vehicle;
     }
     return fs::exists(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
 }
@@ -57,11 +57,7 @@ px4::Px4Airframe airframe_of(const Px4Options& options) {
     px4::Px4Airframe airframe;
     airframe.name = vehicle.name;
     airframe.id = options.airframe_id;
-    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
-        airframe.rotors[i] = {.p_B_m = vehicle.rotor_p_B_m[i],
-                              .direction = static_cast<double>(vehicle.rotor_direction[i]),
-                              .moment_constant_m = vehicle.rotor.moment_constant_m};
-    }
+    airframe.rotors = scenario::rotor_geometry(vehicle);
     airframe.battery_cells = vehicle.battery.cells;
     airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;
     airframe.perches = vehicle.has_cup;
@@ -99,8 +95,10 @@ void write_both(const Px4Options& options) {
     const fs::path script = folder / px4_airframe_file_name(airframe);
     write_file(params, px4_params_text(airframe, settings));
     write_file(script, px4_airframe_script(airframe, settings));
-    fmt::print("{}  {} parameters, each with its reason\n{}  the same, as PX4 starts it\n",
-               params.string(), settings.size(), script.string());
+    fmt::print(
+        "written    {}, {} parameters, each with its reason\n"
+        "           {}, the same as PX4 starts it\n",
+        params.string(), settings.size(), script.string());
     how_to_go_on(airframe);
 }
 
@@ -109,7 +107,7 @@ OptionList options_of(Px4Options& options) {
              "vehicle or scenario, by name or YAML file; a scenario brings its\n"
              "autopilot section along"},
             overrides_option(options.overrides, "turn one number, as in limpet fly (repeatable)"),
-            {"--out DIR", &options.out, "folder for both files (default: here)"},
+            {"--out DIR", &options.out, "folder for both files (default out/px4)"},
             {"--airframe-id N", &options.airframe_id,
              "PX4's number of this airframe, 22000 .. 22999 (default 22001)"},
             {"--target TARGET",

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 
 namespace limpet::app {
 namespace {
+
+/// What a text is about stands in so many columns before it.
+constexpr std::size_t kLabel = 11;
 
 /// A signal handler can reach nothing else.
 std::atomic<bool> interrupted = false;
@@ -27,6 +31,7 @@ Terminal::Terminal(Voice voice)
     : out_(voice == Voice::quiet     ? nullptr
            : voice == Voice::machine ? stderr
                                      : stdout) {
+    columns_ = out_ == nullptr || voice == Voice::relayed ? 0 : columns_of(out_);
     live_ = out_ != nullptr && voice != Voice::relayed && isatty(fileno(out_)) != 0 &&
             std::getenv("NO_COLOR") == nullptr;
 }
@@ -40,11 +45,11 @@ void Terminal::line(const std::string& text) {
         return;
     }
     clear_progress();
-    put(out_, text + "\n");
+    put(out_, folded(text, columns_, kLabel) + "\n");
 }
 
 void Terminal::line(const std::string& about, const std::string& text) {
-    line(bold(fmt::format("{:<11}", about)) + text);
+    line(bold(fmt::format("{:<{}}", about, kLabel)) + text);
 }
 
 void Terminal::written(const std::vector<std::filesystem::path>& files) {
@@ -62,6 +67,19 @@ void Terminal::progress(const std::string& text) {
     progress_shown_ = true;
 }
 
+void Terminal::slow_progress(const std::string& text) {
+    if (live_ || out_ == nullptr) {
+        progress(text);
+        return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (!text.empty() && now >= next_line_) {
+        constexpr std::chrono::seconds kEvery{5};
+        next_line_ = now + kEvery;
+        put(out_, text + "\n");
+    }
+}
+
 std::string Terminal::bold(const std::string& text) const {
     return live_ ? "\033[1m" + text + "\033[0m" : text;
 }
@@ -75,6 +93,43 @@ void Terminal::clear_progress() {
         put(out_, "\r\033[K");
         progress_shown_ = false;
     }
+}
+
+std::size_t columns_of(std::FILE* stream) {
+    struct winsize size = {};
+    return isatty(fileno(stream)) != 0 && ioctl(fileno(stream), TIOCGWINSZ, &size) == 0
+               ? size.ws_col
+               : 0;
+}
+
+std::string folded(const std::string& line, std::size_t columns, std::size_t indent) {
+    if (columns <= 2 * indent || line.size() <= columns) {
+        return line;
+    }
+    std::string all;
+    std::size_t width = 0;  // of the line that is being filled
+    std::size_t blank = 0;  // in `all`: where it can be broken; 0: nowhere
+    std::size_t after = 0;  // columns from there on
+    bool colour = false;
+    for (const char c : line) {
+        all += c;
+        colour = colour || c == '\033';
+        const bool continued = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;  // UTF-8
+        if (!colour && !continued) {
+            ++width;
+            ++after;
+        }
+        colour = colour && c != 'm';
+        if (c == ' ' && width > indent) {
+            blank = all.size() - 1;
+            after = 0;
+        } else if (width > columns && blank > 0) {
+            all.replace(blank, 1, "\n" + std::string(indent, ' '));
+            width = indent + after;
+            blank = 0;
+        }
+    }
+    return all;
 }
 
 void complain(std::string message) {

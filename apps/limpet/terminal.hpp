@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -31,6 +33,9 @@ public:
     void written(const std::vector<std::filesystem::path>& files);
     /// A line that the next one replaces; nothing where no person watches.
     void progress(const std::string& text);
+    /// The same of work that may be long: where no person watches, a line now and then, from the
+    /// third second on.
+    void slow_progress(const std::string& text);
     /// Whether a person watches, so that progress() shows.
     [[nodiscard]] bool live() const { return live_; }
     [[nodiscard]] std::string bold(const std::string& text) const;
@@ -39,10 +44,20 @@ public:
 private:
     void clear_progress();
 
-    std::FILE* out_;  ///< nullptr: quiet
+    std::FILE* out_;           ///< nullptr: quiet
+    std::size_t columns_ = 0;  ///< lines are folded to; 0: never
     bool live_ = false;
     bool progress_shown_ = false;
+    std::chrono::steady_clock::time_point next_line_ =
+        std::chrono::steady_clock::now() + std::chrono::seconds(3);
 };
+
+/// Columns of the terminal behind a stream; 0 where there is none.
+[[nodiscard]] std::size_t columns_of(std::FILE* stream);
+/// A line broken at blanks into such of at most `columns`, all but the first indented. Colours take
+/// no room. A word that is longer stays whole.
+/// @param columns  0: any length
+[[nodiscard]] std::string folded(const std::string& line, std::size_t columns, std::size_t indent);
 
 /// One line on standard error, "limpet: " before it, so that scripts and people find it. A standard
 /// error that takes nothing changes no exit code.

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "limpet/core/frames.hpp"
-#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/rotor_list.hpp"
 
 namespace limpet::autopilot {
 
@@ -15,22 +15,28 @@ struct RotorGeometry {
     double moment_constant_m = 0.019;  ///< torque over thrust
 };
 
-using RotorVector = Eigen::Vector4d;
+/// A number a rotor, on the stack.
+using RotorVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, static_cast<int>(kMaxRotors), 1>;
+/// Rows roll, pitch, yaw, thrust; a column a rotor.
+using EffectMatrix = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, static_cast<int>(kMaxRotors)>;
 
 /// The geometry turned into numbers: commands = roll * torque.x + pitch * torque.y + yaw * torque.z
-/// + thrust * collective. Normalised as PX4 does: a quad-x has +-0.7071 in roll and pitch, +-1 in
-/// yaw, +1 in thrust.
+/// + thrust * collective: the pseudo-inverse of what the rotors do, normalised as PX4 does. A
+/// quad-x has +-0.7071 in roll and pitch, +-1 in yaw, +1 in thrust.
+/// Source: PX4 ControlAllocationPseudoInverse.
 struct Mixer {
-    RotorVector roll = RotorVector::Zero();
-    RotorVector pitch = RotorVector::Zero();
-    RotorVector yaw = RotorVector::Zero();
-    RotorVector thrust = RotorVector::Zero();
-    /// Rows: roll, pitch, yaw, thrust that a set of commands makes.
-    Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+    RotorVector roll;
+    RotorVector pitch;
+    RotorVector yaw;
+    RotorVector thrust;
+    EffectMatrix effect;  ///< times commands: the torque and thrust that they make, normalised
+
+    [[nodiscard]] std::size_t rotors() const { return static_cast<std::size_t>(roll.size()); }
 };
 
-/// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently
-[[nodiscard]] Mixer make_mixer(const std::array<RotorGeometry, kRotors>& rotors);
+/// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently, or to
+///         hover one of them had to push down
+[[nodiscard]] Mixer make_mixer(const RotorList<RotorGeometry>& rotors);
 
 /// Axes about which more torque was asked than was given, per sign.
 struct Saturation {
@@ -39,7 +45,7 @@ struct Saturation {
 };
 
 struct Allocation {
-    std::array<double, kRotors> command{};  ///< 0..1
+    RotorList<double> command;  ///< 0..1
     Saturation saturation;
 };
 

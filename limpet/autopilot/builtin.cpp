@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "limpet/autopilot/attitude_control.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/core/machines.hpp"
 
 namespace limpet::autopilot {
@@ -55,7 +56,16 @@ RotorCommand fly_own(const AutopilotModel& model, AutopilotState& state, const S
     state.attitude_target.thrust = output.thrust;
     const Allocation allocation = allocate(model.mixer, output.torque, output.thrust);
     state.saturation = allocation.saturation;
-    return {.command = output.rotors.value_or(allocation.command), .armed = true};
+    if (output.rotors) {
+        require(output.rotors->size() == allocation.command.size(),
+                "an autopilot commands every rotor");
+        return {.command = *output.rotors, .armed = true};
+    }
+    return {.command = allocation.command, .armed = true};
+}
+
+RotorCommand idle(const AutopilotModel& model, bool armed) {
+    return {.command = RotorList<double>(model.mixer.rotors()), .armed = armed};
 }
 
 void disarm(AutopilotState& state) {
@@ -70,7 +80,7 @@ void disarm(AutopilotState& state) {
 }  // namespace
 
 AutopilotModel make_autopilot(const AutopilotParameters& parameters,
-                              const std::array<RotorGeometry, kRotors>& rotors) {
+                              const RotorList<RotorGeometry>& rotors) {
     return {.parameters = parameters, .mixer = make_mixer(rotors), .vehicle = {}, .own = {}};
 }
 
@@ -110,10 +120,10 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] RotorCommand control(const AutopilotModel& 
     }
     if (!setpoint.armed) {
         disarm(state);
-        return {};
+        return idle(model, false);
     }
     if (std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
-        return {.command = {}, .armed = true};
+        return idle(model, true);
     }
     if (model.own != nullptr) {
         return fly_own(model, state, setpoint, time_s, dt_s);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -48,7 +47,7 @@ struct AutopilotState {
 
 /// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently
 [[nodiscard]] AutopilotModel make_autopilot(const AutopilotParameters& parameters,
-                                            const std::array<RotorGeometry, kRotors>& rotors);
+                                            const RotorList<RotorGeometry>& rotors);
 
 /// What model.own remembers, from its beginning.
 void start_memory(const AutopilotModel& model, AutopilotState& state);

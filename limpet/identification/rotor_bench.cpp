@@ -12,11 +12,11 @@ namespace {
 constexpr double kDt_s = 1e-3;
 constexpr int kSpinUpSteps = 5000;  ///< 5 s: long for any motor's time constants and dead time
 
-/// One rotor at the centre of the bench; the others stand still.
+/// One rotor at the centre of the bench.
 vehicle::Airframe bench_of(const vehicle::RotorParameters& rotor) {
     vehicle::Airframe bench;
     bench.rotor = rotor;
-    bench.rotor_p_B_m.fill(Vector3::Zero());
+    bench.rotors = {vehicle::Rotor{}};
     return bench;
 }
 
@@ -24,12 +24,9 @@ vehicle::RotorsState spun_up(const vehicle::RotorParameters& rotor, double speed
     const double speed_rad_s = speed_rpm * 2.0 * kPi / 60.0;
     const double command = (speed_rad_s - rotor.speed_offset_rad_s) / rotor.speed_scale_rad_s;
     const vehicle::RotorLag lag = make_lag(rotor, kDt_s);
-    vehicle::RotorsState state;
+    vehicle::RotorsState state = vehicle::standing(1);
     for (int k = 0; k < kSpinUpSteps; ++k) {
         step(rotor, lag, state, {.command = {command}, .armed = true});
-        for (std::size_t i = 1; i < kRotors; ++i) {
-            state.speed_rad_s[i] = 0.0;
-        }
     }
     return state;
 }

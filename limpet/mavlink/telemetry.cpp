@@ -32,7 +32,8 @@ Severity severity_of(EventName name) {
 const std::array<Telemetry::Stream, 10> Telemetry::kStreams = {{
     {Heartbeat::kId, 1.0,
      [](Telemetry& t, const VehicleView& vehicle) {
-         t.post(heartbeat(vehicle.armed, kOffboardFlags, custom_mode(kMainModeOffboard)));
+         t.post(heartbeat(vehicle.armed, kOffboardFlags, custom_mode(kMainModeOffboard),
+                          vehicle.rotors));
      }},
     {SysStatus::kId, 1.0,
      [](Telemetry& t, const VehicleView& vehicle) {

@@ -39,8 +39,12 @@ struct Sensors {
 
 }  // namespace
 
-Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode) {
-    return {.type = MavType::quadrotor,
+Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode,
+                    std::size_t rotors) {
+    return {.type = static_cast<std::uint8_t>(rotors == 6    ? MavType::hexarotor
+                                              : rotors == 8  ? MavType::octorotor
+                                              : rotors == 12 ? MavType::dodecarotor
+                                                             : MavType::quadrotor),
             .autopilot = MavAutopilot::px4,
             .base_mode = static_cast<std::uint8_t>(mode_flags | (armed ? kArmedFlag : 0)),
             .custom_mode = custom_mode,

@@ -25,6 +25,7 @@ struct VehicleView {
     const Estimate& estimate;
     const Readings& readings;
     bool armed = false;
+    std::size_t rotors = 4;
 };
 
 /// MAV_MODE_FLAG, as PX4 has it in OFFBOARD: guidance flies by set-points.
@@ -32,9 +33,12 @@ inline constexpr std::uint8_t kOffboardFlags =
     MavModeFlag::custom_mode_enabled | MavModeFlag::auto_enabled | MavModeFlag::guided_enabled |
     MavModeFlag::stabilize_enabled;
 
-/// PX4's, a quadrotor.
+/// PX4's.
 /// @param mode_flags  MAV_MODE_FLAG but for the one that says whether it is armed
-[[nodiscard]] Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode);
+/// @param rotors      MAV_TYPE knows multirotors of 4, 6, 8 and 12: others call themselves
+///                    quadrotors
+[[nodiscard]] Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mode,
+                                  std::size_t rotors);
 /// A sensor is present once it has spoken, healthy when its last sample is younger than a second.
 /// The load of a computer that is not simulated is 0.
 /// @param damaged  frames with a wrong checksum so far

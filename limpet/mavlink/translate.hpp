@@ -65,7 +65,8 @@ void take(const HilSensor& message, double time_s, Readings& readings);
 /// @return nothing without a 3D fix
 [[nodiscard]] std::optional<GpsReading> gps_reading(const HilGps& message,
                                                     const GeographicOrigin& origin);
-/// What is not finite counts as 0; motors are held to 0..1.
+/// Of kMaxRotors motors, as the wire has no number. What is not finite counts as 0; motors are held
+/// to 0..1.
 [[nodiscard]] RotorCommand rotor_command(const HilActuatorControls& controls);
 /// Motors that are not armed are told 0, as PX4 does. Says "lockstep" (flags 1).
 [[nodiscard]] HilActuatorControls hil_actuator_controls(const RotorCommand& command,

@@ -137,6 +137,7 @@ std::optional<GpsReading> gps_reading(const HilGps& message, const GeographicOri
 RotorCommand rotor_command(const HilActuatorControls& controls) {
     RotorCommand command;
     command.armed = (controls.mode & kArmedFlag) != 0;
+    command.command.resize(kMaxRotors);  // the wire does not say how many there are
     for (std::size_t i = 0; i < command.command.size(); ++i) {
         const double value = controls.controls[i];
         command.command[i] = std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/models/drawing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -63,12 +64,20 @@ void draw_body(std::vector<Part>& parts) {
 
 void draw_rotor(std::vector<Part>& parts, const vehicle::Airframe& airframe, std::size_t i) {
     const std::string number = std::to_string(i);
-    const Vector3& hub = airframe.rotor_p_B_m[i];
+    const vehicle::Rotor& rotor = airframe.rotors[i];
+    const Vector3& hub = rotor.p_B_m;
     const double radius_m = airframe.rotor.radius_m;
     const Vector3 mount{hub.x(), hub.y(), 0.0};
-    parts.push_back(rod("arm_" + number, 0.2 * mount, mount, 0.009, Paint::carbon));
-    parts.push_back(rod("motor_" + number, mount + Vector3(0.0, 0.0, 0.008),
-                        hub + Vector3(0.0, 0.0, 0.006), 0.021, Paint::aluminium));
+    const bool shares_arm = std::any_of(airframe.rotors.begin(), airframe.rotors.begin() + i,
+                                        [&hub](const vehicle::Rotor& other) {
+                                            return (other.p_B_m - hub).head<2>().norm() < 0.01;
+                                        });
+    if (!shares_arm) {
+        parts.push_back(rod("arm_" + number, 0.2 * mount, mount, 0.009, Paint::carbon));
+    }
+    const double up = hub.z() > 0.0 ? -1.0 : 1.0;  // which way the motor stands on its arm
+    parts.push_back(rod("motor_" + number, mount + Vector3(0.0, 0.0, up * 0.008),
+                        hub + Vector3(0.0, 0.0, up * 0.006), 0.021, Paint::aluminium));
     parts.push_back(rod("rotor_" + number, hub + Vector3(0.0, 0.0, 0.001),
                         hub - Vector3(0.0, 0.0, 0.001), radius_m, Paint::propeller));
     const double angle_rad = radians(35.0 + 50.0 * static_cast<double>(i));
@@ -163,7 +172,7 @@ std::vector<Part> draw(const vehicle::Airframe& airframe) {
     }
     std::vector<Part> parts;
     draw_body(parts);
-    for (std::size_t i = 0; i < airframe.rotor_p_B_m.size(); ++i) {
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
         draw_rotor(parts, airframe, i);
     }
     if (airframe.has_cup) {

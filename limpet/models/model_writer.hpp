@@ -29,7 +29,7 @@ struct Scene {
 // All writers turn forward-right-down and north-east-down into forward-left-up and a z-up world
 // (x north, y west, z up): x stays, y and z change sign. Names of bodies, joints and geoms, alike
 // in the three formats: base, carriage, cup; joints slider, cup_pitch, cup_yaw; leg_left,
-// leg_right; rotor_0..3; wall, ground.
+// leg_right; rotor_0, rotor_1, ...; wall, ground.
 
 /// A whole MuJoCo model: vehicle (free joint), wall, floor, lights, materials, cameras.
 /// Bodies base > carriage > cup; contacts only by explicit pairs (each leg tip with the wall).

@@ -122,7 +122,8 @@ void measure_vehicle(Evidence& evidence) {
     const scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
     const vehicle::Airframe& airframe = scenario.airframe;
     evidence.set("vehicle.mass_kg", airframe.mass_kg);
-    evidence.set("vehicle.wheelbase_m", (airframe.rotor_p_B_m[0] - airframe.rotor_p_B_m[1]).norm());
+    evidence.set("vehicle.wheelbase_m",
+                 (airframe.rotors[0].p_B_m - airframe.rotors[1].p_B_m).norm());
     constexpr double kInch_m = 0.0254;
     evidence.set("vehicle.propeller_diameter_in", 2.0 * airframe.rotor.radius_m / kInch_m);
     evidence.set("vehicle.battery_cells", airframe.battery.cells);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -34,18 +36,39 @@ void add(Settings& settings, const std::string& name, double value, std::string 
                         .fixed = fixed});
 }
 
+/// "front right"; "lower front right" of a coaxial pair.
+std::string place_of(const Px4Airframe& airframe, std::size_t i) {
+    constexpr double kMiddle_m = 0.01;
+    const Vector3& p_B_m = airframe.rotors[i].p_B_m;
+    std::string place;
+    for (const autopilot::RotorGeometry& other : airframe.rotors) {
+        const Vector3 apart_m = p_B_m - other.p_B_m;
+        if (apart_m.head<2>().norm() < kMiddle_m && std::abs(apart_m.z()) > kMiddle_m) {
+            place += apart_m.z() > 0.0 ? "lower" : "upper";
+        }
+    }
+    const auto say = [&place](double m, const char* positive, const char* negative) {
+        if (std::abs(m) > kMiddle_m) {
+            place += (place.empty() ? "" : " ") + std::string(m > 0.0 ? positive : negative);
+        }
+    };
+    say(p_B_m.x(), "front", "rear");
+    say(p_B_m.y(), "right", "left");
+    return place;
+}
+
 void add_rotors(const Px4Airframe& airframe, Settings& settings) {
-    constexpr std::array<std::string_view, kRotors> kPlace = {"front right", "rear left",
-                                                              "front left", "rear right"};
+    const std::size_t count = airframe.rotors.size();
     add(settings, "CA_AIRFRAME", 0, "a multirotor");
-    add(settings, "CA_ROTOR_COUNT", kRotors, "a quadrotor");
+    add(settings, "CA_ROTOR_COUNT", static_cast<double>(count), px4_frame(airframe).says);
     for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
         const autopilot::RotorGeometry& rotor = airframe.rotors[i];
         const std::string prefix = fmt::format("CA_ROTOR{}_", i);
+        const std::string place = place_of(airframe, i);
         add(settings, prefix + "PX", rotor.p_B_m.x(),
-            fmt::format("{} hub, m forward of the centre of mass", kPlace[i]));
+            fmt::format("{} hub, m forward of the centre of mass", place));
         add(settings, prefix + "PY", rotor.p_B_m.y(),
-            fmt::format("{} hub, m right of the centre of mass", kPlace[i]));
+            fmt::format("{} hub, m right of the centre of mass", place));
         add(settings, prefix + "KM", rotor.direction * rotor.moment_constant_m,
             fmt::format("torque over thrust, m; turns {}", rotor.direction > 0
                                                                ? "counter-clockwise: positive"
@@ -55,8 +78,8 @@ void add_rotors(const Px4Airframe& airframe, Settings& settings) {
         return;  // which pin drives which motor is the builder's to say
     }
     const std::string output = airframe.target == Px4Target::sitl ? "PWM_MAIN" : "HIL_ACT";
-    for (int i = 1; i <= kRotors; ++i) {
-        add(settings, fmt::format("{}_FUNC{}", output, i), 100 + i,
+    for (std::size_t i = 1; i <= count; ++i) {
+        add(settings, fmt::format("{}_FUNC{}", output, i), 100.0 + static_cast<double>(i),
             fmt::format("channel {} of HIL_ACTUATOR_CONTROLS is motor {}", i - 1, i));
     }
 }
@@ -92,6 +115,20 @@ void add_part(const char* part, const Px4Airframe& airframe, Settings& settings)
 }
 
 }  // namespace
+
+Px4Frame px4_frame(const Px4Airframe& airframe) {
+    const RotorList<autopilot::RotorGeometry>& rotors = airframe.rotors;
+    const double plane_m = rotors.empty() ? 0.0 : rotors[0].p_B_m.z();
+    const bool coaxial = std::any_of(rotors.begin(), rotors.end(),
+                                     [&](const auto& rotor) { return rotor.p_B_m.z() != plane_m; });
+    switch (rotors.size()) {
+        case 4: return {"a quadrotor", "Quadrotor x"};
+        case 6: return {"a hexarotor", coaxial ? "Hexarotor Coaxial" : "Hexarotor x"};
+        case 8: return {"an octorotor", coaxial ? "Octorotor Coaxial" : "Octorotor x"};
+        case 12: return {"a dodecarotor", "Dodecarotor cox"};
+        default: return {"so many rotors", "Copter"};
+    }
+}
 
 std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     if (airframe.id < kFirstOwnId || airframe.id > kLastOwnId) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ enum class Px4Pose {
 struct Px4Airframe {
     std::string name;  ///< of the vehicle; other characters than a-z, A-Z, 0-9, _, - become _
     int id = 22001;    ///< SYS_AUTOSTART, 22000..22999: PX4 keeps those for models of one's own
-    std::array<autopilot::RotorGeometry, kRotors> rotors;
+    RotorList<autopilot::RotorGeometry> rotors;
     double battery_cells = 6.0;
     double battery_capacity_Ah = 4.0;
     bool perches = true;  ///< has a cup
@@ -44,6 +43,13 @@ struct Px4Setting {
     std::string reason;
     bool fixed = false;  ///< `param set`, not `set-default`: a user's own value must not win
 };
+
+/// What the number and places of its rotors make of it.
+struct Px4Frame {
+    const char* says;  ///< "a hexarotor"
+    const char* type;  ///< PX4's, of an airframe: "Hexarotor x"
+};
+[[nodiscard]] Px4Frame px4_frame(const Px4Airframe& airframe);
 
 /// What PX4 v1.15 must be told, in the order in which a person reads it. Of the built-in
 /// autopilot's parameters only control's (MPC_, MC_, IMU_) go over, where they differ from PX4's

@@ -86,7 +86,8 @@ std::string px4_airframe_script(const Px4Airframe& airframe,
         "# Written by limpet px4-params. Belongs into {}\n"
         "\n"
         ". ${{R}}etc/init.d/rc.mc_defaults\n",
-        airframe.name, airframe.target == Px4Target::flight ? "Quadrotor x" : "Simulation",
+        airframe.name,
+        airframe.target == Px4Target::flight ? px4_frame(airframe).type : "Simulation",
         where(airframe.target), source(airframe.pose), px4_airframe_folder(airframe.target));
     for (const Px4Setting& setting : settings) {
         text +=

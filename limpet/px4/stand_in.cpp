@@ -66,6 +66,7 @@ std::optional<wire::TransportAddress> StandIn::onboard_address() const {
 void StandIn::boot() {
     generation_ = hil_.generation();
     flight_ = {};
+    flight_.command.command.resize(model_.mixer.rotors());
     streams_ = {};
     ground_station_ = false;
     sensors_ = 0;

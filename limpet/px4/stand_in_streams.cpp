@@ -89,7 +89,8 @@ mavlink::Heartbeat heartbeat(const StandInFlight& flight) {
         flight.manners.armed(), mavlink::MavModeFlag::custom_mode_enabled,
         flight.manners.mode == FlightMode::offboard
             ? mavlink::custom_mode(mavlink::kMainModeOffboard)
-            : mavlink::custom_mode(mavlink::kMainModeAuto, mavlink::kSubModeLoiter));
+            : mavlink::custom_mode(mavlink::kMainModeAuto, mavlink::kSubModeLoiter),
+        flight.command.command.size());
 }
 
 }  // namespace limpet::px4

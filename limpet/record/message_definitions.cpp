@@ -37,6 +37,15 @@ void collect(std::string_view type, std::vector<const MessageDefinition*>& found
     }
 }
 
+/// In the files below msg/ a vehicle has four rotors: nothing else there comes in fours.
+std::string with_rotors(std::string text, std::size_t rotors) {
+    constexpr std::string_view kFour = "float64[4]";
+    for (auto at = text.find(kFour); at != std::string::npos; at = text.find(kFour, at + 1)) {
+        text.replace(at, kFour.size(), "float64[" + std::to_string(rotors) + "]");
+    }
+    return text;
+}
+
 /// Of what another message depends on.
 std::string part_of(const MessageDefinition& definition) {
     return std::string(80, '=') + "\nMSG: " + short_type_name(definition.type) + "\n" +
@@ -49,14 +58,14 @@ std::span<const MessageDefinition> message_definitions() {
     return kDefinitions;
 }
 
-std::string ros2msg_schema(std::string_view type) {
+std::string ros2msg_schema(std::string_view type, std::size_t rotors) {
     std::vector<const MessageDefinition*> parts;
     collect(type, parts);
     std::string text(parts.front()->text);
     for (std::size_t i = 1; i < parts.size(); ++i) {
         text += part_of(*parts[i]);
     }
-    return text;
+    return with_rotors(std::move(text), rotors);
 }
 
 std::string column_schema(std::span<const std::string_view> columns) {

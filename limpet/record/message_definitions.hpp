@@ -19,10 +19,11 @@ struct MessageDefinition {
 /// a column carries the unit as we write it: `pressure_pa` becomes `pressure_Pa` (units.hpp).
 [[nodiscard]] std::span<const MessageDefinition> message_definitions();
 
-/// @param type  one of message_definitions()
+/// @param type    one of message_definitions()
+/// @param rotors  of the vehicle: the length of fields that have a number for each
 /// @return its text and that of all it depends on, separated as MCAP's encoding "ros2msg" asks for
 /// @throws InternalError for a type that is not there
-[[nodiscard]] std::string ros2msg_schema(std::string_view type);
+[[nodiscard]] std::string ros2msg_schema(std::string_view type, std::size_t rotors = 4);
 
 /// The same of a message that holds a stamp and a float64 for each column.
 [[nodiscard]] std::string column_schema(std::span<const std::string_view> columns);

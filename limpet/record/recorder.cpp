@@ -65,7 +65,7 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside), range_sensor_(info.range_sensor) {
+    : writer_(path, info.beside), range_sensor_(info.range_sensor), rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;
     about["scenario"] = info.scenario;
     if (info.seed) {
@@ -77,7 +77,8 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
         writer_.file().add_attachment(attachment);
     }
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
-        channels_[i] = writer_.add_channel(kTopics[i].name, kTopics[i].type);
+        channels_[i] = writer_.add_channel(kTopics[i].name, kTopics[i].type,
+                                           ros2msg_schema(kTopics[i].type, info.rotors));
     }
     for (const ColumnChannel& own : info.columns) {
         columns_.push_back(
@@ -91,6 +92,10 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
 template <class... Fields>
 void Recorder::write(Topic topic, double time_s, const Fields&... fields) {
     writer_.write_stamped(channels_[static_cast<std::size_t>(topic)], time_s, fields...);
+}
+
+std::span<const double> Recorder::each_rotor(const RotorList<double>& numbers) const {
+    return {numbers.data(), rotors_};
 }
 
 void Recorder::write_columns(Columns& to, double time_s, std::span<const double> numbers) {
@@ -201,8 +206,8 @@ void Recorder::truth(const Truth& truth) {
     const CupAngles cup_joint = cup_angles(truth);
     write(Topic::truth_vehicle, t, euler_from_quaternion(q_WB), v_W_m_s, w_B_rad_s,
           slider.position_m, slider.velocity_m_s, slider.force_N, cup_joint.pitch_rad,
-          cup_joint.yaw_rad, truth.legs_force_W_N, truth.rotor_speed_rad_s, truth.thrust_N,
-          power.voltage_V, power.current_A, power.energy_used_J, power.remaining);
+          cup_joint.yaw_rad, truth.legs_force_W_N, each_rotor(truth.rotor_speed_rad_s),
+          truth.thrust_N, power.voltage_V, power.current_A, power.energy_used_J, power.remaining);
 
     const CupStatus& cup = truth.cup_status;
     write(Topic::cup, t, static_cast<std::uint8_t>(cup.phase), cup.pump_running, cup.valve_open,
@@ -237,7 +242,7 @@ void Recorder::guidance(double time_s, std::string_view state, int attempt) {
 }
 
 void Recorder::rotor_command(double time_s, const RotorCommand& command) {
-    write(Topic::rotor_command, time_s, command.command, command.armed);
+    write(Topic::rotor_command, time_s, each_rotor(command.command), command.armed);
 }
 
 void Recorder::event(const Event& event) {

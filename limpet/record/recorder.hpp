@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/rotor_list.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/signals/readings.hpp"
@@ -46,6 +47,7 @@ struct RecordingInfo {
     mcap::StringMap numbers = {};
     std::vector<mcap::Attachment> attachments;  ///< "scenario.yaml", "model.xml"
     RangeSensor range_sensor;
+    std::size_t rotors = 4;  ///< so many numbers in a field that has one for each, <= kMaxRotors
     std::vector<ColumnChannel> columns = {};
     std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
     MessageSink* beside = nullptr;    ///< takes the same messages; lives as long
@@ -107,6 +109,8 @@ private:
         std::uint16_t channel = 0;
         double last_s = -std::numeric_limits<double>::infinity();
     };
+    /// As many as the definitions say; 0 where there is none.
+    [[nodiscard]] std::span<const double> each_rotor(const RotorList<double>& numbers) const;
     void write_columns(Columns& to, double time_s, std::span<const double> numbers);
 
     // A message is a stamp and fields, in the order of their definition.
@@ -124,6 +128,7 @@ private:
 
     MessageWriter writer_;
     RangeSensor range_sensor_;
+    std::size_t rotors_;
     std::array<std::uint16_t, kTopics.size()> channels_{};
     std::vector<Columns> columns_;
     std::optional<SceneWriter> scene_;

@@ -206,13 +206,13 @@ void SceneWriter::move(const Truth& truth) {
 
 void SceneWriter::mark(const Truth& truth, const Readings& readings, const Setpoint& setpoint) {
     const Stamp at = stamp(truth.time_s);
-    std::array<Marker, kRotors + 5> marks;
+    std::array<Marker, kMaxRotors + 5> marks;
     std::size_t count = 0;
-    std::array<Ends, kRotors> thrusts;
-    for (std::size_t k = 0; k < kRotors; ++k) {
+    std::array<Ends, kMaxRotors> thrusts;
+    for (std::size_t k = 0; k < scene_.rotor_p_B_m.size(); ++k) {
         const double w_rad_s = truth.rotor_speed_rad_s[k];
         const Vector3 hub = flu_from_frd(scene_.rotor_p_B_m[k]);
-        const double up_m = kArrow_m_N * scene_.thrust_N_s2 * w_rad_s * w_rad_s;
+        const double up_m = kArrow_m_N * scene_.thrust_N_s2[k] * w_rad_s * w_rad_s;
         thrusts[k] = {hub, hub + Vector3(0.0, 0.0, up_m)};
         marks[count++] =
             arrow_of(at, kBaseFrame, "thrust", static_cast<std::int32_t>(k), thrusts[k], kThrust);

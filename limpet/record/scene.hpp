@@ -40,8 +40,8 @@ struct Scene {
     std::array<Vector3, 2> lidar_p_B_m{};
     Vector3 joint_B_m = Vector3::Zero();  ///< of the cup, slider at its outer stop
     double lip_m = 0.0;                   ///< ahead of the joint
-    std::array<Vector3, kRotors> rotor_p_B_m{};
-    double thrust_N_s2 = 0.0;  ///< of a rotor at 1 rad/s
+    RotorList<Vector3> rotor_p_B_m{};
+    RotorList<double> thrust_N_s2{};  ///< of each at 1 rad/s
 };
 
 /// The cup's joint turns about y, then about the turned z; as the vehicle's angles are.

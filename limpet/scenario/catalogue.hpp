@@ -17,4 +17,16 @@ namespace limpet::scenario {
 /// @throws InputError when surfaces.yaml is not right
 [[nodiscard]] std::vector<CatalogueEntry> list_surfaces(const std::filesystem::path& root);
 
+/// What a YAML file of ours describes.
+enum class FileKind {
+    scenario,
+    vehicle,
+    campaign,
+    companion,
+};
+/// By the folder that it is in, else by keys that only one kind has; what has none of them is a
+/// scenario.
+/// @throws InputError where the file cannot be read
+[[nodiscard]] FileKind kind_of(const std::filesystem::path& file);
+
 }  // namespace limpet::scenario

@@ -105,8 +105,9 @@ void check_mount(const Scenario& scenario, const YamlNode& root) {
     } else {
         const vehicle::Pendulum ropes =
             hang(scenario.pendulum, airframe, Vector3::Zero(), Quaternion::Identity());
-        longest_s = longest_step_s(kRotors * ropes.stiffness_N_m, kRotors * ropes.damping_N_s_m,
-                                   base.mass_kg);
+        constexpr double kAll = vehicle::kRopes;
+        longest_s =
+            longest_step_s(kAll * ropes.stiffness_N_m, kAll * ropes.damping_N_s_m, base.mass_kg);
         for (const int axis : {0, 1}) {  // rolls and pitches on its hooks
             double arms_m2 = 0.0;
             for (const Vector3& hook_m : ropes.hook_B_m) {

@@ -20,7 +20,8 @@ double drag_1_s(const Scenario& scenario) {
     const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
     const double hover_speed_rad_s =
         rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_command(scenario.airframe);
-    return kRotors * rotor.drag_constant_kg * hover_speed_rad_s / scenario.airframe.mass_kg;
+    return static_cast<double>(scenario.airframe.rotors.size()) * rotor.drag_constant_kg *
+           hover_speed_rad_s / scenario.airframe.mass_kg;
 }
 
 /// Within what guidance takes: a vehicle without a cup has legs of no meaning.
@@ -66,6 +67,16 @@ std::optional<double> derived(std::string_view section, std::string_view name,
         std::begin(kDerived), std::end(kDerived),
         [&](const DerivedKey& key) { return key.section == section && key.name == name; });
     return found == std::end(kDerived) ? std::nullopt : std::optional(found->value(scenario));
+}
+
+RotorList<autopilot::RotorGeometry> rotor_geometry(const vehicle::AirframeNumbers& airframe) {
+    RotorList<autopilot::RotorGeometry> rotors(airframe.rotors.size());
+    for (std::size_t i = 0; i < rotors.size(); ++i) {
+        rotors[i] = {.p_B_m = airframe.rotors[i].p_B_m,
+                     .direction = static_cast<double>(airframe.rotors[i].direction),
+                     .moment_constant_m = airframe.rotor.moment_constant_m};
+    }
+    return rotors;
 }
 
 void derive(const Section& section, const Scenario& scenario) {

@@ -4,9 +4,15 @@
 #include <optional>
 #include <string_view>
 
+#include "limpet/autopilot/allocation.hpp"
 #include "limpet/scenario/sections.hpp"
 
 namespace limpet::scenario {
+
+/// What a mixer must know of the rotors. What the wake of an upper one takes is left out: PX4's own
+/// airframes of coaxial pairs tell it no other thrust of the lower ones.
+[[nodiscard]] RotorList<autopilot::RotorGeometry> rotor_geometry(
+    const vehicle::AirframeNumbers& airframe);
 
 /// What other rooms have to know of the vehicle and of the earth's field, so that a scenario that
 /// changes the mass need not work out the hover thrust. The scenario's own keys come later and win.

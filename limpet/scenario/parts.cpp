@@ -5,6 +5,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/data_folder.hpp"
+#include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -43,15 +44,24 @@ void read_rotors(const YamlNode* node, vehicle::Airframe& airframe) {
     if (node == nullptr) {
         return;
     }
-    const auto& rotors =
-        read_list(*node, fmt::format("a list of {} rotors", kRotors), kRotors, kRotors);
-    for (std::size_t i = 0; i < kRotors; ++i) {
-        const YamlNode& rotor = rotors[i];
-        if (!is_section(&rotor)) {
-            fail(rotor, "is empty, needs x_m, y_m and direction");
+    // Three cannot make roll, pitch, yaw and thrust independently.
+    constexpr std::size_t kFewest = 4;
+    const auto& list = read_list(*node,
+                                 fmt::format("a list of {} to {} rotors, has {}", kFewest,
+                                             kMaxRotors, node->children.size()),
+                                 kFewest, kMaxRotors);
+    airframe.rotors = RotorList<vehicle::Rotor>(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (!is_section(&list[i])) {
+            fail(list[i], "is empty, needs x_m, y_m and direction");
         }
-        read_rows(&rotor, rotor_rows(airframe.rotor_p_B_m[i]), {"direction"});
-        airframe.rotor_direction[i] = read_direction(rotor);
+        read_rows(&list[i], rotor_rows(airframe.rotors[i]), {"direction"});
+        airframe.rotors[i].direction = read_direction(list[i]);
+        for (const char* key : {"x_m", "y_m"}) {
+            if (list[i].find(key) == nullptr) {
+                fail(list[i], fmt::format("has no {}", key));
+            }
+        }
     }
 }
 
@@ -86,14 +96,15 @@ void read_vehicle(const YamlNode& map, bool with_base, const fs::path& folder,
     read_given(map, "has_cup", airframe.has_cup);
     read_model(map, folder, airframe);
     read_rotors(map.find("rotors"), airframe);
-    for (Vector3& p_B_m : airframe.rotor_p_B_m) {
-        p_B_m.z() = -airframe.rotor.height_m;
+    for (vehicle::Rotor& rotor : airframe.rotors) {
+        rotor.p_B_m.z() = rotor.below_m - airframe.rotor.height_m;
     }
 }
 
 void validate_at(const YamlNode& node, const vehicle::Airframe& airframe) {
     try {
         validate(airframe);
+        (void)autopilot::make_mixer(rotor_geometry(airframe));
     } catch (const InputError& error) {
         fail(node, error.what());
     }

@@ -63,9 +63,8 @@ std::vector<Section> vehicle_sections(vehicle::Airframe& airframe) {
             {"battery", bind(vehicle::battery_table(), airframe.battery)}};
 }
 
-std::vector<BoundParameter> rotor_rows(Vector3& p_B_m) {
-    return {{"x_m", "m", -5.0, 5.0, &p_B_m.x(), "hub ahead of the centre of mass", "vehicle file"},
-            {"y_m", "m", -5.0, 5.0, &p_B_m.y(), "hub right of it", "vehicle file"}};
+std::vector<BoundParameter> rotor_rows(vehicle::Rotor& rotor) {
+    return bind(vehicle::rotor_place_table(), rotor);
 }
 
 std::vector<BoundParameter> suction_rows(suction::CupParameters& cup) {

@@ -39,7 +39,7 @@ struct Section {
 [[nodiscard]] std::vector<Section> vehicle_sections(vehicle::Airframe& airframe);
 
 /// Place and direction of one rotor: an item of a vehicle's list `rotors`.
-[[nodiscard]] std::vector<BoundParameter> rotor_rows(Vector3& p_B_m);
+[[nodiscard]] std::vector<BoundParameter> rotor_rows(vehicle::Rotor& rotor);
 
 /// Section `suction`: the cup, every pressure model, the lip. The model's name is a text beside
 /// them.

@@ -81,11 +81,19 @@ void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
         }
     }
     writer.line(1, "rotors:");
-    for (std::size_t i = 0; i < kRotors; ++i) {
-        const Vector3& p_B_m = airframe.rotor_p_B_m[i];
-        writer.line(
-            2, fmt::format("- {{x_m: {}, y_m: {}, direction: {}}}", number_text(p_B_m.x()),
-                           number_text(p_B_m.y()), airframe.rotor_direction[i] > 0 ? "ccw" : "cw"));
+    for (vehicle::Rotor& rotor : airframe.rotors) {
+        const vehicle::Rotor usual;
+        std::string item;
+        for (const BoundParameter& row : rotor_rows(rotor)) {
+            const bool place = row.name == "x_m" || row.name == "y_m";
+            const bool said =
+                rotor.below_m != usual.below_m || rotor.thrust_share != usual.thrust_share;
+            if (place || said) {
+                item += fmt::format("{}: {}, ", row.name, value_text(row.value));
+            }
+        }
+        writer.line(2,
+                    fmt::format("- {{{}direction: {}}}", item, rotor.direction > 0 ? "ccw" : "cw"));
     }
 }
 

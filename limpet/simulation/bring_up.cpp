@@ -79,8 +79,8 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
     const std::unique_ptr<plant::Plant> made = model.plant->make();
     plant::Plant& plant = *made;
     FlightState state = start(waiting, plant, options.run);
-    state.rotors = {};
-    state.command = {};
+    state.rotors = vehicle::standing(model.airframe.rotors.size());
+    state.command = {.command = RotorList<double>(model.airframe.rotors.size())};
     rest_on_stand(model, stand_W_m, plant, state.truth);
     state.sensors =
         sensors::start(model.sensors, state.truth, model.seed, options.run, model.noise);

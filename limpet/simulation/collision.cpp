@@ -21,8 +21,8 @@ bool legs_can_touch(const FlightModel& model, const Kinematics& base) {
 
 double closest_hub_m(const FlightModel& model, const Kinematics& base) {
     double closest_m = std::numeric_limits<double>::infinity();
-    for (const Vector3& p_BR_m : model.airframe.rotor_p_B_m) {
-        const Vector3 p_WR_m = base.p_WF_m + base.q_WF * p_BR_m;
+    for (const vehicle::Rotor& rotor : model.airframe.rotors) {
+        const Vector3 p_WR_m = base.p_WF_m + base.q_WF * rotor.p_B_m;
         if (tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
         }
@@ -36,9 +36,9 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     const double ground_m = model.simulation.start_height_m;
     const double to_ground_m = ground_m - p_WB_m.z();
     bool on_ground = to_ground_m < 0.0;
-    if (to_ground_m < airframe.rotor_p_B_m[0].norm()) {
-        for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
-            on_ground = on_ground || (p_WB_m + truth.base.q_WF * p_BR_m).z() > ground_m;
+    if (to_ground_m < model.hubs_reach_m) {
+        for (const vehicle::Rotor& rotor : airframe.rotors) {
+            on_ground = on_ground || (p_WB_m + truth.base.q_WF * rotor.p_B_m).z() > ground_m;
         }
     }
     if (on_ground) {
@@ -47,7 +47,7 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     if (!model.has_wall) {
         return std::nullopt;
     }
-    const double reaches_m = airframe.rotor_p_B_m[0].norm() + airframe.rotor.radius_m;
+    const double reaches_m = model.hubs_reach_m + airframe.rotor.radius_m;
     if (std::abs(before_wall_m(model.cup.wall, p_WB_m)) > reaches_m) {
         return std::nullopt;
     }
@@ -57,11 +57,11 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     const double reach_m =
         airframe.rotor.radius_m * std::sqrt(std::max(0.0, 1.0 - n_B.z() * n_B.z()));
     const bool hollow = spot.curvature_y_1_m < 0.0 || spot.curvature_z_1_m < 0.0;
-    for (const Vector3& p_BR_m : airframe.rotor_p_B_m) {
-        if (!hollow && spot.gap_m - n_B.dot(p_BR_m) >= reach_m) {
+    for (const vehicle::Rotor& rotor : airframe.rotors) {
+        if (!hollow && spot.gap_m - n_B.dot(rotor.p_B_m) >= reach_m) {
             continue;  // clear of the flat wall there, and this one bends away from it
         }
-        const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * p_BR_m;
+        const Vector3 p_WR_m = p_WB_m + truth.base.q_WF * rotor.p_B_m;
         if (before_wall_m(model.cup.wall, p_WR_m) < reach_m &&
             tangent_frame(model.cup.wall, p_WR_m).on_wall) {
             return guidance::Ending{.outcome = Outcome::crashed,

@@ -36,8 +36,11 @@ record::Scene scene_of_recording(const FlightModel& model) {
                         .lidar_p_B_m = model.sensors.mounts.lidar_p_B_m,
                         .joint_B_m = {airframe.cup.joint_x_m, 0.0, airframe.cup.joint_z_m},
                         .lip_m = airframe.cup.lip_offset_m,
-                        .rotor_p_B_m = airframe.rotor_p_B_m,
-                        .thrust_N_s2 = airframe.rotor.motor_constant_kg_m};
+                        .rotor_p_B_m = model.autopilot.vehicle.rotor_p_B_m,
+                        .thrust_N_s2 = RotorList<double>(airframe.rotors.size())};
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
+        scene.thrust_N_s2[i] = airframe.rotors[i].thrust_share * airframe.rotor.motor_constant_kg_m;
+    }
     if (scenario.wall.present) {
         const models::FinishLook& finish =
             models::look(models::finish_of(scenario.wall.surface.name));
@@ -55,6 +58,7 @@ record::RecordingInfo describe(const FlightModel& model, record::MessageSink* be
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;
+    info.rotors = scenario.airframe.rotors.size();
     if (scenario.airframe.has_cup) {
         info.numbers["land_pressure_Pa"] = fmt::format("{}", scenario.guidance.land_pressure_Pa);
         info.numbers["detach_pressure_Pa"] =

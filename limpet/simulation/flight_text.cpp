@@ -57,6 +57,31 @@ std::string seal_text(const Metrics& m) {
     return text;
 }
 
+/// What the last touch asked for, where none has sealed.
+std::string unsealed_text(const FlightResult& result) {
+    const Metrics& m = result.metrics;
+    if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N)) {
+        return "";
+    }
+    std::optional<double> needed_N;
+    for (const Event& event : result.events) {
+        if (const auto threshold_N = value_of(event, "seal_threshold_N")) {
+            needed_N = threshold_N;
+        }
+    }
+    if (!needed_N) {
+        return "";
+    }
+    return fmt::format(
+        "the last touch, at {:.2f} m/s, pressed {:.1f} N at the lip; this spot seals {}",
+        m.impact_speed_m_s, m.cup_press_max_N,
+        m.cup_press_max_N < *needed_N
+            ? fmt::format("above {:.1f} N: a higher guidance.dock_speed_m_s presses "
+                          "harder",
+                          *needed_N)
+            : fmt::format("above {:.1f} N while the lip lies still and straight", *needed_N));
+}
+
 std::string perched_text(const Metrics& m) {
     return known(m.perched_pitch_deg)
                ? fmt::format("pitch {:.2f} deg", m.perched_pitch_deg) +
@@ -126,6 +151,7 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
     add(lines, bold, "outcome", outcome);
     add(lines, bold, "impact", impact_text(m));
     add(lines, bold, "seal", seal_text(m));
+    add(lines, bold, "no seal", unsealed_text(result));
     add(lines, bold, "perched", perched_text(m));
     add(lines, bold, "release", release_text(m, result.outcome));
     add_loads(lines, bold, m);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "limpet/scenario/derived.hpp"
 #include "limpet/simulation/advance.hpp"
 
 namespace limpet::simulation {
@@ -29,8 +30,8 @@ Vector3 trim_W_m_s2(const FlightModel& model) {
     }
     Kinematics level;
     level.q_WF = quaternion_from_euler({.yaw_rad = model.start.yaw_rad});
-    const vehicle::RotorsState rotors =
-        spinning(model.airframe.rotor, vehicle::hover_command(model.airframe));
+    const vehicle::RotorsState rotors = spinning(model.airframe.rotor, model.airframe.rotors.size(),
+                                                 vehicle::hover_command(model.airframe));
     const Vector3 force_B_N =
         vehicle::rotor_wrench_B(model.airframe, rotors, level, model.wind.mean_W_m_s).force_N;
     return -(level.q_WF * Vector3(force_B_N.x(), force_B_N.y(), 0.0)) / model.airframe.mass_kg;
@@ -50,17 +51,15 @@ Quaternion leaning(const FlightModel& model, const Vector3& trim_W) {
 }  // namespace
 
 autopilot::AutopilotModel autopilot_model(const scenario::Scenario& scenario) {
-    std::array<autopilot::RotorGeometry, kRotors> rotors;
-    for (std::size_t i = 0; i < rotors.size(); ++i) {
-        rotors[i] = {.p_B_m = scenario.airframe.rotor_p_B_m[i],
-                     .direction = static_cast<double>(scenario.airframe.rotor_direction[i]),
-                     .moment_constant_m = scenario.airframe.rotor.moment_constant_m};
-    }
+    const auto rotors = scenario::rotor_geometry(scenario.airframe);
     autopilot::AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
     model.vehicle = {.mass_kg = scenario.airframe.mass_kg,
                      .inertia_kg_m2 = scenario.airframe.inertia_kg_m2,
                      .hover_thrust = vehicle::hover_command(scenario.airframe),
-                     .rotor_p_B_m = scenario.airframe.rotor_p_B_m};
+                     .rotor_p_B_m = RotorList<Vector3>(rotors.size())};
+    for (std::size_t i = 0; i < rotors.size(); ++i) {
+        model.vehicle.rotor_p_B_m[i] = rotors[i].p_B_m;
+    }
     model.own = scenario.autopilot_kind->make(model.parameters, model.vehicle);
     return model;
 }
@@ -75,6 +74,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->scenario = std::make_shared<const scenario::Scenario>(scenario);
     model->plant = std::move(plant);
     model->airframe = scenario.airframe;
+    model->hubs_reach_m = hubs_reach_m(scenario.airframe);
     model->sensors = sensors_of(scenario);
     model->autopilot = autopilot_model(scenario);
     model->task = {.perch = scenario.mission != scenario::Mission::hover,
@@ -117,13 +117,16 @@ FlightState start(const FlightModel& model, plant::Plant& plant, std::uint32_t r
 FlightState start(const FlightModel& model, const Kinematics& base, const Kinematics& cup,
                   std::uint32_t run) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
+    const std::size_t rotors = airframe.rotors.size();
     FlightState state;
     state.truth.base = base;
     state.truth.cup = cup;
+    state.rotors = vehicle::standing(rotors);
+    state.command.command.resize(rotors);
     if (model.mount == vehicle::Mount::free) {
         const double hover = vehicle::hover_command(airframe);
-        state.rotors = spinning(airframe.rotor, hover);
-        state.command = {.command = {hover, hover, hover, hover}, .armed = true};
+        state.rotors = spinning(airframe.rotor, rotors, hover);
+        state.command = {.command = RotorList<double>(rotors, hover), .armed = true};
     }
     state.battery = charged(airframe.battery);
     state.truth.rotor_speed_rad_s = state.rotors.speed_rad_s;

@@ -15,6 +15,7 @@ namespace limpet::simulation {
 struct FlightModel {
     std::shared_ptr<const plant::PlantModel> plant;
     vehicle::AirframeNumbers airframe;
+    double hubs_reach_m = 0.0;  ///< from the centre of mass to the furthest
     vehicle::RotorLag rotor_lag;
     sensors::SensorsModel sensors;
     autopilot::AutopilotModel autopilot;

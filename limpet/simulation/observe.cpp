@@ -133,7 +133,9 @@ void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {
     digest(truth.slider.position_m);
     digest(truth.cup_status.pressure_Pa);
     visit_leaves(truth.cup.p_WF_m, digest);
-    visit_leaves(truth.rotor_speed_rad_s, digest);
+    for (const double speed_rad_s : truth.rotor_speed_rad_s) {
+        digest(speed_rad_s);
+    }
     visit_leaves(estimate.p_WB_m, digest);
     visit_leaves(estimate.q_WB, digest);
     hash = digest.hash;

@@ -37,10 +37,13 @@ void estimate(const FlightModel& model, FlightState& state,
 RotorCommand control(const FlightModel& model, FlightState& state,
                      autopilot::ExternalAutopilot* external) {
     const double time_s = seconds(state.tick);
-    return external != nullptr
-               ? external->control(state.sensors.readings, state.guidance.setpoint, time_s)
-               : autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint,
-                                    time_s);
+    if (external == nullptr) {
+        return autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint,
+                                  time_s);
+    }
+    RotorCommand told = external->control(state.sensors.readings, state.guidance.setpoint, time_s);
+    told.command.resize(model.airframe.rotors.size());
+    return told;
 }
 
 }  // namespace

@@ -144,7 +144,8 @@ bool is_sealed(CupPhase phase) {
                       {{"pressure_Pa", state.mean_pressure_Pa},
                        {"pull_margin_N", contact.pull_margin_N},
                        {"shear_margin_N", contact.shear_margin_N},
-                       {"peel_margin_N", contact.peel_margin_N}});
+                       {"peel_margin_N", contact.peel_margin_N},
+                       {"seal_threshold_N", state.demand.threshold_N}});
 }
 
 void begin_touch(CupState& state) {

@@ -14,6 +14,41 @@ namespace limpet::vehicle {
 namespace {
 
 constexpr double kRodRadius_m = 0.01;
+constexpr double kCoaxial_m = 0.01;  ///< hubs no further apart share an axis, or a plane
+
+void validate_rotors(const Airframe& airframe) {
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
+        const Rotor& rotor = airframe.rotors[i];
+        const double z_m = rotor.below_m - airframe.rotor.height_m;
+        if (!(std::abs(rotor.p_B_m.z() - z_m) <= 1e-9)) {
+            throw InputError(fmt::format("{}: rotor {}: z_m is {}, must be below_m - height_m = {}",
+                                         airframe.name, i, rotor.p_B_m.z(), z_m));
+        }
+        if (std::abs(rotor.direction) != 1) {
+            throw InputError(fmt::format("{}: rotor {}: direction is {}, must be +1 or -1",
+                                         airframe.name, i, rotor.direction));
+        }
+        for (std::size_t k = 0; k < i; ++k) {
+            const Rotor& other = airframe.rotors[k];
+            const Vector3 apart_m = rotor.p_B_m - other.p_B_m;
+            if (apart_m.head<2>().norm() > kCoaxial_m) {
+                continue;
+            }
+            if (std::abs(apart_m.z()) <= kCoaxial_m) {
+                throw InputError(fmt::format(
+                    "{}: rotors {} and {} are in one place; the lower of a coaxial pair needs "
+                    "below_m > {:g}",
+                    airframe.name, k, i, kCoaxial_m));
+            }
+            if (rotor.direction == other.direction) {
+                throw InputError(
+                    fmt::format("{}: rotors {} and {} are a coaxial pair and turn alike, must turn "
+                                "against each other",
+                                airframe.name, k, i));
+            }
+        }
+    }
+}
 
 /// Inertia about the origin of B of a body whose own is about its centre (Steiner).
 Matrix3 about_origin(const BodyInertia& body) {
@@ -55,18 +90,7 @@ double pitch_on_legs_rad(const Airframe& airframe) {
 }
 
 void validate(const Airframe& airframe) {
-    for (int i = 0; i < kRotors; ++i) {
-        const auto index = static_cast<std::size_t>(i);
-        const double z_m = airframe.rotor_p_B_m[index].z();
-        if (!(std::abs(z_m + airframe.rotor.height_m) <= 1e-9)) {
-            throw InputError(fmt::format("{}: rotor {}: z_m is {}, must be -height_m = {}",
-                                         airframe.name, i, z_m, -airframe.rotor.height_m));
-        }
-        if (std::abs(airframe.rotor_direction[index]) != 1) {
-            throw InputError(fmt::format("{}: rotor {}: direction is {}, must be +1 or -1",
-                                         airframe.name, i, airframe.rotor_direction[index]));
-        }
-    }
+    validate_rotors(airframe);
     require_physical(airframe.name, airframe.mass_kg, airframe.inertia_kg_m2.asDiagonal());
     if (!airframe.has_cup) {
         return;
@@ -78,6 +102,22 @@ void validate(const Airframe& airframe) {
     const BodyInertia base = base_inertia(airframe);
     require_physical(airframe.name + ": base (the whole less slider and cup)", base.mass_kg,
                      base.inertia_kg_m2);
+}
+
+double lifting_rotors(const AirframeNumbers& airframe) {
+    double sum = 0.0;
+    for (const Rotor& rotor : airframe.rotors) {
+        sum += rotor.thrust_share;
+    }
+    return sum;
+}
+
+double hubs_reach_m(const AirframeNumbers& airframe) {
+    double reach_m = 0.0;
+    for (const Rotor& rotor : airframe.rotors) {
+        reach_m = std::max(reach_m, rotor.p_B_m.norm());
+    }
+    return reach_m;
 }
 
 BodyInertia carriage_inertia(const Airframe& airframe) {

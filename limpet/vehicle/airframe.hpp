@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
-#include "limpet/core/signals/rotor_command.hpp"
+#include "limpet/core/rotor_list.hpp"
 
 namespace limpet::vehicle {
 
@@ -29,6 +28,16 @@ struct RotorParameters {
     double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
 
     friend bool operator==(const RotorParameters&, const RotorParameters&) = default;
+};
+
+/// Where one sits and which way it turns.
+struct Rotor {
+    Vector3 p_B_m = Vector3::Zero();  ///< hub; z is below_m - RotorParameters::height_m
+    int direction = +1;               ///< +1: turns counter-clockwise seen from above
+    double below_m = 0.0;             ///< the other propeller planes, as the lower of a pair is
+    double thrust_share = 1.0;        ///< of its thrust alone: what the wake of one above leaves
+
+    friend bool operator==(const Rotor&, const Rotor&) = default;
 };
 
 /// Spring slider between body and cup. Source: baseline.md.
@@ -108,12 +117,10 @@ struct AirframeNumbers {
     double mass_kg = 3.2;  ///< of the whole vehicle
     Vector3 inertia_kg_m2 = {0.05, 0.10, 0.14};  ///< of the whole vehicle about B, diagonal
     Vector3 pump_B_m = {-0.16, 0.0, 0.03};
-    /// Hubs in B; z is -rotor.height_m.
-    std::array<Vector3, kRotors> rotor_p_B_m = {
-        Vector3{0.205, 0.205, -0.04}, Vector3{-0.205, -0.205, -0.04}, Vector3{0.205, -0.205, -0.04},
-        Vector3{-0.205, 0.205, -0.04}};
-    /// +1: turns counter-clockwise seen from above.
-    std::array<int, kRotors> rotor_direction = {+1, +1, -1, -1};
+    RotorList<Rotor> rotors = {{{0.205, 0.205, -0.04}, +1},
+                               {{-0.205, -0.205, -0.04}, +1},
+                               {{0.205, -0.205, -0.04}, -1},
+                               {{-0.205, 0.205, -0.04}, -1}};
     RotorParameters rotor;
     SliderParameters slider;
     CupMountParameters cup;
@@ -137,8 +144,15 @@ struct Airframe : AirframeNumbers {
     friend bool operator==(const Airframe&, const Airframe&) = default;
 };
 
+/// Rotors as many as would lift alike if nothing were in another's wake.
+[[nodiscard]] double lifting_rotors(const AirframeNumbers& airframe);
+/// From the centre of mass to the furthest hub.
+[[nodiscard]] double hubs_reach_m(const AirframeNumbers& airframe);
+
 /// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery` of a vehicle file.
 [[nodiscard]] const ParameterTable<RotorParameters>& rotor_table();
+/// Of an item of the list `rotors`, besides its direction.
+[[nodiscard]] const ParameterTable<Rotor>& rotor_place_table();
 [[nodiscard]] const ParameterTable<SliderParameters>& slider_table();
 [[nodiscard]] const ParameterTable<CupMountParameters>& cup_mount_table();
 [[nodiscard]] const ParameterTable<LegParameters>& leg_table();
@@ -150,7 +164,8 @@ struct Airframe : AirframeNumbers {
 [[nodiscard]] double pitch_on_legs_rad(const Airframe& airframe);
 
 /// @throws InputError when the parts do not make a body: the base's share of mass or inertia is not
-///         positive or breaks the triangle inequality, a stated z differs from rotor.height_m
+///         positive or breaks the triangle inequality, two rotors in one place or at one x and y
+///         that turn alike
 void validate(const Airframe& airframe);
 
 /// @param what  for the message: "base"

@@ -36,6 +36,21 @@ const ParameterTable<RotorParameters>& rotor_table() {
     return table;
 }
 
+const ParameterTable<Rotor>& rotor_place_table() {
+    static const ParameterTable<Rotor> table = {
+        {"x_m", "m", -5.0, 5.0, [](Rotor& r) -> double& { return r.p_B_m.x(); },
+         "hub ahead of the centre of mass", "vehicle file"},
+        {"y_m", "m", -5.0, 5.0, [](Rotor& r) -> double& { return r.p_B_m.y(); }, "hub right of it",
+         "vehicle file"},
+        {"below_m", "m", 0.0, 1.0, &Rotor::below_m,
+         "propeller plane below rotor.height_m: the lower of a coaxial pair", "all in one plane"},
+        {"thrust_share", "-", 0.05, 1.0, &Rotor::thrust_share,
+         "of its thrust alone: what the wake of a rotor above it leaves; its torque stays",
+         "none is in another's wake"},
+    };
+    return table;
+}
+
 const ParameterTable<SliderParameters>& slider_table() {
     using P = SliderParameters;
     static const ParameterTable<P> table = {

@@ -66,15 +66,20 @@ double swing_angle_rad(double speed_m_s, double length_m) {
 
 Pendulum hang(const PendulumParameters& parameters, const Airframe& airframe,
               const Vector3& lowest_p_WB_m, const Quaternion& q_WB) {
-    const double share_kg = airframe.mass_kg / kRotors;
+    const double share_kg = airframe.mass_kg / static_cast<double>(kRopes);
     Pendulum pendulum;
     pendulum.rest_length_m = parameters.rope_length_m - parameters.rope_stretch_m;
     pendulum.stiffness_N_m = share_kg * kGravity_m_s2 / parameters.rope_stretch_m;
     pendulum.damping_N_s_m =
         2.0 * parameters.rope_damping * std::sqrt(pendulum.stiffness_N_m * share_kg);
-    for (std::size_t i = 0; i < kRotors; ++i) {
-        // Level with the centre of mass: a push along the wall's normal asks for no moment.
-        pendulum.hook_B_m[i] = {airframe.rotor_p_B_m[i].x(), airframe.rotor_p_B_m[i].y(), 0.0};
+    double x_m = 0.0, y_m = 0.0;
+    for (const Rotor& rotor : airframe.rotors) {
+        x_m = std::max(x_m, std::abs(rotor.p_B_m.x()));
+        y_m = std::max(y_m, std::abs(rotor.p_B_m.y()));
+    }
+    // Level with the centre of mass: a push along the wall's normal asks for no moment.
+    pendulum.hook_B_m = {{{x_m, y_m, 0.0}, {-x_m, -y_m, 0.0}, {x_m, -y_m, 0.0}, {-x_m, y_m, 0.0}}};
+    for (std::size_t i = 0; i < kRopes; ++i) {
         pendulum.anchor_W_m[i] = lowest_p_WB_m + q_WB * pendulum.hook_B_m[i] -
                                  parameters.rope_length_m * Vector3::UnitZ();
     }
@@ -84,7 +89,7 @@ Pendulum hang(const PendulumParameters& parameters, const Airframe& airframe,
 Wrench rope_wrench_W(const Pendulum& pendulum, const Kinematics& base) {
     const Vector3 w_W_rad_s = base.q_WF * base.w_WF_F_rad_s;
     Wrench sum;
-    for (std::size_t i = 0; i < kRotors; ++i) {
+    for (std::size_t i = 0; i < kRopes; ++i) {
         const Vector3 arm_W_m = base.q_WF * pendulum.hook_B_m[i];
         const Vector3 rope_W_m = pendulum.anchor_W_m[i] - (base.p_WF_m + arm_W_m);
         const double length_m = rope_W_m.norm();

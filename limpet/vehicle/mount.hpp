@@ -61,15 +61,19 @@ struct PressRigParameters {
 /// @return angle with v^2 = 2 g L (1 - cos(angle)) [rad] @throws InternalError when there is none
 [[nodiscard]] double swing_angle_rad(double speed_m_s, double length_m);
 
-/// Four unilateral spring-dampers, each from a point of the base straight up to one that is fixed.
+inline constexpr std::size_t kRopes = 4;
+
+/// Unilateral spring-dampers, each from a point of the base straight up to one that is fixed.
 struct Pendulum {
-    std::array<Vector3, kRotors> hook_B_m{};
-    std::array<Vector3, kRotors> anchor_W_m{};
+    std::array<Vector3, kRopes> hook_B_m{};
+    std::array<Vector3, kRopes> anchor_W_m{};
     double rest_length_m = 0.0;
     double stiffness_N_m = 0.0;
     double damping_N_s_m = 0.0;
 };
-/// Hooks are under the motors. Under its weight the vehicle hangs at this pose.
+/// Hooks are the corners of a rectangle about the centre of mass that reaches as far forward and as
+/// far sideways as the hubs: under the motors of a quad-x. Under its weight the vehicle hangs at
+/// this pose.
 /// @param lowest_p_WB_m  of the centre of mass
 [[nodiscard]] Pendulum hang(const PendulumParameters& parameters, const Airframe& airframe,
                             const Vector3& lowest_p_WB_m, const Quaternion& q_WB);

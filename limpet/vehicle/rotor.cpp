@@ -15,18 +15,33 @@ double steady_speed_rad_s(const RotorParameters& rotor, double command) {
     return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * std::clamp(command, 0.0, 1.0);
 }
 
-using EachRotor = Lanes<static_cast<int>(kRotors)>;
+/// So many rotors side by side.
+constexpr std::size_t kAbreast = 4;
+static_assert(kMaxRotors % kAbreast == 0);
+using EachRotor = Lanes<static_cast<int>(kAbreast)>;
+
+/// Calls body(i) for every rotor; of four, as most have, the compiler knows how many.
+template <class Body>
+[[gnu::always_inline]] inline void for_each(std::size_t count, Body&& body) {
+    if (count == kAbreast) {
+        for (std::size_t i = 0; i < kAbreast; ++i) {
+            body(i);
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        body(i);
+    }
+}
 
 EachRotor magnitude(EachRotor a) {
     return select(a < 0.0, -a, a);
 }
 /// One after the other.
-double sum_of(EachRotor a) {
-    double sum = 0.0;
+void add_each(double& sum, EachRotor a) {
     for (int i = 0; i < EachRotor::kCount; ++i) {
         sum += a[i];
     }
-    return sum;
 }
 
 }  // namespace
@@ -39,18 +54,24 @@ double moment_constant_m(double torque_coefficient, double thrust_coefficient, d
     return torque_coefficient / thrust_coefficient * diameter_m;
 }
 
-RotorsState spinning(const RotorParameters& rotor, double command) {
+RotorsState standing(std::size_t count) {
+    RotorsState state;
+    state.speed_rad_s.resize(count);
+    return state;
+}
+
+RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command) {
     const double asked_rad_s = steady_speed_rad_s(rotor, command);
     RotorsState state;
     for (auto& asked : state.asked_rad_s) {
-        asked.fill(asked_rad_s);
+        std::fill_n(asked.begin(), count, asked_rad_s);
     }
-    state.speed_rad_s.fill(std::min(asked_rad_s, rotor.speed_max_rad_s));
+    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s));
     return state;
 }
 
 double hover_command(const AirframeNumbers& airframe) {
-    const double thrust_N = airframe.mass_kg * kGravity_m_s2 / kRotors;
+    const double thrust_N = airframe.mass_kg * kGravity_m_s2 / lifting_rotors(airframe);
     const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.motor_constant_kg_m);
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
@@ -65,21 +86,22 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
 
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
           const RotorCommand& command, double voltage_share) {
-    for (std::size_t i = 0; i < kRotors; ++i) {
-        state.asked_rad_s[state.next][i] =
-            command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
-    }
+    const std::size_t count = state.speed_rad_s.size();
+    auto& newest_rad_s = state.asked_rad_s[state.next];
+    for_each(count, [&](std::size_t i) {
+        newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
+    });
     const auto& asked_rad_s =
         state.asked_rad_s[(state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps];
     state.next = (state.next + 1) % kCommandDelaySteps;
 
     const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
-    for (std::size_t i = 0; i < kRotors; ++i) {
+    for_each(count, [&](std::size_t i) {
         const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
         const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
         state.speed_rad_s[i] =
             target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
-    }
+    });
 }
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
@@ -88,45 +110,58 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
                                                            const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
+    double sum_fx_N = 0.0, sum_fy_N = 0.0, sum_fz_N = 0.0;
+    double sum_mx_N_m = 0.0, sum_my_N_m = 0.0, sum_mz_N_m = 0.0;
     const Vector3& w = base.w_WF_F_rad_s;
-    // All rotors at once, one a lane.
-    EachRotor speed_rad_s, direction, x_m, y_m, z_m;
-    for (std::size_t i = 0; i < kRotors; ++i) {
-        const int lane = static_cast<int>(i);
-        speed_rad_s.set(lane, state.speed_rad_s[i]);
-        direction.set(lane, airframe.rotor_direction[i]);
-        x_m.set(lane, airframe.rotor_p_B_m[i].x());
-        y_m.set(lane, airframe.rotor_p_B_m[i].y());
-        z_m.set(lane, airframe.rotor_p_B_m[i].z());
+    // Several at once, one a lane; a lane without a rotor stands still and adds nothing.
+    for (std::size_t first = 0; first < state.speed_rad_s.size(); first += kAbreast) {
+        EachRotor speed_rad_s, direction, share, x_m, y_m, z_m;
+        for (std::size_t i = 0; i < kAbreast; ++i) {
+            const int lane = static_cast<int>(i);
+            const Rotor& place = airframe.rotors[first + i];
+            speed_rad_s.set(lane, state.speed_rad_s[first + i]);
+            direction.set(lane, place.direction);
+            share.set(lane, place.thrust_share);
+            x_m.set(lane, place.p_B_m.x());
+            y_m.set(lane, place.p_B_m.y());
+            z_m.set(lane, place.p_B_m.z());
+        }
+        const EachRotor vx_m_s = v_air_B_m_s.x() + (w.y() * z_m - w.z() * y_m);
+        const EachRotor vy_m_s = v_air_B_m_s.y() + (w.z() * x_m - w.x() * z_m);
+        const EachRotor vz_m_s = v_air_B_m_s.z() + (w.x() * y_m - w.y() * x_m);
+
+        const EachRotor turning_rad_s = magnitude(speed_rad_s);
+        const EachRotor still_thrust_N = rotor.motor_constant_kg_m * speed_rad_s * turning_rad_s;
+        const EachRotor left = 1.0 - magnitude(vz_m_s) / rotor.axial_loss_speed_m_s;
+        const EachRotor some = select(left > 0.0, left, 0.0);
+        const EachRotor drag = -turning_rad_s * rotor.drag_constant_kg;
+        const EachRotor fx_N = drag * vx_m_s;
+        const EachRotor fy_N = drag * vy_m_s;
+        const EachRotor fz_N = -still_thrust_N * some * share;
+
+        // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
+        const EachRotor rolling = -turning_rad_s * direction * rotor.rolling_constant_kg_m;
+        const EachRotor mx_N_m = (y_m * fz_N - z_m * fy_N) + rolling * vx_m_s;
+        const EachRotor my_N_m = (z_m * fx_N - x_m * fz_N) + rolling * vy_m_s;
+        const EachRotor mz_N_m =
+            (x_m * fy_N - y_m * fx_N) + direction * rotor.moment_constant_m * still_thrust_N;
+        add_each(sum_fx_N, fx_N);
+        add_each(sum_fy_N, fy_N);
+        add_each(sum_fz_N, fz_N);
+        add_each(sum_mx_N_m, mx_N_m);
+        add_each(sum_my_N_m, my_N_m);
+        add_each(sum_mz_N_m, mz_N_m);
     }
-    const EachRotor vx_m_s = v_air_B_m_s.x() + (w.y() * z_m - w.z() * y_m);
-    const EachRotor vy_m_s = v_air_B_m_s.y() + (w.z() * x_m - w.x() * z_m);
-    const EachRotor vz_m_s = v_air_B_m_s.z() + (w.x() * y_m - w.y() * x_m);
-
-    const EachRotor turning_rad_s = magnitude(speed_rad_s);
-    const EachRotor still_thrust_N = rotor.motor_constant_kg_m * speed_rad_s * turning_rad_s;
-    const EachRotor left = 1.0 - magnitude(vz_m_s) / rotor.axial_loss_speed_m_s;
-    const EachRotor some = select(left > 0.0, left, 0.0);
-    const EachRotor drag = -turning_rad_s * rotor.drag_constant_kg;
-    const EachRotor fx_N = drag * vx_m_s;
-    const EachRotor fy_N = drag * vy_m_s;
-    const EachRotor fz_N = -still_thrust_N * some;
-
-    // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
-    const EachRotor rolling = -turning_rad_s * direction * rotor.rolling_constant_kg_m;
-    const EachRotor mx_N_m = (y_m * fz_N - z_m * fy_N) + rolling * vx_m_s;
-    const EachRotor my_N_m = (z_m * fx_N - x_m * fz_N) + rolling * vy_m_s;
-    const EachRotor mz_N_m =
-        (x_m * fy_N - y_m * fx_N) + direction * rotor.moment_constant_m * still_thrust_N;
-    return {.force_N = {sum_of(fx_N), sum_of(fy_N), sum_of(fz_N)},
-            .moment_N_m = {sum_of(mx_N_m), sum_of(my_N_m), sum_of(mz_N_m)}};
+    return {.force_N = {sum_fx_N, sum_fy_N, sum_fz_N},
+            .moment_N_m = {sum_mx_N_m, sum_my_N_m, sum_mz_N_m}};
 }
 
 double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state) {
     double cubes = 0.0;
-    for (const double speed_rad_s : state.speed_rad_s) {
+    for_each(state.speed_rad_s.size(), [&](std::size_t i) {
+        const double speed_rad_s = state.speed_rad_s[i];
         cubes += std::abs(speed_rad_s) * speed_rad_s * speed_rad_s;
-    }
+    });
     return rotor.moment_constant_m * rotor.motor_constant_kg_m * cubes;
 }
 

@@ -4,22 +4,24 @@
 #include <array>
 #include <cstddef>
 
+#include "limpet/core/rotor_list.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
-/// The motor model of PX4's Gazebo Classic, four rotors whose axes are z of B.
+/// The motor model of PX4's Gazebo Classic, rotors whose axes are z of B.
 ///
 ///   command u -> speed offset + scale u -> dead time -> limit -> first-order lag -> speed w
-///   thrust    T = k_mot w^2 s,  s = clamp(1 - |v_par| / 25 m/s, 0, 1)      along -z
+///   thrust    T = c k_mot w^2 s,  s = clamp(1 - |v_par| / 25 m/s, 0, 1)    along -z
 ///   yaw       dir k_mot w^2 k_mom                                          about +z
 ///   drag      -w lambda_1 v_perp                                           at the hub
 ///   rolling   -w dir mu_1 v_perp                                           a moment
 ///
 /// v is the hub's velocity relative to the air, v_par along the axis, v_perp across it; dir is +1
-/// for a rotor that turns counter-clockwise seen from above. The spin of motor and propeller has no
-/// inertia here: its reaction on yaw is left out.
+/// for a rotor that turns counter-clockwise seen from above, c what the wake of a rotor above it
+/// leaves of its thrust. The spin of motor and propeller has no inertia here: its reaction on yaw
+/// is left out.
 /// Source: PX4-SITL_gazebo-classic, gazebo_motor_model.cpp; facts.md section 1.
 namespace limpet::vehicle {
 
@@ -42,9 +44,10 @@ namespace limpet::vehicle {
 inline constexpr std::size_t kCommandDelaySteps = 128;
 
 struct RotorsState {
-    std::array<double, kRotors> speed_rad_s{};
-    /// Ring of the speeds asked for; the one written next is the oldest.
-    std::array<std::array<double, kRotors>, kCommandDelaySteps> asked_rad_s{};
+    RotorList<double> speed_rad_s;
+    /// Ring of the speeds asked for; the one written next is the oldest. As many count as there are
+    /// speeds.
+    std::array<std::array<double, kMaxRotors>, kCommandDelaySteps> asked_rad_s{};
     std::size_t next = 0;
 
     /// The oldest asked first: a place in the walk is an age.
@@ -53,14 +56,19 @@ struct RotorsState {
         auto& [speeds, ring, oldest] = self;
         each(oldest, speeds);
         for (std::size_t k = 0; k < kCommandDelaySteps; ++k) {
-            each(ring[(oldest + k) % kCommandDelaySteps]);
+            auto& asked = ring[(oldest + k) % kCommandDelaySteps];
+            for (std::size_t i = 0; i < speeds.size(); ++i) {
+                each(asked[i]);
+            }
         }
     }
 };
 
-/// All rotors at the steady speed of a command, as if it had been given for long.
+/// So many rotors that stand still.
+[[nodiscard]] RotorsState standing(std::size_t count);
+/// So many at the steady speed of a command, as if it had been given for long.
 /// @param command  0..1
-[[nodiscard]] RotorsState spinning(const RotorParameters& rotor, double command);
+[[nodiscard]] RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command);
 
 /// @return the command, alike on all rotors, whose thrust equals the weight in still air
 [[nodiscard]] double hover_command(const AirframeNumbers& airframe);
@@ -77,7 +85,8 @@ struct RotorLag {
 
 /// Turns commands into speeds, one step of the lag.
 /// @param lag            the same at every call
-/// @param command        beyond 0..1 it is cut; disarmed rotors run down
+/// @param command        beyond 0..1 it is cut; of as many rotors as the state has, what is not
+///                       there is 0; disarmed rotors run down
 /// @param voltage_share  of the battery (battery.hpp), scales the highest speed
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
           const RotorCommand& command, double voltage_share = 1.0);
@@ -89,7 +98,7 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
 [[nodiscard]] Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
                                     const Kinematics& base, const Vector3& wind_W_m_s);
 
-/// @return power of the four shafts, torque times speed [W]
+/// @return power of all shafts, torque times speed [W]
 [[nodiscard]] double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state);
 
 }  // namespace limpet::vehicle

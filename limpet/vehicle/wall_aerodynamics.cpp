@@ -30,7 +30,7 @@ double mean_square_rev_s(const RotorsState& rotors) {
     for (const double speed_rad_s : rotors.speed_rad_s) {
         sum += speed_rad_s * speed_rad_s;
     }
-    return sum / kRotors / (4.0 * kPi * kPi);
+    return sum / static_cast<double>(rotors.speed_rad_s.size()) / (4.0 * kPi * kPi);
 }
 
 /// 1 up to `full`, 0 from `none` on, straight between.

@@ -52,7 +52,7 @@ def fly(scenario: Union[str, os.PathLike, _core.Scenario], changes: Optional[Cha
     guidance  an object with update(readings, estimate, time_s, memory) -> Setpoint, or
               (Setpoint, outcome, reason) to end the flight
     autopilot an object with control(estimate, setpoint, vehicle, time_s, dt_s, memory) ->
-              (thrust, torque) or four rotor commands, 0..1
+              (thrust, torque) or a command for each rotor, 0..1
     cup       an object with next_Pa(air, memory) -> pressure after the step [Pa]
     A station of yours has no state of its own: `memory` are numbers of the flight, as many as its
     `memory_size` says, so that flights can be saved and branched."""

@@ -82,10 +82,19 @@ const std::vector<Channel>& channel_table() {
          [](F f) { return f.readings().lidar_left.value.distance_m; }},
         {"lidar_right_m", "0: no echo",
          [](F f) { return f.readings().lidar_right.value.distance_m; }},
-        {"rotor_command_0", "0..1, front right", [](F f) { return f.rotors().command[0]; }},
-        {"rotor_command_1", "rear left", [](F f) { return f.rotors().command[1]; }},
-        {"rotor_command_2", "front left", [](F f) { return f.rotors().command[2]; }},
-        {"rotor_command_3", "rear right", [](F f) { return f.rotors().command[3]; }},
+        {"rotor_command_0", "0..1 in the order of the vehicle file",
+         [](F f) { return f.rotors().command[0]; }},
+        {"rotor_command_1", "", [](F f) { return f.rotors().command[1]; }},
+        {"rotor_command_2", "", [](F f) { return f.rotors().command[2]; }},
+        {"rotor_command_3", "", [](F f) { return f.rotors().command[3]; }},
+        {"rotor_command_4", "0: there is none", [](F f) { return f.rotors().command[4]; }},
+        {"rotor_command_5", "", [](F f) { return f.rotors().command[5]; }},
+        {"rotor_command_6", "", [](F f) { return f.rotors().command[6]; }},
+        {"rotor_command_7", "", [](F f) { return f.rotors().command[7]; }},
+        {"rotor_command_8", "", [](F f) { return f.rotors().command[8]; }},
+        {"rotor_command_9", "", [](F f) { return f.rotors().command[9]; }},
+        {"rotor_command_10", "", [](F f) { return f.rotors().command[10]; }},
+        {"rotor_command_11", "", [](F f) { return f.rotors().command[11]; }},
     };
     return table;
 }

@@ -34,6 +34,9 @@ template <std::size_t kCount>
 [[nodiscard]] py::array_t<double> array_of(const std::array<double, kCount>& numbers) {
     return py::array_t<double>(kCount, numbers.data());
 }
+[[nodiscard]] inline py::array_t<double> array_of(const RotorList<double>& numbers) {
+    return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
 /// An array over numbers that `owner` keeps alive: nothing is copied.
 [[nodiscard]] inline py::array_t<double> view_of(const std::vector<double>& numbers,
                                                  py::handle owner) {

@@ -94,12 +94,14 @@ public:
         if (said.size() == 2) {
             return {.thrust = said[0].cast<double>(), .torque = vector_from(said[1], "torque")};
         }
-        if (said.size() != kRotors) {
-            throw py::value_error("control() returns (thrust, torque) or four rotor commands");
+        const std::size_t rotors = input.vehicle.rotor_p_B_m.size();
+        if (said.size() != rotors) {
+            throw py::value_error("control() returns (thrust, torque) or a command for each of " +
+                                  std::to_string(rotors) + " rotors");
         }
         AutopilotOutput output;
-        output.rotors.emplace();
-        for (std::size_t i = 0; i < kRotors; ++i) {
+        output.rotors.emplace(rotors);
+        for (std::size_t i = 0; i < rotors; ++i) {
             (*output.rotors)[i] = said[i].cast<double>();
         }
         return output;

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <pty.h>
 #include <spawn.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -159,6 +160,31 @@ bool Started::says(const std::string& text, std::chrono::seconds limit) {
 
 std::string Started::output() const {
     return text_of(out_);
+}
+
+std::string on_terminal(std::vector<std::string> arguments, unsigned short columns) {
+    arguments.insert(arguments.begin(), LIMPET_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& word : arguments) {
+        argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    const struct winsize size = {.ws_row = 24, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+    if (child == 0) {
+        execv(LIMPET_PROGRAM, argv.data());
+        _exit(127);
+    }
+    std::string all;
+    char part[4096];
+    for (ssize_t got = 1; got > 0;) {
+        got = read(terminal, part, sizeof part);  // fails once the other end is closed
+        all.append(part, static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+    }
+    close(terminal);
+    (void)waitpid(child, nullptr, 0);
+    return all;
 }
 
 }  // namespace limpet

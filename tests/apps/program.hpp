@@ -66,6 +66,9 @@ private:
     std::filesystem::path folder_;
 };
 
+/// What limpet says to a person at a terminal so wide.
+[[nodiscard]] std::string on_terminal(std::vector<std::string> arguments, unsigned short columns);
+
 [[nodiscard]] std::string text_of(const std::filesystem::path& path);
 
 }  // namespace limpet

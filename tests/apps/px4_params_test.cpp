@@ -30,7 +30,7 @@ TEST(Px4ParamsVerb, TakesTheAutopilotOfAScenario) {
                         "--airframe-id", "22017", "--set", "autopilot.MC_PITCHRATE_I=0.125"})
                   .exit_code,
               0);
-    const std::string script = text_of(bench.folder() / "22017_limpet_perching_uav.hil");
+    const std::string script = text_of(bench.folder() / "out/px4/22017_limpet_perching_uav.hil");
     EXPECT_THAT(script, HasSubstr("param set-default MC_PITCHRATE_I 0.125\n"));
     EXPECT_THAT(script, HasSubstr("param set-default EKF2_GPS_CTRL 7\n"));
     EXPECT_THAT(script, HasSubstr("param set SYS_HITL 1\n"));
@@ -38,13 +38,12 @@ TEST(Px4ParamsVerb, TakesTheAutopilotOfAScenario) {
 
 TEST(Px4ParamsVerb, TakesAVehicleFileOfOnesOwn) {
     const Bench bench;
-    std::filesystem::create_directories(bench.folder() / "vehicles");
-    const auto file = bench.write("vehicles/mine.yaml", "base: iris\n");
+    const auto file = bench.write("mine.yaml", "base: iris\n");
     std::filesystem::copy_file(std::filesystem::path(LIMPET_SOURCE_DIR) / "vehicles/iris.yaml",
                                file, std::filesystem::copy_options::overwrite_existing);
-    const Finished done = bench.run({"px4-params", "vehicles/mine.yaml"});
+    const Finished done = bench.run({"px4-params", "mine.yaml"});
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    const std::string params = text_of(bench.folder() / "mine.params");
+    const std::string params = text_of(bench.folder() / "out/px4/mine.params");
     EXPECT_THAT(params, HasSubstr("\n1\t1\tCA_ROTOR1_PY\t-0.2\t9\n"));
     EXPECT_THAT(params, Not(HasSubstr("FD_FAIL_P")));
 }

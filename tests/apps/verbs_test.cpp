@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include "program.hpp"
@@ -82,6 +84,57 @@ TEST(Verbs, ListsWhatShips) {
     }
     EXPECT_THAT(bench.run({"list", "vehicles"}).out, HasSubstr("iris"));
     EXPECT_THAT(bench.run({"list", "campaigns"}).out, HasSubstr("impact_speed"));
+}
+
+TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
+    const Bench bench;
+    const std::filesystem::path root = LIMPET_SOURCE_DIR;
+    for (const auto& [file, kind] :
+         {std::pair("vehicles/perching_x8.yaml", "a good vehicle of 4.10 kg"),
+          std::pair("campaigns/fig3.yaml", "a good campaign: 253 runs"),
+          std::pair("companions/optitrack_px4.yaml", "a good companion"),
+          std::pair("scenarios/perch_concrete.yaml", "a good scenario")}) {
+        std::filesystem::copy_file(root / file, bench.folder() / "big.yaml",
+                                   std::filesystem::copy_options::overwrite_existing);
+        const Finished done = bench.run({"check", "big.yaml"});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_THAT(done.out, HasSubstr(kind));
+    }
+    (void)bench.write("big.yaml", "mass_kg: 3\nrotors: [{x_m: 1}]\n");
+    const Finished bad = bench.run({"check", "big.yaml"});
+    EXPECT_EQ(bad.exit_code, 2);
+    EXPECT_TRUE(bad.one_line_of_error());
+    EXPECT_THAT(bad.err, HasSubstr("big.yaml:2: rotors: must be a list of 4 to 12 rotors, has 1"));
+}
+
+TEST(Verbs, ExportNamesWhatItWroteAndMakesItsFolder) {
+    const Bench bench;
+    const Finished model = bench.run({"export", "perching_hexa", "--out", "new/hexa.xml"});
+    EXPECT_EQ(model.out, "new/hexa.xml\n");
+    EXPECT_THAT(text_of(bench.folder() / "new/hexa.xml"), HasSubstr("rotor_5"));
+    const Finished world =
+        bench.run({"export", "perch_metal", "--format", "world", "--out", "g/m.world"});
+    EXPECT_THAT(world.out, testing::StartsWith("g/m.world\n"));
+    EXPECT_THAT(world.out, HasSubstr(".material\n"));
+}
+
+/// On a terminal of 80 columns nothing wraps by itself.
+TEST(Verbs, FoldsItsLinesToTheTerminal) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"fly", "perch_concrete", "--no-record"}, {"fly", "--help"}}) {
+        const std::string text = on_terminal(words, 80);
+        ASSERT_THAT(text, HasSubstr(words.back() == "--help" ? "--seed" : "released"));
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            // what the next progress replaces, and colours, are no part of a line
+            const std::string_view cleared = "\x1b[K";
+            if (const auto at = line.rfind(cleared); at != std::string::npos) {
+                line.erase(0, at + cleared.size());
+            }
+            line = std::regex_replace(line, std::regex("\x1b\\[[0-9;]*m|\r"), "");
+            EXPECT_LE(line.size(), 80U) << line;
+        }
+    }
 }
 
 TEST(Verbs, ParamsOfOneRoomAndTheGeneratedPage) {

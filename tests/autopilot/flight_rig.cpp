@@ -14,7 +14,7 @@ const Vector3 kInertia_kg_m2 = {0.05, 0.10, 0.14};
 
 }  // namespace
 
-std::array<RotorGeometry, kRotors> quad_x() {
+RotorList<RotorGeometry> quad_x() {
     constexpr double a = 0.205;
     return {RotorGeometry{.p_B_m = {a, a, -0.04}, .direction = 1.0},
             RotorGeometry{.p_B_m = {-a, -a, -0.04}, .direction = 1.0},
@@ -33,7 +33,8 @@ FlightRig::FlightRig(const AutopilotParameters& parameters, double noise_scale,
     known.p_WB_m = initial.p_WF_m;
     known.q_WB = initial.q_WF;
     autopilot = start(model, known);
-    speed_rad_s.fill(std::sqrt(kMass_kg * kGravity_m_s2 / (4.0 * kMotorConstant)));
+    speed_rad_s =
+        RotorList<double>(4, std::sqrt(kMass_kg * kGravity_m_s2 / (4.0 * kMotorConstant)));
 }
 
 void FlightRig::fly(const Setpoint& setpoint, double duration_s) {
@@ -81,7 +82,7 @@ void FlightRig::sense() {
 void FlightRig::move() {
     Vector3 moment_N_m = Vector3::Zero();
     double thrust_N = 0.0;
-    for (std::size_t i = 0; i < kRotors; ++i) {
+    for (std::size_t i = 0; i < speed_rad_s.size(); ++i) {
         const double target = command.armed ? 700.0 * command.command[i] + 100.0 : 0.0;
         const double tau_s = target > speed_rad_s[i] ? 0.0125 : 0.025;
         speed_rad_s[i] = target + (speed_rad_s[i] - target) * std::exp(-kTick_s / tau_s);

@@ -11,7 +11,7 @@
 namespace limpet::autopilot {
 
 /// The paper's quad-x with its rotors at +-0.205 m.
-[[nodiscard]] std::array<RotorGeometry, kRotors> quad_x();
+[[nodiscard]] RotorList<RotorGeometry> quad_x();
 
 /// A free rigid body with the Gazebo motor model of facts.md section 1, its sensors and the
 /// autopilot in the loop: 1 ms physics, 250 Hz IMU and control, 120 Hz motion capture 20 ms late.
@@ -27,7 +27,7 @@ struct FlightRig {
     AutopilotModel model;
     AutopilotState autopilot;
     Kinematics truth;
-    std::array<double, kRotors> speed_rad_s{};
+    RotorList<double> speed_rad_s;
     RotorCommand command;
     Vector3 push_W_N = Vector3::Zero();  ///< disturbance at the centre of mass
     Tick tick = 0;

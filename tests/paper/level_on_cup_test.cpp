@@ -40,7 +40,7 @@ Complex characteristic(const Case& c, const vehicle::Airframe& airframe, const C
         std::sqrt(airframe.mass_kg * kGravity_m_s2 / (4.0 * airframe.rotor.motor_constant_kg_m));
     const double torque_N_m = 8.0 * airframe.rotor.motor_constant_kg_m * hover_rad_s *
                               std::sqrt(0.5) * airframe.rotor.speed_scale_rad_s *
-                              airframe.rotor_p_B_m[0].x();
+                              airframe.rotors[0].p_B_m.x();
     const auto butterworth = [&](const Complex& z) {
         const Complex x = z / kCutoff_rad_s;
         return 1.0 / (x * x + std::sqrt(2.0) * x + 1.0);

@@ -58,6 +58,32 @@ TEST(Px4Airframe, HasPx4sQuadXWithItsSigns) {
     EXPECT_EQ(value_of(airframe, "PWM_MAIN_FUNC4"), 104);
 }
 
+TEST(Px4Airframe, HasAsManyRotorsAsTheVehicle) {
+    Px4Airframe airframe = perching_uav();
+    airframe.target = Px4Target::hitl;
+    EXPECT_STREQ(px4_frame(airframe).type, "Quadrotor x");
+    airframe.rotors.resize(8);
+    for (std::size_t i = 0; i < 4; ++i) {
+        airframe.rotors[4 + i] = airframe.rotors[i];
+        airframe.rotors[4 + i].p_B_m.z() += 0.08;
+        airframe.rotors[4 + i].direction *= -1.0;
+    }
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR_COUNT"), 8);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR7_PX"), -0.205);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR7_KM"), 0.019);
+    EXPECT_EQ(value_of(airframe, "HIL_ACT_FUNC8"), 108);
+    EXPECT_EQ(value_of(airframe, "HIL_ACT_FUNC9"), std::nullopt);
+    EXPECT_STREQ(px4_frame(airframe).type, "Octorotor Coaxial");
+    for (const Px4Setting& setting : px4_settings(airframe)) {
+        if (setting.name == "CA_ROTOR7_PX") {
+            EXPECT_EQ(setting.reason, "lower rear right hub, m forward of the centre of mass");
+        }
+    }
+    airframe.rotors.resize(12, airframe.rotors[0]);
+    EXPECT_EQ(value_of(airframe, "CA_ROTOR11_PY"), 0.205);
+    EXPECT_EQ(value_of(airframe, "HIL_ACT_FUNC12"), 112);
+}
+
 TEST(Px4Airframe, EveryLineHasAReasonAndStandsOnce) {
     for (const Px4Target target : {Px4Target::sitl, Px4Target::hitl, Px4Target::flight}) {
         for (const Px4Pose pose : {Px4Pose::motion_capture, Px4Pose::gps}) {

@@ -23,7 +23,8 @@ Scene sample_scene() {
     scene.lidar_p_B_m = {Vector3(0.2, -0.1, 0.0), Vector3(0.2, 0.1, 0.0)};
     scene.joint_B_m = {0.4, 0.0, 0.0};
     scene.lip_m = 0.04;
-    scene.thrust_N_s2 = 2.5e-5;
+    scene.rotor_p_B_m = RotorList<Vector3>(4);
+    scene.thrust_N_s2 = RotorList<double>(4, 2.5e-5);
     return scene;
 }
 
@@ -32,7 +33,7 @@ Truth moving_truth(double time_s) {
     truth.time_s = time_s;
     truth.base.p_WF_m = {1.0 + time_s, 2.0, -3.0};
     truth.cup_status.wrench_C.force_N = {-30.0, 0.0, 0.0};
-    truth.rotor_speed_rad_s.fill(500.0);
+    truth.rotor_speed_rad_s = RotorList<double>(4, 500.0);
     return truth;
 }
 

@@ -28,8 +28,7 @@ void expect_same(Scenario a, Scenario b) {
     EXPECT_EQ(a.airframe.name, b.airframe.name);
     EXPECT_EQ(a.airframe.description, b.airframe.description);
     EXPECT_EQ(a.airframe.has_cup, b.airframe.has_cup);
-    EXPECT_EQ(a.airframe.rotor_p_B_m, b.airframe.rotor_p_B_m);
-    EXPECT_EQ(a.airframe.rotor_direction, b.airframe.rotor_direction);
+    EXPECT_EQ(a.airframe.rotors, b.airframe.rotors);
     EXPECT_EQ(a.wall.present, b.wall.present);
     EXPECT_EQ(a.wall.geometry.shape, b.wall.geometry.shape);
     EXPECT_EQ(a.engine, b.engine);
@@ -64,7 +63,7 @@ TEST(RoundTrip, AScenariosTextGivesTheSameScenario) {
          "{x_m: .2, y_m: -.2, direction: ccw}, {x_m: -.2, y_m: .2, direction: ccw}]",
          "description='it''s \"odd\" \\ : # \xc3\xa4'"});
     expect_same(first, load_scenario_text(first.yaml, first.name, {{}, {}, data.root()}));
-    EXPECT_EQ(first.airframe.rotor_direction[0], -1);
+    EXPECT_EQ(first.airframe.rotors[0].direction, -1);
     EXPECT_EQ(first.wall.first_touches.at(1).name, "wet");
 }
 

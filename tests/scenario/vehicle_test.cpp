@@ -47,9 +47,9 @@ TEST_F(VehicleFile, IsReadWhole) {
     EXPECT_TRUE(a.has_cup);
     EXPECT_EQ(a.mass_kg, 2.4);
     EXPECT_EQ(a.inertia_kg_m2, Vector3(0.04, 0.09, 0.12));
-    EXPECT_EQ(a.rotor_p_B_m[3], Vector3(-0.21, 0.22, -0.05));  // z by the rotors' height
-    EXPECT_EQ(a.rotor_direction[0], +1);
-    EXPECT_EQ(a.rotor_direction[3], -1);
+    EXPECT_EQ(a.rotors[3].p_B_m, Vector3(-0.21, 0.22, -0.05));  // z by the rotors' height
+    EXPECT_EQ(a.rotors[0].direction, +1);
+    EXPECT_EQ(a.rotors[3].direction, -1);
     EXPECT_EQ(a.lidar_x_m, 0.19);
     EXPECT_EQ(a.lidar_separation_m, 0.40);
     EXPECT_EQ(a.lidar_z_m, 0.01);
@@ -59,6 +59,45 @@ TEST_F(VehicleFile, IsReadWhole) {
     EXPECT_EQ(a.cup.radius_m, 0.035);
     EXPECT_EQ(a.legs.tip_z_m, 0.26);
     EXPECT_EQ(a.battery.cells, 4.0);
+}
+
+TEST_F(VehicleFile, TakesAnyListOfRotorsThatCanFly) {
+    const vehicle::Airframe a = load(
+        "rotor: {height_m: 0.05}\n"
+        "rotors:\n"
+        "  - {x_m: 0.2, y_m: 0.2, direction: ccw}\n"
+        "  - {x_m: -0.2, y_m: -0.2, direction: ccw}\n"
+        "  - {x_m: 0.2, y_m: -0.2, direction: cw}\n"
+        "  - {x_m: -0.2, y_m: 0.2, direction: cw}\n"
+        "  - {x_m: 0.2, y_m: 0.2, direction: cw, below_m: 0.08, thrust_share: 0.7}\n"
+        "  - {x_m: -0.2, y_m: -0.2, direction: cw, below_m: 0.08, thrust_share: 0.7}\n");
+    ASSERT_EQ(a.rotors.size(), 6U);
+    EXPECT_NEAR(a.rotors[5].p_B_m.z(), 0.03, 1e-15);
+    EXPECT_EQ(a.rotors[5].thrust_share, 0.7);
+    EXPECT_EQ(a.rotors[0].thrust_share, 1.0);
+}
+
+TEST_F(VehicleFile, RefusesRotorsThatCannotFlyInOneLine) {
+    const std::string four =
+        "  - {x_m: 0.2, y_m: 0.2, direction: ccw}\n"
+        "  - {x_m: -0.2, y_m: -0.2, direction: ccw}\n"
+        "  - {x_m: 0.2, y_m: -0.2, direction: cw}\n";
+    EXPECT_EQ(error("rotors:\n" + four), ":1: rotors: must be a list of 4 to 12 rotors, has 3");
+    EXPECT_EQ(error("rotors:\n" + four + "  - {x_m: -0.2, y_m: 0.2, direction: cw}\n" +
+                    "  - {x_m: 0.3, y_m: 0}\n"),
+              ":6: rotors[4]: has no direction, must be ccw or cw");
+    EXPECT_EQ(error("rotors:\n" + four + "  - {x_m: -0.2, direction: cw}\n"),
+              ":5: rotors[3]: has no y_m");
+    const std::string alike = error(
+        "rotors:\n"
+        "  - {x_m: 0.2, y_m: 0.2, direction: cw}\n"
+        "  - {x_m: -0.2, y_m: -0.2, direction: cw}\n"
+        "  - {x_m: 0.2, y_m: -0.2, direction: cw}\n"
+        "  - {x_m: -0.2, y_m: 0.2, direction: cw}\n");
+    EXPECT_NE(alike.find("cannot make roll, pitch, yaw and thrust independently"),
+              std::string::npos)
+        << alike;
+    EXPECT_EQ(alike.find('\n'), std::string::npos);
 }
 
 TEST_F(VehicleFile, IsFoundByPath) {
@@ -76,7 +115,7 @@ TEST_F(VehicleFile, ErrorsNameTheirLine) {
               ":2: inertia_kg_m2: needs 3 numbers, has 2");
     EXPECT_EQ(error("inertia_kg_m2: [0.1, 0, 0.1]\n"),
               ":1: inertia_kg_m2[1]: 0 is out of range, allowed 1e-06..100 kg m2");
-    EXPECT_EQ(error("rotors: [{x_m: 1}]\n"), ":1: rotors: must be a list of 4 rotors");
+    EXPECT_EQ(error("rotors: [{x_m: 1}]\n"), ":1: rotors: must be a list of 4 to 12 rotors, has 1");
     EXPECT_EQ(error("rotors:\n  - {x_m: 0.2, y_m: 0.2}\n  - {}\n  - {}\n  - {}\n"),
               ":2: rotors[0]: has no direction, must be ccw or cw");
     EXPECT_EQ(error("rotors:\n  - {direction: left}\n  - {}\n  - {}\n  - {}\n"),

@@ -10,7 +10,7 @@ TEST(Hover, RotorsTurnAtTheWeightsSpeed) {
     // facts.md section 1: sqrt(m g / 4 k_mot) = 560 rad/s
     const Trace& trace = flown("hover");
     EXPECT_EQ(trace.result.outcome, Outcome::released);
-    for (std::size_t rotor = 0; rotor < kRotors; ++rotor) {
+    for (std::size_t rotor = 0; rotor < 4; ++rotor) {
         const double speed =
             trace.mean(guidance::PerchingState::hovering,
                        [rotor](const Truth& truth) { return truth.rotor_speed_rad_s[rotor]; });

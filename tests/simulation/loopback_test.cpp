@@ -69,6 +69,13 @@ INSTANTIATE_TEST_SUITE_P(Loopback, Scenarios,
                                          "perch_metal_valve", "failed_perch"),
                          [](const auto& one) { return std::string(one.param); });
 
+TEST(Loopback, FliesEightRotorsBehindTheWire) {
+    const auto model = model_of("perch_concrete", {"vehicle=perching_x8"});
+    Loopback loopback(*model);
+    const FlightResult behind = fly_behind_wire(model, loopback);
+    EXPECT_EQ(behind.outcome, Outcome::released) << behind.reason;
+}
+
 TEST_F(LoopbackFile, TheSameFlightIsTheSameBytes) {
     const auto model = model_of("perch_concrete");
     for (const char* name : {"one.mcap", "two.mcap"}) {

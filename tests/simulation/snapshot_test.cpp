@@ -80,7 +80,7 @@ TEST(Snapshot, ClassesForgetNoneOfTheirOwn) {
         return sizeof value - visited;
     };
     EXPECT_LT(unvisited_bytes(sensors::DelayLine<ForceReading>()), 8U);
-    EXPECT_LT(unvisited_bytes(vehicle::RotorsState()), 8U);
+    EXPECT_LT(unvisited_bytes(vehicle::standing(kMaxRotors)), 8U);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ struct Attempt {
         }
         truth.cup_status.pressure_Pa = pressure_Pa(t);
         truth.thrust_N = thrust_N(t);
-        truth.rotor_speed_rad_s.fill(std::sqrt(truth.thrust_N / 4.0 / 2.5e-5));
+        truth.rotor_speed_rad_s = RotorList<double>(4, std::sqrt(truth.thrust_N / 4.0 / 2.5e-5));
         return truth;
     }
 };

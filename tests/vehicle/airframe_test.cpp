@@ -59,10 +59,18 @@ TEST(Validate, NamesWhatIsWrong) {
         change(airframe);
         return [airframe] { validate(airframe); };
     };
-    EXPECT_THAT(with([](Airframe& a) { a.rotor_p_B_m[2].z() = 0.04; }),
+    EXPECT_THAT(with([](Airframe& a) { a.rotors[2].p_B_m.z() = 0.04; }),
                 ThrowsMessage<InputError>(HasSubstr("rotor 2: z_m is 0.04")));
-    EXPECT_THAT(with([](Airframe& a) { a.rotor_direction[3] = 0; }),
+    EXPECT_THAT(with([](Airframe& a) { a.rotors[3].direction = 0; }),
                 ThrowsMessage<InputError>(HasSubstr("rotor 3: direction is 0")));
+    EXPECT_THAT(with([](Airframe& a) { a.rotors[3].p_B_m = a.rotors[0].p_B_m; }),
+                ThrowsMessage<InputError>(HasSubstr("rotors 0 and 3 are in one place")));
+    EXPECT_THAT(with([](Airframe& a) {
+                    a.rotors[1] = a.rotors[0];
+                    a.rotors[1].below_m = 0.1;
+                    a.rotors[1].p_B_m.z() += 0.1;
+                }),
+                ThrowsMessage<InputError>(HasSubstr("rotors 0 and 1 are a coaxial pair")));
     EXPECT_THAT(with([](Airframe& a) { a.mass_kg = 0.2; }),
                 ThrowsMessage<InputError>(HasSubstr("base")));
     EXPECT_THAT(with([](Airframe& a) { a.slider.mass_kg = 0.0; }),

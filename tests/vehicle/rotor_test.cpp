@@ -23,7 +23,7 @@ RotorCommand armed(double all) {
 }
 
 RotorsState at_speed(double speed_rad_s) {
-    RotorsState state;
+    RotorsState state = standing(4);
     state.speed_rad_s.fill(speed_rad_s);
     return state;
 }
@@ -46,7 +46,7 @@ TEST(Rotor, EquationsThreeAndFourGiveTableOne) {
 
 TEST(Rotor, HoversAt560RadiansPerSecond) {
     const Airframe airframe;
-    RotorsState state;
+    RotorsState state = standing(4);
     for (int i = 0; i < 1000; ++i) {
         step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
              armed(hover_command(airframe)));
@@ -107,7 +107,7 @@ TEST(Rotor, PitchMomentPerUnitCommandIsElevenNewtonMetres) {
     const double hover = hover_command(airframe);
     const auto pitch_moment_N_m = [&](double command) {
         const double mix = 0.7071 * command;
-        RotorsState state = spinning(airframe.rotor, hover);
+        RotorsState state = spinning(airframe.rotor, 4, hover);
         for (int i = 0; i < 1000; ++i) {
             step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
                  armed(hover + mix, hover - mix, hover + mix, hover - mix));
@@ -127,7 +127,7 @@ TEST(Rotor, RollsRightWhenTheLeftRotorsAreFaster) {
 TEST(Rotor, CounterClockwiseRotorTurnsTheBodyClockwise) {
     // z of B points down: clockwise seen from above is positive yaw
     const Airframe airframe;
-    RotorsState state;
+    RotorsState state = standing(4);
     state.speed_rad_s[0] = 560.0;  // front right, counter-clockwise
     const double yaw_N_m = rotor_wrench_B(airframe, state, {}, kNoWind).moment_N_m.z();
     EXPECT_NEAR(yaw_N_m, 0.149, 0.001);
@@ -140,8 +140,10 @@ TEST(Rotor, AdvancingBladeRollsTheHub) {
     // left, negative. The same term of a clockwise rotor cancels it.
     Airframe airframe;
     airframe.rotor.drag_constant_kg = 0.0;
-    airframe.rotor_p_B_m.fill(Vector3::Zero());
-    RotorsState state;
+    for (Rotor& rotor : airframe.rotors) {
+        rotor.p_B_m.setZero();
+    }
+    RotorsState state = standing(4);
     state.speed_rad_s[0] = 560.0;
     const double roll_N_m =
         rotor_wrench_B(airframe, state, moving({3.0, 0.0, 0.0}), kNoWind).moment_N_m.x();
@@ -149,6 +151,23 @@ TEST(Rotor, AdvancingBladeRollsTheHub) {
     state.speed_rad_s[2] = 560.0;
     EXPECT_NEAR(rotor_wrench_B(airframe, state, moving({3.0, 0.0, 0.0}), kNoWind).moment_N_m.x(),
                 0.0, 1e-15);
+}
+
+TEST(Rotor, SixHoverAndALowerOneLiftsItsShare) {
+    Airframe airframe;
+    airframe.rotors.resize(6);
+    airframe.rotors[4] = {.p_B_m = {0.1, 0.3, 0.04}, .direction = -1, .thrust_share = 0.7};
+    airframe.rotors[5] = {.p_B_m = {-0.1, -0.3, 0.04}, .direction = +1, .thrust_share = 0.7};
+    const RotorsState hover = spinning(airframe.rotor, 6, hover_command(airframe));
+    EXPECT_NEAR(-rotor_wrench_B(airframe, hover, {}, kNoWind).force_N.z(),
+                airframe.mass_kg * kGravity_m_s2, 1e-9);
+    // by itself: its thrust is less, its torque is not
+    RotorsState one = standing(6);
+    one.speed_rad_s[4] = 560.0;
+    const Wrench wrench = rotor_wrench_B(airframe, one, {}, kNoWind);
+    EXPECT_NEAR(-wrench.force_N.z(), 0.7 * 2.5e-5 * 560.0 * 560.0, 1e-12);
+    EXPECT_NEAR(wrench.moment_N_m.x(), 0.3 * wrench.force_N.z(), 1e-12);
+    EXPECT_NEAR(wrench.moment_N_m.z(), -0.019 * 2.5e-5 * 560.0 * 560.0, 1e-12);
 }
 
 TEST(Rotor, LosesThrustAlongItsAxisBothWays) {
@@ -181,8 +200,8 @@ TEST(Rotor, LagReachesSixtyThreePercentAfterOneTimeConstant) {
 
 TEST(Rotor, LagDoesNotDependOnTheStep) {
     const RotorParameters rotor;
-    RotorsState coarse;
-    RotorsState fine;
+    RotorsState coarse = standing(4);
+    RotorsState fine = standing(4);
     step(rotor, make_lag(rotor, 8e-3), coarse, armed(0.5));
     for (int i = 0; i < 32; ++i) {
         step(rotor, make_lag(rotor, 0.25e-3), fine, armed(0.5));
@@ -194,7 +213,7 @@ TEST(Rotor, DeadTimeIsExact) {
     for (const int delay : {0, 1, 15, 127}) {
         RotorParameters rotor;
         rotor.command_delay_s = delay * kDt_s;
-        RotorsState state;
+        RotorsState state = standing(4);
         for (int i = 0; i < 300; ++i) {  // longer than the ring
             step(rotor, make_lag(rotor, kDt_s), state, armed(0.0));
         }
@@ -210,14 +229,14 @@ TEST(Rotor, DeadTimeIsExact) {
 TEST(Rotor, RefusesADeadTimeBeyondItsLine) {
     RotorParameters rotor;
     rotor.command_delay_s = 0.128;
-    RotorsState state;
+    RotorsState state = standing(4);
     EXPECT_THROW(step(rotor, make_lag(rotor, kDt_s), state, armed(0.5)), InternalError);
 }
 
 TEST(Rotor, DeadTimeStartsFullOfTheSteadyCommand) {
     RotorParameters rotor;
     rotor.command_delay_s = 0.05;
-    RotorsState state = spinning(rotor, 0.5);
+    RotorsState state = spinning(rotor, 4, 0.5);
     step(rotor, make_lag(rotor, kDt_s), state, armed(1.0));
     EXPECT_DOUBLE_EQ(state.speed_rad_s[0], 450.0);
 }
@@ -239,7 +258,7 @@ TEST(Rotor, DisarmedRotorsRunDownAndArmedOnesIdle) {
 TEST(Rotor, SpeedEndsAtItsLimitAndSagsWithTheBattery) {
     RotorParameters rotor;
     rotor.speed_max_rad_s = 700.0;
-    RotorsState state;
+    RotorsState state = standing(4);
     for (int i = 0; i < 1000; ++i) {
         step(rotor, make_lag(rotor, kDt_s), state, armed(3.0));  // cut to 1: 800 rad/s asked
     }

@@ -14,7 +14,7 @@ constexpr double kHoverSpeed_rad_s = 560.0;
 constexpr double kHover_N = 3.2 * kGravity_m_s2;
 
 RotorsState spinning_at(double speed_rad_s) {
-    RotorsState rotors;
+    RotorsState rotors = standing(4);
     rotors.speed_rad_s.fill(speed_rad_s);
     return rotors;
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include "limpet/core/rotor_list.hpp"
 
 namespace limpet {
 
-inline constexpr int kRotors = 4;
-
-/// PX4's order: 0 front right ccw, 1 rear left ccw, 2 front left cw, 3 rear right cw.
+/// In the order of the vehicle file. A quadrotor's is PX4's: 0 front right ccw, 1 rear left ccw,
+/// 2 front left cw, 3 rear right cw.
 struct RotorCommand {
-    std::array<double, kRotors> command{};  ///< 0..1 each
-    bool armed = false;                     ///< disarmed rotors stop, whatever the command
+    RotorList<double> command;  ///< 0..1 each; a rotor without one is told 0
+    bool armed = false;         ///< disarmed rotors stop, whatever the command
 };
 
 }  // namespace limpet

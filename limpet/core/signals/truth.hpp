@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "limpet/core/signals/cup_status.hpp"
 #include "limpet/core/signals/kinematics.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
@@ -29,7 +27,7 @@ struct Truth {
     Kinematics cup;   ///< frame C, origin at the centre of the lip
     SliderStatus slider;
     CupStatus cup_status;
-    std::array<double, kRotors> rotor_speed_rad_s{};
+    RotorList<double> rotor_speed_rad_s;
     double thrust_N = 0.0;  ///< sum of the rotors
     BatteryStatus battery;
     Vector3 legs_force_W_N = Vector3::Zero();  ///< by the wall on the legs
