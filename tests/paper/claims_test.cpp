@@ -188,7 +188,8 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [0, 1]\n"),
               "1: a: has no basis");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: by the method\n  at_least: 1\n"),
-              "6: a.basis: \"by the method\" is no basis; there are as set, recovered, fitted, by construction, measured");
+              "6: a.basis: \"by the method\" is no basis; there are as set, recovered, fitted, by "
+              "construction, measured");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n  at_least: 1\n"),
               "1: a: has no assumes");
     EXPECT_EQ(
