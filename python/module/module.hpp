@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/core/rotor_list.hpp"
 #include "limpet/core/frames.hpp"
 
 // What the module is made of, a file each; module.cpp puts them together.
