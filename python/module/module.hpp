@@ -10,6 +10,7 @@
 
 #include "limpet/core/rotor_list.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/rotor_list.hpp"
 
 // What the module is made of, a file each; module.cpp puts them together.
 namespace limpet::python {
