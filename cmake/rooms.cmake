@@ -108,6 +108,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86
                              -mmemcpy-strategy=vector_loop:1024:noalign,libcall:-1:noalign)
 endif()
 
+# Eigen multiplies and adds at once on arm64 by name, whatever -ffp-contract says, if this is defined (docs/arm64.md).
+set(LIMPET_NO_FUSING)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  set(LIMPET_NO_FUSING -U__ARM_FEATURE_FMA)
+endif()
+
 # Warnings are errors on our code. No contraction to fused multiply-adds and no fast-math: the same
 # scenario and seed must give the same bytes (docs/decisions/0006-determinism.md). errno of sqrt and
 # the like is never read; not setting it changes no result and lets them be instructions.
@@ -122,7 +128,7 @@ function(limpet_compile_options target)
     $<$<BOOL:${LIMPET_WERROR}>:-Werror> -ffp-contract=off -fno-math-errno
     # Our functions are nobody's to replace when the library is loaded: they may be inlined.
     -fno-semantic-interposition
-    ${LIMPET_COPY_IN_VECTORS}
+    ${LIMPET_COPY_IN_VECTORS} ${LIMPET_NO_FUSING}
     # What is installed names files as the repository does, not where it was built.
     -fmacro-prefix-map=${LIMPET_ROOT}/=
     $<$<STREQUAL:${ARGN},tests>:-O1>)
