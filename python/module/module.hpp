@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "limpet/core/rotor_list.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/rotor_list.hpp"
 
