@@ -27,7 +27,10 @@ constexpr const char* kFooter =
     "  limpet list scenarios                what there is to fly\n"
     "  limpet fly perch_metal --set suction.valve_fitted=true\n"
     "  limpet params guidance               every number that --set can turn\n"
-    "  limpet campaign impact_speed         many flights; then limpet summary, limpet replay\n\n"
+    "  limpet campaign impact_speed         many flights; then limpet summary, limpet replay\n"
+    "  limpet help VERB                     what a verb takes; help --man, help --completion "
+    "bash:\n"
+    "                                       all of it, for man and the shell\n\n"
     "Exit codes: 0 done, 1 another outcome than --expect or control handed back, 2 bad input,\n"
     "70 a fault of ours, 130 interrupted.\n";
 

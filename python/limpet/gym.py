@@ -331,6 +331,7 @@ def make_vec(name: str, num_envs: int, *, jobs: Optional[int] = None, **options:
 
 if gymnasium is not None:
     for _name in (*TASKS, "limpet/Mission-v0"):
+        _many: Any = None if _name not in TASKS else (
+            lambda num_envs, _name=_name, **options: make_vec(_name, num_envs, **options))
         gymnasium.register(id=_name, entry_point=lambda _name=_name, **options: make(_name, **options),
-                           vector_entry_point=None if _name not in TASKS else
-                           (lambda num_envs, _name=_name, **options: make_vec(_name, num_envs, **options)))
+                           vector_entry_point=_many)

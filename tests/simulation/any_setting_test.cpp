@@ -125,7 +125,7 @@ TEST(AnySetting, ATrialEndsAsAtAnEighthOfTheStep) {
 }
 
 TEST(AnySetting, AFlightEndsAsAtAnEighthOfTheStep) {
-    expect_alike(fly_both("perch_concrete", 50));
+    expect_alike(fly_both("perch_concrete", 200));
 }
 
 /// Springs and dampers of lip, slider and joint over all that is allowed, from one end to the
