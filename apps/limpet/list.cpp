@@ -7,6 +7,7 @@
 
 #include "command_line.hpp"
 #include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/fault_table.hpp"
 #include "limpet/scenario/sections.hpp"
 
 namespace limpet::app {
@@ -32,6 +33,7 @@ void print_list(const std::string& kind) {
     const auto root = scenario::data_root();
     const auto rows = kind == "keys"       ? keys()
                       : kind == "surfaces" ? scenario::list_surfaces(root)
+                      : kind == "faults"   ? scenario::list_faults()
                                            : scenario::list_files(root / kind);
     std::size_t width = 0;
     for (const scenario::CatalogueEntry& row : rows) {
@@ -43,16 +45,18 @@ void print_list(const std::string& kind) {
 }
 
 OptionList kind_option(std::string& kind) {
-    return {{"kind KIND", &kind, "scenarios, campaigns, surfaces, vehicles, companions or keys",
-             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions", "keys"})}};
+    return {{"kind KIND", &kind,
+             "scenarios, campaigns, surfaces, vehicles, companions, faults or keys",
+             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions", "faults",
+                     "keys"})}};
 }
 
 }  // namespace
 
 Verb list_verb() {
-    return verb<std::string>("list",
-                             "List scenarios, campaigns, surfaces, vehicles, companions or keys",
-                             kind_option, print_list);
+    return verb<std::string>(
+        "list", "List scenarios, campaigns, surfaces, vehicles, companions, faults or keys",
+        kind_option, print_list);
 }
 
 }  // namespace limpet::app

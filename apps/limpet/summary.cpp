@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.hpp"
+#include "limpet/campaign/cells_page.hpp"
 #include "limpet/rare/rare_summary.hpp"
 #include "output.hpp"
 
@@ -45,7 +46,13 @@ void summarise_campaign(const SummaryOptions& options) {
     }
     const campaign::CampaignSummary summary = summarise(results);
     tell(options, database, options.json ? summary_json(summary) : summary_text(summary),
-         [&](const fs::path& folder) { return draw_summary(summary, folder); });
+         [&](const fs::path& folder) {
+             std::vector<fs::path> files = draw_summary(summary, folder);
+             if (const auto cells = write_cells(results, database, folder)) {
+                 files.push_back(*cells);
+             }
+             return files;
+         });
 }
 
 OptionList options_of(SummaryOptions& options) {
@@ -61,8 +68,9 @@ Verb summary_verb() {
         "summary", "Print and draw what a campaign found: probabilities, failures, fits",
         options_of, summarise_campaign,
         "Works while the campaign is still flying. Draws summary.png and summary.svg, of a search "
-        "for "
-        "a rare\nevent rare.png and rare.svg. Intervals are 95 %, of shares Wilson's.\n");
+        "for a rare\nevent rare.png and rare.svg. Intervals are 95 %, of shares Wilson's. Of two "
+        "grids or more also\ncells.html: how each cell ended, why, and the command that flies it "
+        "again.\n");
 }
 
 }  // namespace limpet::app

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostVariants = 1000;
+constexpr std::size_t kMostVariants = 2000;
 constexpr std::uint32_t kDrawsLookedAt = 1'000'000;  ///< of spreads without ends; takes a second
 
 using Sample = std::vector<SampledValue>;

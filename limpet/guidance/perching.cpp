@@ -241,7 +241,7 @@ bool looks_at_wall(PerchingState state) {
 }  // namespace
 
 void EventList::add(const Event& event) {
-    require(count < events.size(), "an update reports at most eight events");
+    require(count < events.size(), "there is room for all that can happen in a tick");
     events[count++] = event;
 }
 

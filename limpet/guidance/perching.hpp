@@ -129,7 +129,8 @@ struct PerchingMemory {
 
 /// Events of one update; several rows may fire in the same instant.
 struct EventList {
-    std::array<Event, 8> events{};
+    static constexpr std::size_t kMost = 24;  ///< an update has at most eight, faults two each
+    std::array<Event, kMost> events{};
     std::size_t count = 0;
     void add(const Event& event);
 };

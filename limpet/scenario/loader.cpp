@@ -9,6 +9,7 @@
 
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/fault_table.hpp"
 #include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/parts.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -74,8 +75,8 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
         fail(root, "is empty");
     }
     check_keys(root, {"description", "mission", "mount", "vehicle", "seed", "noise", "wall",
-                      "pendulum", "press_rig", "environment", "suction", "guidance", "autopilot",
-                      "sensors", "simulation"});
+                      "pendulum", "press_rig", "environment", "faults", "suction", "guidance",
+                      "autopilot", "sensors", "simulation"});
     read_given(root, "description", scenario.description);
     read_given(root, "mission", scenario.mission);
     read_given(root, "mount", scenario.mount);
@@ -91,9 +92,15 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
         return find_section(sections, name);
     };
     read_wall(root.find("wall"), data, section("wall"), scenario.wall);
-    for (const char* name : {"pendulum", "press_rig", "environment", "sensors", "simulation"}) {
+    for (const char* name : {"pendulum", "press_rig", "environment", "simulation"}) {
         read_section(root.find(name), section(name));
     }
+    refuse_fault_keys(root.find("sensors"));
+    read_section(root.find("sensors"), section("sensors"),
+                 {kFormerFaultKeys.begin(), kFormerFaultKeys.end()});
+    read_given(root, "faults", scenario.faults, [&](const YamlNode& node) {
+        return read_faults(node, scenario.airframe.rotors.size());
+    });
     const YamlNode* simulation = root.find("simulation");
     if (simulation == nullptr || simulation->find("touch_step_s") == nullptr) {
         scenario.simulation.touch_step_s =

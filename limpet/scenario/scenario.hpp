@@ -13,6 +13,7 @@
 #include "limpet/core/frames.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/core/wall.hpp"
+#include "limpet/faults/fault.hpp"
 #include "limpet/guidance/parameters.hpp"
 #include "limpet/models/model_writer.hpp"
 #include "limpet/plant/engines.hpp"
@@ -99,6 +100,7 @@ struct Scenario {
     vehicle::PendulumParameters pendulum;
     vehicle::PressRigParameters press_rig;
     Environment environment;
+    std::vector<faults::Fault> faults;  ///< at most faults::kMostFaults
     suction::CupParameters cup;
     sensors::SensorParameters sensors;
     autopilot::AutopilotParameters autopilot;

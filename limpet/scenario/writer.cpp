@@ -6,6 +6,7 @@
 
 #include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/derived.hpp"
+#include "limpet/scenario/fault_table.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -157,6 +158,12 @@ std::string to_yaml(const Scenario& scenario) {
     write_vehicle(writer, copy.airframe);
     const std::vector<Section> sections = scenario_sections(copy);
     write_wall(writer, find_section(sections, "wall"), copy.wall);
+    if (!copy.faults.empty()) {
+        writer.line(0, "faults:");
+        for (const faults::Fault& fault : copy.faults) {
+            writer.line(1, "- " + fault_text(fault));
+        }
+    }
     for (const std::string_view name : {"pendulum", "press_rig", "environment", "suction",
                                         "guidance", "autopilot", "sensors", "simulation"}) {
         const Section& section = find_section(sections, name);

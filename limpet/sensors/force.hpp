@@ -15,7 +15,6 @@ struct ForceSensor {
         double force_noise_N = 0.2;
         double force_bias_N = 0.1;
         double force_range_N = 200.0;
-        double force_fails_at_s = kNever_s;
     };
     using State = BiasedSensor;
     static constexpr std::array kStreams = {Stream::force};
@@ -31,7 +30,6 @@ struct ForceSensor {
             {"force_noise_N", "N", 0.0, 100.0, &P::force_noise_N, "white noise", "assumed: load cell, facts.md section 2"},
             {"force_bias_N", "N", 0.0, 100.0, &P::force_bias_N, "constant bias of a flight", "assumed: left after taring"},
             {"force_range_N", "N", 1.0, 1e5, &P::force_range_N, "saturates at, either way", "assumed: load cell, facts.md section 2"},
-            {"force_fails_at_s", "s", 0.0, kNever_s, &P::force_fails_at_s, "fault: no sample from then on", "fault injection; the default is never"},
         };
         return table;
     }
@@ -40,9 +38,6 @@ struct ForceSensor {
     [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
                                                         const SensorView& view) {
         const double noise_N = p.force_noise_N * state.random.normal();
-        if (view.truth.time_s >= p.force_fails_at_s) {
-            return std::nullopt;
-        }
         return Reading{std::clamp(view.truth.slider.force_N + state.bias + noise_N,
                                   -p.force_range_N, p.force_range_N)};
     }

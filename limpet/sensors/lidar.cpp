@@ -17,8 +17,6 @@ const ParameterTable<LidarSensor::Parameters>& LidarSensor::table() {
         {"lidar_noise_m", "m", 0.0, 1.0, &P::lidar_noise_m, "white noise", "assumed, facts.md section 2: one step"},
         {"lidar_bias_m", "m", 0.0, 1.0, &P::lidar_bias_m, "constant bias of a flight, each unit", "assumed: left of the data sheet's 5 cm after calibrating one against the other"},
         {"lidar_dropout_probability", "-", 0.0, 1.0, &P::lidar_dropout_probability, "share of samples without an echo", "assumed: one in a thousand"},
-        {"lidar_left_fails_at_s", "s", 0.0, kNever_s, &P::lidar_left_fails_at_s, "fault: no sample from then on", "fault injection; the default is never"},
-        {"lidar_right_fails_at_s", "s", 0.0, kNever_s, &P::lidar_right_fails_at_s, "fault: no sample from then on", "fault injection; the default is never"},
     };
     return table;
 }
@@ -28,10 +26,6 @@ std::optional<RangeReading> LidarSensor::measure(const Parameters& p, State& sta
                                                  const SensorView& view) {
     const bool lost = state.random.uniform() < p.lidar_dropout_probability;
     const double error_m = state.bias + p.lidar_noise_m * state.random.normal();
-    if (view.truth.time_s >=
-        (view.unit == 0 ? p.lidar_left_fails_at_s : p.lidar_right_fails_at_s)) {
-        return std::nullopt;
-    }
     const Kinematics& base = view.truth.base;
     const std::optional<double> distance_m = view.plant->ray(
         base.p_WF_m + base.q_WF * view.mounts.lidar_p_B_m[view.unit], base.q_WF * Vector3::UnitX());

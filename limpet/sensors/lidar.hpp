@@ -10,7 +10,7 @@ namespace limpet::sensors {
 /// degrees of square moves the spot's mean by less than a millimetre.
 ///
 /// A sample without an echo, or with a measured distance out of range, arrives with valid = false
-/// and distance 0. A unit that has failed sends nothing: its last sample grows old.
+/// and distance 0.
 struct LidarSensor {
     using Reading = RangeReading;
     struct Parameters {
@@ -22,8 +22,6 @@ struct LidarSensor {
         double lidar_noise_m = 0.005;
         double lidar_bias_m = 0.002;
         double lidar_dropout_probability = 0.001;
-        double lidar_left_fails_at_s = kNever_s;
-        double lidar_right_fails_at_s = kNever_s;
     };
     using State = BiasedSensor;
     static constexpr std::array kStreams = {Stream::lidar_left, Stream::lidar_right};

@@ -6,7 +6,7 @@
 namespace limpet::sensors {
 
 /// Pose of B from cameras in the room, stamped at the exposure and late by the network. A sample
-/// that drops out, or any after the fault, never arrives; those under way still do.
+/// that drops out never arrives.
 struct MotionCaptureSensor {
     using Reading = PoseReading;
     struct Parameters {
@@ -15,7 +15,6 @@ struct MotionCaptureSensor {
         double mocap_position_noise_m = 0.0005;
         double mocap_attitude_noise_deg = 0.1;
         double mocap_dropout_probability = 0.0;
-        double mocap_fails_at_s = kNever_s;
     };
     using State = BiasedSensor;
     static constexpr std::array kStreams = {Stream::motion_capture};
@@ -32,7 +31,6 @@ struct MotionCaptureSensor {
             {"mocap_position_noise_m", "m", 0.0, 1.0, &P::mocap_position_noise_m, "white noise, each axis", "OptiTrack 0.12-0.74 mm, arXiv 2502.21189"},
             {"mocap_attitude_noise_deg", "deg", 0.0, 45.0, &P::mocap_attitude_noise_deg, "white noise, each axis of B", "assumed: 0.5 mm over 0.3 m of markers"},
             {"mocap_dropout_probability", "-", 0.0, 1.0, &P::mocap_dropout_probability, "share of samples that never arrive", "assumed: none in a clear volume"},
-            {"mocap_fails_at_s", "s", 0.0, kNever_s, &P::mocap_fails_at_s, "fault: no sample from then on", "fault injection; the default is never"},
         };
         return table;
     }
@@ -43,7 +41,7 @@ struct MotionCaptureSensor {
         const bool lost = state.random.uniform() < p.mocap_dropout_probability;
         const Vector3 shift_m = p.mocap_position_noise_m * state.random.normal3();
         const Vector3 turn_rad = radians(p.mocap_attitude_noise_deg) * state.random.normal3();
-        if (lost || view.truth.time_s >= p.mocap_fails_at_s) {
+        if (lost) {
             return std::nullopt;
         }
         const Kinematics& base = view.truth.base;

@@ -7,8 +7,7 @@
 
 namespace limpet::sensors {
 
-/// Absolute pressure inside the cup. A stuck sensor repeats its last value with new time stamps:
-/// the fault that time stamps alone cannot tell.
+/// Absolute pressure inside the cup.
 struct PressureSensor {
     using Reading = PressureReading;
     struct Parameters {
@@ -18,13 +17,8 @@ struct PressureSensor {
         double pressure_range_min_Pa = 1000.0;
         double pressure_range_max_Pa = 120000.0;
         double pressure_resolution_Pa = 2.0;
-        double pressure_stuck_at_s = kNever_s;
     };
-    struct State {
-        RandomStream random;
-        double bias = 0.0;
-        Reading last = {};
-    };
+    using State = BiasedSensor;
     static constexpr std::array kStreams = {Stream::pressure};
     static constexpr std::array kReadings = {&Readings::cup_pressure};
     static constexpr bool kOnCup = true;
@@ -40,7 +34,6 @@ struct PressureSensor {
             {"pressure_range_min_Pa", "Pa", 0.0, 1e5, &P::pressure_range_min_Pa, "reads no less", "MS5803-01 class: 10 hPa"},
             {"pressure_range_max_Pa", "Pa", 1e5, 1e6, &P::pressure_range_max_Pa, "reads no more", "assumed: MS5803-01 class"},
             {"pressure_resolution_Pa", "Pa", 0.0, 10000.0, &P::pressure_resolution_Pa, "step of the reading; 0: none", "assumed: MS5803-01 class"},
-            {"pressure_stuck_at_s", "s", 0.0, kNever_s, &P::pressure_stuck_at_s, "fault: from then on the last value, ever anew", "fault injection; the default is never"},
         };
         return table;
     }
@@ -49,13 +42,9 @@ struct PressureSensor {
     [[nodiscard]] static std::optional<Reading> measure(const Parameters& p, State& state,
                                                         const SensorView& view) {
         const double noise_Pa = p.pressure_noise_Pa * state.random.normal();
-        if (view.truth.time_s < p.pressure_stuck_at_s) {
-            state.last.pressure_Pa =
-                std::clamp(quantised(view.truth.cup_status.pressure_Pa + state.bias + noise_Pa,
-                                     p.pressure_resolution_Pa),
-                           p.pressure_range_min_Pa, p.pressure_range_max_Pa);
-        }
-        return state.last;
+        const double pressure_Pa = quantised(
+            view.truth.cup_status.pressure_Pa + state.bias + noise_Pa, p.pressure_resolution_Pa);
+        return Reading{std::clamp(pressure_Pa, p.pressure_range_min_Pa, p.pressure_range_max_Pa)};
     }
 };
 

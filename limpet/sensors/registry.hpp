@@ -27,8 +27,7 @@ using Sensors = TypeList<ImuSensor,            //
                          PressureSensor,       //
                          BatterySensor>;
 
-/// Every sensor's rate, noise, bias, latency and faults. Sources: their tables, from facts.md
-/// section 2.
+/// Every sensor's rate, noise, bias and latency. Sources: their tables, from facts.md section 2.
 struct SensorParameters : ParametersOf<Sensors> {};
 
 /// Rows of the YAML section `sensors`. Their upper limits of rate and latency keep the samples

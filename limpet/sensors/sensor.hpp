@@ -36,7 +36,8 @@ namespace limpet::sensors {
 //   kBias               which number is the bias, to be drawn at the start, if there is one;
 //                       start() in its place, (Parameters, RandomStream, Truth), where it is more
 //   measure()           (Parameters, State, SensorView) the reading of now; nothing when lost.
-//                       Draws as many numbers whatever happens, so that a fault moves nothing else
+//                       Draws as many numbers whatever happens, so that a dropout moves nothing
+//                       else
 //
 // and where its samples go: to those who read them by name,
 //
@@ -47,9 +48,6 @@ namespace limpet::sensors {
 //   kTopic, kMessage    "/sensors/NAME", "limpet_msgs/msg/Name"
 //   kColumns            names of the numbers, with their units
 //   numbers(Reading)    as many
-
-/// For a fault that does not happen [s].
-inline constexpr double kNever_s = 1e9;
 
 /// Where sensors sit that are not at B's origin: known to the vehicle, not to `sensors:`.
 struct SensorMounts {

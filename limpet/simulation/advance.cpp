@@ -44,12 +44,16 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
     const Kinematics& cup = state.truth.cup;
     const CupPhase before = state.cup.status.phase;
     const suction::Surface& surface = surface_under_cup(model, state.cup);
+    const faults::Acting& acting = state.faults.now;
     const suction::CupInput input{
         .time_s = time_s,
         .press_N = -state.truth.slider.force_N,
         .bearer = plant.bear_cup(mode),
         .pump_on = state.guidance.setpoint.pump_on && state.battery.voltage_V > 0.0,
-        .valve_open = state.guidance.setpoint.valve_open};
+        .valve_open = (state.guidance.setpoint.valve_open || acting.valve_stuck_open) &&
+                      !acting.valve_stuck_shut,
+        .pump_draws = acting.pump_draws,
+        .hole_mm2 = acting.hole_mm2};
     const suction::CupOutput output =
         external != nullptr ? external->step(model.cup, state.cup, surface, cup, input, mode.step_s)
                             : suction::step(model.cup, state.cup, surface, cup, input, mode.step_s);
@@ -82,11 +86,17 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
-    const Wrench rotors_B = vehicle::rotor_wrench_B(airframe, state.rotors, base,
-                                                    vehicle::wind_W_m_s(model.wind, state.wind));
+    const faults::Acting& acting = state.faults.now;
+    const Wrench rotors_B =
+        vehicle::rotor_wrench_B(airframe, state.rotors, base,
+                                vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
+    if (acting.payload_to_right_kg_m != 0.0) {
+        air.wrench_W.moment_N_m +=
+            (acting.payload_to_right_kg_m * R_WB.col(1)).cross(kGravity_m_s2 * Vector3::UnitZ());
+    }
     if (vehicle::acts(model.wall_air) && model.has_wall) {
         const Wrench wall_W = vehicle::wall_air_wrench_W(
             model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N, base.q_WF,

@@ -7,6 +7,7 @@
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/truth.hpp"
 #include "limpet/core/time.hpp"
+#include "limpet/faults/faults.hpp"
 #include "limpet/guidance/perching.hpp"
 #include "limpet/sensors/suite.hpp"
 #include "limpet/suction/cup.hpp"
@@ -46,6 +47,7 @@ struct FlightState {
     vehicle::WallAirState wall_air;
     suction::CupState cup;
     RigState rig;
+    faults::FaultsState faults;
     Tick fine_until = 0;  ///< sub-steps go on until then
     std::optional<guidance::Ending> ending;
 };

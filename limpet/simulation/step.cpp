@@ -24,6 +24,28 @@ void see_truth(const FlightModel& model, FlightState& state, const plant::Plant&
     truth.legs_force_W_N = plant.contact_force_W();
 }
 
+/// What the vehicle is told of what its sensors say.
+void sense(const FlightModel& model, FlightState& state, const plant::Plant& plant,
+           TickReport& report) {
+    const auto sample = [&] {
+        sensors::sense(model.sensors, state.sensors, state.truth, plant, state.tick);
+    };
+    if (!model.faults.any()) {
+        return sample();
+    }
+    const double time_s = seconds(state.tick);
+    if (!state.faults.now.link_lost) {
+        state.faults.through = state.guidance.setpoint;
+    }
+    faults::step(model.faults, state.faults, state.guidance.state, model.airframe.rotors.size(),
+                 time_s, report.events);
+    // The sensors go on from what they sent, not from what was heard of it.
+    std::swap(state.sensors.readings, state.faults.sensed);
+    sample();
+    std::swap(state.sensors.readings, state.faults.sensed);
+    faults::hear(model.faults, state.faults, time_s, state.sensors.readings);
+}
+
 /// The built-in autopilot lives in the state; one behind a wire only leaves its estimate there.
 void estimate(const FlightModel& model, FlightState& state,
               autopilot::ExternalAutopilot* external) {
@@ -32,16 +54,20 @@ void estimate(const FlightModel& model, FlightState& state,
     } else {
         autopilot::estimate(model.autopilot, state.autopilot, state.sensors.readings);
     }
+    if (model.faults.any()) {
+        faults::mislead(model.faults, state.faults, seconds(state.tick), state.autopilot.estimate);
+    }
 }
 
 RotorCommand control(const FlightModel& model, FlightState& state,
                      autopilot::ExternalAutopilot* external) {
     const double time_s = seconds(state.tick);
+    const Setpoint& setpoint = state.faults.now.link_lost ? state.faults.through  //
+                                                          : state.guidance.setpoint;
     if (external == nullptr) {
-        return autopilot::control(model.autopilot, state.autopilot, state.guidance.setpoint,
-                                  time_s);
+        return autopilot::control(model.autopilot, state.autopilot, setpoint, time_s);
     }
-    RotorCommand told = external->control(state.sensors.readings, state.guidance.setpoint, time_s);
+    RotorCommand told = external->control(state.sensors.readings, setpoint, time_s);
     told.command.resize(model.airframe.rotors.size());
     return told;
 }
@@ -57,13 +83,16 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     report.restart();
     guidance::EventList& events = report.events;
 
-    sensors::sense(model.sensors, state.sensors, state.truth, plant, state.tick);
+    sense(model, state, plant, report);
+    const faults::Acting& acting = state.faults.now;
     const Readings& readings = state.sensors.readings;
     if (controls) {
         estimate(model, state, outside.autopilot);
     }
     if (model.mount != vehicle::Mount::free) {
         operate(model, state, events);  // a bench in guidance's place
+    } else if (acting.guidance_stalls) {
+        // its last word stands
     } else if (outside.guidance != nullptr) {
         outside.guidance->exchange(readings, state.autopilot.estimate, time_s, state.guidance,
                                    events);
@@ -78,7 +107,11 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
         state.command = control(model, state, outside.autopilot);
     }
     vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                  vehicle::voltage_share(airframe.battery, state.battery.voltage_V));
+                  vehicle::voltage_share(airframe.battery, state.battery.voltage_V),
+                  acting.rotors_hit ? &acting.speed_share : nullptr);
+    if (acting.charge_at_most < 1.0) {
+        vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
+    }
     vehicle::step(airframe.battery, state.battery,
                   vehicle::mechanical_power_W(airframe.rotor, state.rotors),
                   state.cup.status.pump_running, state.command.armed, kTick_s);

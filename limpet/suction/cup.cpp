@@ -94,10 +94,12 @@ void advance_pressure(const CupParameters& parameters, CupState& state, const Su
                   .press_N = -status.pull_N,
                   .pressure_Pa = state.mean_pressure_Pa,
                   .pump_resting = state.pump_resting,
-                  .valve_open = input.valve_open};
+                  .valve_open = input.valve_open,
+                  .hole_mm2 = input.hole_mm2};
     state.pump_resting =
         status.phase == CupPhase::attached && model.pump_rests(parameters.pressure, air);
-    status.pump_running = air.pump_running = input.pump_on && !state.pump_resting;
+    status.pump_running = air.pump_running =
+        input.pump_on && input.pump_draws && !state.pump_resting;
     status.valve_open = input.valve_open;
     const bool sealed = is_sealed(status.phase);
     state.mean_pressure_Pa = sealed ? model.next_Pa(parameters.pressure, air, dt_s)

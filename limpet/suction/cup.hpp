@@ -71,6 +71,8 @@ struct CupInput {
     CupBearer* bearer = nullptr;  ///< what hangs on the cup; it knows the press better
     bool pump_on = false;
     bool valve_open = false;
+    bool pump_draws = true;  ///< false: it runs for nothing, or its hose is blocked
+    double hole_mm2 = 0.0;   ///< to the atmosphere, in hose or lip
     /// In T, about the lip's centre: what a joint, that holds the cup in the lip's place, does to
     /// it.
     std::optional<Wrench> held_T = {};

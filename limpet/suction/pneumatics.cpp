@@ -291,8 +291,8 @@ bool Pneumatic::pump_rests(const Parameters& parameters, const SealedAir& air) {
 }
 
 double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, double dt_s) {
-    const CupAir cup =
-        sealed_cup(parameters, air.surface, air.radius_m, air.press_N, air.valve_open);
+    CupAir cup = sealed_cup(parameters, air.surface, air.radius_m, air.press_N, air.valve_open);
+    cup.hole_m2 += 1e-6 * air.hole_mm2;
     return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
 }
 

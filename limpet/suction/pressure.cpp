@@ -27,11 +27,23 @@ Law law(const Surface& surface, const FirstOrderParameters& cup, Airflow flow) {
     throw InternalError("airflow out of range");
 }
 
+/// Two flows at once: rates add, targets weigh by them.
+Law beside_hole(const Law& flow, const FirstOrderParameters& cup, double hole_mm2) {
+    constexpr double kValve_mm2 = kPi;  // of valve_time_constant_s: 2 mm across
+    const double rate_1_s = 1.0 / flow.time_constant_s;
+    const double hole_1_s = hole_mm2 / kValve_mm2 / cup.valve_time_constant_s;
+    const double both_1_s = rate_1_s + hole_1_s;
+    return {(rate_1_s * flow.target_Pa + hole_1_s * kAtmosphere_Pa) / both_1_s, 1.0 / both_1_s};
+}
+
 }  // namespace
 
 double pressure_after(const Surface& surface, const FirstOrderParameters& cup, Airflow flow,
-                      double pressure_Pa, double dt_s) {
-    const Law first_order = law(surface, cup, flow);
+                      double pressure_Pa, double dt_s, double hole_mm2) {
+    Law first_order = law(surface, cup, flow);
+    if (hole_mm2 > 0.0) {
+        first_order = beside_hole(first_order, cup, hole_mm2);
+    }
     if (pressure_Pa == first_order.target_Pa) {
         return pressure_Pa;  // an open cup, most of a flight
     }
@@ -65,7 +77,7 @@ double FirstOrder::next_Pa(const Parameters& parameters, const SealedAir& air, d
     const Airflow flow = air.valve_open     ? Airflow::venting
                          : air.pump_running ? Airflow::sealing
                                             : Airflow::unsealing;
-    return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s);
+    return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s, air.hole_mm2);
 }
 
 }  // namespace limpet::suction

@@ -38,6 +38,7 @@ struct SealedAir {
     bool pump_resting = false;  ///< so far
     bool pump_running = false;
     bool valve_open = false;
+    double hole_mm2 = 0.0;  ///< to the atmosphere, beyond the lip's own leak
 };
 
 }  // namespace limpet::suction

@@ -59,6 +59,10 @@ void step(const BatteryParameters& battery, BatteryState& state, double shaft_po
     (motors_on ? state.energy_flying_J : state.energy_resting_J) += state.voltage_V * drawn_C;
 }
 
+void drain(const BatteryParameters& battery, BatteryState& state, double at_most) {
+    state.charge_C = std::min(state.charge_C, at_most * battery.capacity_Ah * kCoulombsPerAh);
+}
+
 BatteryStatus status(const BatteryParameters& battery, const BatteryState& state) {
     return {.voltage_V = state.voltage_V,
             .current_A = state.current_A,

@@ -37,6 +37,10 @@ struct BatteryState {
 void step(const BatteryParameters& battery, BatteryState& state, double shaft_power_W, bool pump_on,
           bool motors_on, double dt_s);
 
+/// A charge that is suddenly gone.
+/// @param at_most  what is left, a share of the capacity
+void drain(const BatteryParameters& battery, BatteryState& state, double at_most);
+
 [[nodiscard]] BatteryStatus status(const BatteryParameters& battery, const BatteryState& state);
 
 /// What is left of the rotors' highest speed. A motor's top speed goes with its voltage; the rated

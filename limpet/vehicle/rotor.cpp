@@ -85,12 +85,15 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
 }
 
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double voltage_share) {
+          const RotorCommand& command, double voltage_share, const RotorList<double>* speed_share) {
     const std::size_t count = state.speed_rad_s.size();
     auto& newest_rad_s = state.asked_rad_s[state.next];
     for_each(count, [&](std::size_t i) {
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
+    if (speed_share != nullptr) {
+        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
+    }
     const auto& asked_rad_s =
         state.asked_rad_s[(state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps];
     state.next = (state.next + 1) % kCommandDelaySteps;

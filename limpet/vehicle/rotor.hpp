@@ -88,8 +88,10 @@ struct RotorLag {
 /// @param command        beyond 0..1 it is cut; of as many rotors as the state has, what is not
 ///                       there is 0; disarmed rotors run down
 /// @param voltage_share  of the battery (battery.hpp), scales the highest speed
+/// @param speed_share    of each rotor that does not turn as it should; null: all do
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double voltage_share = 1.0);
+          const RotorCommand& command, double voltage_share = 1.0,
+          const RotorList<double>* speed_share = nullptr);
 
 /// Sum over the rotors.
 /// @param base         frame B

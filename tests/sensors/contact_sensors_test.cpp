@@ -52,12 +52,6 @@ TEST(ForceSensor, NoiseHasItsDeviation) {
     EXPECT_NEAR(statistics(force_N).mean, -42.0, 0.01);
 }
 
-TEST(ForceSensor, FallsSilentAtItsFault) {
-    SensorsModel model = quiet_model();
-    model.parameters.force_fails_at_s = 0.5;
-    EXPECT_DOUBLE_EQ(after_a_second(model, pressed(-42.0)).force.time_s, 0.496);
-}
-
 TEST(PressureSensor, ReadsInStepsAndWithinItsRange) {
     SensorsModel model = quiet_model();
     model.parameters.pressure_resolution_Pa = 50.0;
@@ -81,28 +75,6 @@ TEST(PressureSensor, NoiseHasItsDeviation) {
     });
     EXPECT_EQ(pressure_Pa.size(), 10000U);
     EXPECT_NEAR(statistics(pressure_Pa).deviation, 100.0, 4.0);
-}
-
-TEST(PressureSensor, StuckItRepeatsItselfWithNewStamps) {
-    SensorsModel model = quiet_model();
-    model.parameters.pressure_noise_Pa = 100.0;
-    model.parameters.pressure_stuck_at_s = 0.5;
-    const auto falling = [](Tick tick) {
-        Truth truth = at_rest(tick);
-        truth.cup_status.pressure_Pa = 101325.0 - 50000.0 * truth.time_s;
-        return truth;
-    };
-    double last_good_Pa = 0.0;
-    run(model, 1000, falling, [&](Tick tick, const Readings& readings) {
-        if (tick == 490) {
-            last_good_Pa = readings.cup_pressure.value.pressure_Pa;
-        }
-        if (tick >= 500) {
-            EXPECT_EQ(readings.cup_pressure.value.pressure_Pa, last_good_Pa);
-            EXPECT_TRUE(readings.cup_pressure.fresh(seconds(tick), 0.0095));
-        }
-    });
-    EXPECT_NEAR(last_good_Pa, 101325.0 - 24500.0, 600.0);
 }
 
 }  // namespace

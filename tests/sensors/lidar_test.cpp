@@ -120,14 +120,6 @@ TEST(Lidar, BiasesOfManyUnitsScatterAsAsked) {
     EXPECT_NEAR(test::statistics(biases).mean, 0.0, 0.006);
 }
 
-TEST(Lidar, AFailedUnitFallsSilentTheOtherGoesOn) {
-    SensorsModel model = quiet_model();
-    model.parameters.lidar_left_fails_at_s = 0.5;
-    const Readings last = after_a_second(model, facing(1.5));
-    EXPECT_DOUBLE_EQ(last.lidar_left.time_s, 0.49);
-    EXPECT_DOUBLE_EQ(last.lidar_right.time_s, 0.98);
-}
-
 TEST(Lidar, ArrivesLateWithItsOwnStamp) {
     const SensorsModel model = quiet_model();
     // approaching at 1 m/s: the value tells when it was measured

@@ -77,15 +77,6 @@ TEST(MotionCapture, DropsOutAsOftenAsAsked) {
     EXPECT_LT(0.2, share.high);
 }
 
-TEST(MotionCapture, StopsAtItsFault) {
-    SensorsModel model = quiet_model();
-    model.parameters.mocap_fails_at_s = 0.5;
-    double last_s = 0.0;
-    run(model, 1000, at_rest,
-        [&](Tick, const Readings& readings) { last_s = readings.motion_capture.time_s; });
-    EXPECT_NEAR(last_s, 59.0 / 120.0, kTick_s);
-}
-
 TEST(Gps, ArrivesAfterItsLatency) {
     int samples = 0;
     double last_s = -1.0;

@@ -99,14 +99,13 @@ TEST(Suite, SilencingOneSensorsNoiseLeavesTheOthersAlone) {
     }
 }
 
-TEST(Suite, AFaultLeavesTheOtherNumbersAlone) {
+TEST(Suite, ADropoutLeavesTheOtherNumbersAlone) {
     const Log reference = log_of({});
     SensorsModel model;
-    model.parameters.lidar_left_fails_at_s = 0.3;
     model.parameters.mocap_dropout_probability = 0.5;
     const Log changed = log_of(model);
     for (std::size_t i = 0; i < kSensors; ++i) {
-        const bool own = kPrefixes[i] == "lidar_left" || kPrefixes[i] == "mocap";
+        const bool own = kPrefixes[i] == "mocap";
         EXPECT_EQ(changed[i] == reference[i], !own) << kPrefixes[i];
     }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -250,18 +251,18 @@ TEST(Crashes, AnArmShorterThanThePropellersPutsThemIntoTheWall) {
 
 /// A sensor that fails at some moment of the manoeuvre; the vehicle must not come down with it.
 struct FaultAt {
-    const char* key;
+    const char* fault;
     double time_s;
 };
 void PrintTo(const FaultAt& fault, std::ostream* out) {
-    *out << fault.key << " " << fault.time_s;
+    *out << fault.fault << " " << fault.time_s;
 }
 class SurvivesFault : public testing::TestWithParam<FaultAt> {};
 
 TEST_P(SurvivesFault, OnConcreteAndOnMetalWithAValve) {
     for (const char* scenario : {"perch_concrete", "perch_metal_valve"}) {
         const std::string fault =
-            std::string("sensors.") + GetParam().key + "=" + std::to_string(GetParam().time_s);
+            fmt::format("faults={{fault: {}, at_s: {}}}", GetParam().fault, GetParam().time_s);
         const Trace trace = simulation::trace(model_of(scenario, {fault}));
         EXPECT_NE(trace.result.outcome, Outcome::crashed)
             << scenario << ": " << trace.result.reason;
@@ -271,15 +272,15 @@ TEST_P(SurvivesFault, OnConcreteAndOnMetalWithAValve) {
 
 INSTANTIATE_TEST_SUITE_P(
     Faults, SurvivesFault,
-    testing::Values(FaultAt{"pressure_stuck_at_s", 0.0}, FaultAt{"pressure_stuck_at_s", 5.0},
-                    FaultAt{"pressure_stuck_at_s", 8.0}, FaultAt{"pressure_stuck_at_s", 15.0},
-                    FaultAt{"pressure_stuck_at_s", 22.0}, FaultAt{"pressure_stuck_at_s", 26.5},
-                    FaultAt{"pressure_stuck_at_s", 27.2}, FaultAt{"mocap_fails_at_s", 0.5},
-                    FaultAt{"mocap_fails_at_s", 4.0}, FaultAt{"mocap_fails_at_s", 5.4},
-                    FaultAt{"mocap_fails_at_s", 8.0}, FaultAt{"mocap_fails_at_s", 15.0},
-                    FaultAt{"mocap_fails_at_s", 24.0}, FaultAt{"mocap_fails_at_s", 29.0},
-                    FaultAt{"force_fails_at_s", 2.0}, FaultAt{"force_fails_at_s", 4.5},
-                    FaultAt{"lidar_left_fails_at_s", 1.0}, FaultAt{"lidar_right_fails_at_s", 4.5}));
+    testing::Values(FaultAt{"pressure_stuck", 0.0}, FaultAt{"pressure_stuck", 5.0},
+                    FaultAt{"pressure_stuck", 8.0}, FaultAt{"pressure_stuck", 15.0},
+                    FaultAt{"pressure_stuck", 22.0}, FaultAt{"pressure_stuck", 26.5},
+                    FaultAt{"pressure_stuck", 27.2}, FaultAt{"mocap_lost", 0.5},
+                    FaultAt{"mocap_lost", 4.0}, FaultAt{"mocap_lost", 5.4},
+                    FaultAt{"mocap_lost", 8.0}, FaultAt{"mocap_lost", 15.0},
+                    FaultAt{"mocap_lost", 24.0}, FaultAt{"mocap_lost", 29.0},
+                    FaultAt{"force_lost", 2.0}, FaultAt{"force_lost", 4.5},
+                    FaultAt{"lidar_lost, unit: 0", 1.0}, FaultAt{"lidar_lost, unit: 1", 4.5}));
 
 TEST(Touches, OneDockIsOneTouch) {
     for (const char* scenario :
@@ -307,15 +308,16 @@ TEST(Missions, WithAnEmptyBatteryItIsNotReleased) {
 }
 
 TEST(Missions, WithAValveACupWhosePressureIsUnknownComesOff) {
-    const Trace trace =
-        simulation::trace(model_of("perch_metal_valve", {"sensors.pressure_stuck_at_s=5.0"}));
+    const Trace trace = simulation::trace(
+        model_of("perch_metal_valve", {"faults={fault: pressure_stuck, at_s: 5.0}"}));
     EXPECT_EQ(trace.result.reason, "no landing in any attempt");
     EXPECT_FALSE(trace.times(detached).empty());
 }
 
 TEST(Missions, ASenseLostAtTheImpactOnMetalLandsItAgain) {
-    for (const char* fault : {"sensors.force_fails_at_s=5.15", "sensors.pressure_stuck_at_s=5.15",
-                              "sensors.pressure_stuck_at_s=5.25"}) {
+    for (const char* fault :
+         {"faults={fault: force_lost, at_s: 5.15}", "faults={fault: pressure_stuck, at_s: 5.15}",
+          "faults={fault: pressure_stuck, at_s: 5.25}"}) {
         const Trace trace = simulation::trace(model_of("perch_metal", {fault}));
         EXPECT_EQ(trace.result.outcome, Outcome::release_aborted)
             << fault << ": " << trace.result.reason;
@@ -323,8 +325,9 @@ TEST(Missions, ASenseLostAtTheImpactOnMetalLandsItAgain) {
 }
 
 TEST(Missions, WithoutMotionCaptureInTheApproachItComesToAStand) {
-    for (const char* fault : {"sensors.mocap_fails_at_s=4.0", "sensors.mocap_fails_at_s=4.3",
-                              "sensors.mocap_fails_at_s=4.6"}) {
+    for (const char* fault :
+         {"faults={fault: mocap_lost, at_s: 4.0}", "faults={fault: mocap_lost, at_s: 4.3}",
+          "faults={fault: mocap_lost, at_s: 4.6}"}) {
         const Trace trace = simulation::trace(model_of("perch_metal", {fault}));
         EXPECT_EQ(trace.result.outcome, Outcome::aborted) << fault << ": " << trace.result.reason;
         EXPECT_LT(trace.truth.back().base.v_WF_W_m_s.norm(), 0.3) << fault;
@@ -332,8 +335,8 @@ TEST(Missions, WithoutMotionCaptureInTheApproachItComesToAStand) {
 }
 
 TEST(Missions, LidarLostInFlightIsSurvived) {
-    const Trace trace =
-        simulation::trace(model_of("perch_concrete", {"sensors.lidar_left_fails_at_s=4.2"}));
+    const Trace trace = simulation::trace(
+        model_of("perch_concrete", {"faults={fault: lidar_lost, unit: 0, at_s: 4.2}"}));
     EXPECT_EQ(trace.result.outcome, Outcome::aborted);
     EXPECT_EQ(trace.result.reason, "no pre-position before the wall in time");
     EXPECT_FALSE(trace.times(aborted).empty());

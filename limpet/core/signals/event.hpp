@@ -31,6 +31,8 @@ enum class EventName {
     backed_off,
     aborted,
     parameter_set,  ///< from outside, of the autopilot: its name and value
+    fault_began,    ///< of a scenario's table
+    fault_ended,
 };
 
 [[nodiscard]] inline std::string_view to_string(EventName name) {

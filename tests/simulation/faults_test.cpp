@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "flown.hpp"
+#include "limpet/scenario/fault_table.hpp"
+
+namespace limpet::simulation {
+namespace {
+
+using testing::ElementsAre;
+
+Trace with_fault(const char* scenario, const std::string& fault) {
+    return simulation::trace(model_of(scenario, {"faults={" + fault + "}"}));
+}
+
+TEST(FaultsInTheLoop, ATableOfNoneIsTheFlightWithoutOne) {
+    const Trace none = with_fault("perch_concrete", "fault: none, phase: resting");
+    EXPECT_EQ(none.result.state_hash, flown("perch_concrete").result.state_hash);
+}
+
+TEST(FaultsInTheLoop, BeginAndEndAreEventsAtTheirTime) {
+    const Trace trace =
+        with_fault("perch_concrete", "fault: motor_weak, unit: 1, phase: holding, for_s: 0.2");
+    const auto impact_s = trace.times(EventName::impact);
+    const auto began_s = trace.times(EventName::fault_began);
+    const auto ended_s = trace.times(EventName::fault_ended);
+    ASSERT_EQ(impact_s.size(), 1U);
+    ASSERT_EQ(began_s.size(), 1U);
+    ASSERT_EQ(ended_s.size(), 1U);
+    EXPECT_NEAR(began_s[0], impact_s[0] + 1e-3, 1e-9);  // guidance speaks after the faults
+    EXPECT_NEAR(ended_s[0], began_s[0] + 0.2, 1e-9);
+}
+
+/// The pressure that pump and hole agree on, and the way there, in closed form.
+TEST(FaultsInTheLoop, AHoleInTheHoseSettlesWherePumpAndHoleAgree) {
+    constexpr double kHole_mm2 = 0.05;
+    const Trace trace = with_fault(
+        "perch_concrete", fmt::format("fault: hose_leaks, size: {}, phase: resting", kHole_mm2));
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
+    const auto& surface = scenario.wall.surface;
+    const double pump_1_s = 1.0 / surface.sealing_time_constant_s;
+    const double hole_1_s = kHole_mm2 / kPi / scenario.cup.pressure.valve_time_constant_s;
+    const double settled_Pa =
+        (pump_1_s * surface.vacuum_pressure_Pa + hole_1_s * kAtmosphere_Pa) / (pump_1_s + hole_1_s);
+    const double looked_s = trace.times(EventName::fault_began).at(0) + 5.0;
+    const auto seen = std::find_if(trace.truth.begin(), trace.truth.end(),
+                                   [&](const Truth& truth) { return truth.time_s >= looked_s; });
+    ASSERT_NE(seen, trace.truth.end());
+    EXPECT_NEAR(seen->cup_status.pressure_Pa, settled_Pa, 1.5 * surface.pump_ripple_Pa);
+    EXPECT_GT(settled_Pa, surface.vacuum_pressure_Pa + 3000.0);  // the hole is felt
+}
+
+TEST(FaultsInTheLoop, AMotorThatIsLostGivesNoThrust) {
+    Flight flight(model_of("hover", {"faults={fault: motor_lost, unit: 2, at_s: 1}"}));
+    while (!flight.ended() && seconds(flight.state().tick) < 1.3) {
+        flight.tick();
+    }
+    const auto& speed_rad_s = flight.state().truth.rotor_speed_rad_s;
+    EXPECT_LT(speed_rad_s[2], 50.0);
+    EXPECT_GT(speed_rad_s[0], 50.0);
+}
+
+TEST(FaultsInTheLoop, AFlightSavedInItsFaultGoesOnWithTheSameBits) {
+    const auto model =
+        model_of("perch_concrete", {"faults=[{fault: pressure_drifts, phase: holding, for_s: 3},"
+                                    "{fault: lidar_offset, unit: 0, at_s: 1}]"});
+    Flight flight(model);
+    while (seconds(flight.state().tick) < 5.5) {
+        flight.tick();
+    }
+    const Snapshot saved = flight.save();
+    Flight again(model);
+    again.restore(saved);
+    while (!flight.ended()) {
+        flight.tick();
+        again.tick();
+    }
+    EXPECT_TRUE(again.ended());
+    EXPECT_EQ(result_of(again, 0.0).state_hash, result_of(flight, 0.0).state_hash);
+}
+
+TEST(FaultsInTheLoop, AStalledCompanionLeavesSetPointAndPumpAsTheyWere) {
+    const Trace trace = with_fault("perch_concrete", "fault: guidance_stalls, phase: resting");
+    EXPECT_EQ(trace.result.outcome, Outcome::timed_out);  // it hangs there, pump on
+    EXPECT_THAT(trace.times(EventName::contact_lost), ElementsAre());
+}
+
+/// Nothing that passes within a fraction of a second brings it down, at any phase.
+TEST(FaultsInTheLoop, BlinksOfTheSensorsAreSurvived) {
+    for (const char* kind :
+         {"mocap_lost", "mocap_frozen", "lidar_lost", "lidar_ghost", "force_lost", "pressure_lost",
+          "pressure_stuck", "magnetometer_lost", "guidance_stalls", "link_lost"}) {
+        for (const char* phase : {"aligning", "approaching", "holding", "pitching_up",
+                                  "pitching_down", "backing_off"}) {
+            const std::string fault = fmt::format("fault: {}, phase: {}, for_s: 0.1", kind, phase);
+            const Trace trace = with_fault("perch_concrete", fault);
+            EXPECT_NE(trace.result.outcome, Outcome::crashed) << fault;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace limpet::simulation
