@@ -119,13 +119,32 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
     apply(state, fusion.correction);
 }
 
+/// A camera's pose has noise: the same one again, bit for bit, is a tracker that repeats itself.
+bool repeats(const PoseReading& pose, const PoseReading& last) {
+    return pose.p_WB_m == last.p_WB_m && pose.q_WB.coeffs() == last.q_WB.coeffs();
+}
+
+/// A body that lies quite otherwise than the gyros say is another one, for as long as they can
+/// tell.
+bool is_another_body(const EstimatorState& state, const Instant& at, const Quaternion& q_WB,
+                     double stamp_s) {
+    constexpr double kAngle_rad = 0.5;
+    constexpr double kGyrosTell_s = 30.0;
+    return stamp_s - state.motion_capture_attitude.fused_s < kGyrosTell_s &&
+           at.then.q_WB.angularDistance(q_WB.normalized()) > kAngle_rad;
+}
+
 void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
                          const Sample<PoseReading>& sample) {
     const double stamp_s = sample.time_s - kMillisecond_s * p.EKF2_EV_DELAY;
     const PoseReading& pose = sample.value;
-    const bool finite = pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite();
-    take(p, state, state.motion_capture_s, sample, stamp_s, finite,
+    const bool usable = pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() &&
+                        !repeats(pose, state.motion_capture);
+    take(p, state, state.motion_capture_s, sample, stamp_s, usable,
          [&](Fusion& fusion, const Instant& at) {
+             if (is_another_body(state, at, pose.q_WB, stamp_s)) {
+                 return;
+             }
              if (has(p.EKF2_EV_CTRL, kHorizontal | kHeight)) {
                  fuse(fusion, state.motion_capture_position,
                       measure_position(at, pose.p_WB_m, Vector3::Constant(p.EKF2_EVP_NOISE),
@@ -138,6 +157,7 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
                       kAttitude);
              }
          });
+    state.motion_capture = pose;
 }
 
 void take_gps(const AutopilotParameters& p, EstimatorState& state,

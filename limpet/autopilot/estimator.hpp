@@ -31,6 +31,7 @@ struct EstimatorState {
     double gps_s = kNever;
     double barometer_s = kNever;
     double magnetometer_s = kNever;
+    PoseReading motion_capture;  ///< the last one seen
     Aiding motion_capture_position;
     Aiding motion_capture_attitude;
     Aiding gps_position;
@@ -44,7 +45,9 @@ struct EstimatorState {
 [[nodiscard]] EstimatorState start_estimator(const AutopilotParameters& parameters,
                                              const Estimate& initial);
 
-/// Takes every sample whose stamp is new; one that is not finite is as if it had not come.
+/// Takes every sample whose stamp is new; one that is not finite is as if it had not come. So is a
+/// pose that repeats the last bit for bit (a tracker that is frozen), and one that is turned from
+/// what the gyros tell by more than half a radian (another body).
 /// Allocates nothing.
 void update_estimator(const AutopilotParameters& parameters, EstimatorState& state,
                       const Readings& readings);

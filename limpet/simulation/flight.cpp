@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/scenario/fault_table.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight_log.hpp"
 #include "limpet/simulation/pace.hpp"
@@ -75,6 +76,12 @@ FlightResult result_of(const Flight& flight, double wall_s) {
     result.performance = {
         .simulated_s = seconds(state.tick), .wall_s = wall_s, .physics_steps = seen.physics_steps};
     result.state_hash = seen.hash;
+    const std::vector<faults::Fault>& all = flight.model().faults.faults;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].kind != faults::FaultKind::none && state.faults.progress[i].began_s < 0.0) {
+            result.faults_not_begun.push_back(scenario::fault_text(all[i]));
+        }
+    }
     return result;
 }
 

@@ -104,6 +104,7 @@ struct FlightResult {
     std::string reason;
     int attempts = 0;
     std::vector<Event> events;
+    std::vector<std::string> faults_not_begun;  ///< of the scenario's table, as YAML
     Metrics metrics;
     FlightPerformance performance;
     std::filesystem::path recording;  ///< empty: none

@@ -149,6 +149,9 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
             fmt::format(" ({} docking run{})", result.attempts, result.attempts == 1 ? "" : "s");
     }
     add(lines, bold, "outcome", outcome);
+    for (const std::string& fault : result.faults_not_begun) {
+        add(lines, bold, "no fault", fault + " never began");
+    }
     add(lines, bold, "impact", impact_text(m));
     add(lines, bold, "seal", seal_text(m));
     add(lines, bold, "no seal", unsealed_text(result));

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "trajectory.hpp"
 
@@ -134,7 +135,7 @@ TEST(Estimator, ALastingJumpIsBelievedAfterASecond) {
     const auto shifted = [](Readings& readings) {
         readings.motion_capture.value.p_WB_m += Vector3(2.0, 0.0, 0.0);
         readings.motion_capture.value.q_WB =
-            quaternion_from_rotation_vector(Vector3(0.0, 0.0, 1.0)) *
+            quaternion_from_rotation_vector(Vector3(0.0, 0.0, 0.4)) *
             readings.motion_capture.value.q_WB;
     };
     run.go(0.4, shifted);
@@ -144,7 +145,37 @@ TEST(Estimator, ALastingJumpIsBelievedAfterASecond) {
     run.go(0.5, shifted);
     EXPECT_TRUE(run.valid());
     EXPECT_NEAR(run.state.navigation.p_WB_m.x(), 2.0, 0.01);
-    EXPECT_NEAR(euler_from_quaternion(run.state.navigation.q_WB).yaw_rad, 1.3, 0.01);
+    EXPECT_NEAR(euler_from_quaternion(run.state.navigation.q_WB).yaw_rad, 0.7, 0.01);
+}
+
+TEST(Estimator, AnotherBodyIsNotBelievedHoweverLongItIsSeen) {
+    Tracking run(hanging(0.0));
+    run.go(3.0);
+    const auto turned = [](Readings& readings) {
+        readings.motion_capture.value.p_WB_m += Vector3(0.3, 0.0, 0.0);
+        readings.motion_capture.value.q_WB =
+            quaternion_from_rotation_vector(Vector3(0.0, 0.0, 1.0)) *
+            readings.motion_capture.value.q_WB;
+    };
+    run.go(4.0, turned);
+    EXPECT_FALSE(run.valid());
+    EXPECT_LT(run.error(kAttitude), 0.1);
+    run.go(0.5);
+    EXPECT_TRUE(run.valid());
+}
+
+TEST(Estimator, APoseThatIsRepeatedAidsNothing) {
+    Tracking run(hanging(0.0));
+    run.go(3.0);
+    std::optional<PoseReading> last;
+    const auto frozen = [&last](Readings& readings) {
+        last = last.value_or(readings.motion_capture.value);
+        readings.motion_capture.value = *last;
+    };
+    run.go(1.5, frozen);
+    EXPECT_FALSE(run.valid());
+    run.go(0.5);
+    EXPECT_TRUE(run.valid());
 }
 
 TEST(Estimator, LostMotionCaptureMakesInvalidAndComesBack) {

@@ -36,6 +36,27 @@ TEST(FaultsInTheLoop, BeginAndEndAreEventsAtTheirTime) {
     EXPECT_NEAR(ended_s[0], began_s[0] + 0.2, 1e-9);
 }
 
+TEST(FaultsInTheLoop, OneWhosePhaseNeverCameIsToldAtTheEnd) {
+    const FlightResult result =
+        fly(model_of("perch_concrete", {"faults={fault: motor_lost, phase: braking}"}));
+    EXPECT_EQ(result.outcome, Outcome::released);
+    EXPECT_THAT(result.faults_not_begun,
+                ElementsAre("{fault: motor_lost, unit: 0, phase: braking, after_s: 0}"));
+}
+
+/// A tracker that repeats itself, or follows another body, is as one that is lost.
+TEST(FaultsInTheLoop, PosesThatLieAreNotFlownBy) {
+    for (const char* kind : {"mocap_frozen", "mocap_wrong_body"}) {
+        for (const char* phase : {"aligning", "approaching", "holding", "pitching_up", "resting",
+                                  "pitching_down", "releasing", "backing_off"}) {
+            const std::string fault = fmt::format("fault: {}, phase: {}", kind, phase);
+            const Trace trace = with_fault("perch_concrete", fault);
+            EXPECT_NE(trace.result.outcome, Outcome::crashed) << fault;
+            EXPECT_NE(trace.result.outcome, Outcome::timed_out) << fault;
+        }
+    }
+}
+
 /// The pressure that pump and hole agree on, and the way there, in closed form.
 TEST(FaultsInTheLoop, AHoleInTheHoseSettlesWherePumpAndHoleAgree) {
     constexpr double kHole_mm2 = 0.05;
