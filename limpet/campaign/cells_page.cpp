@@ -12,6 +12,7 @@
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/html.hpp"
+#include "limpet/record/story.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -35,7 +36,7 @@ struct Cell {
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --ink: #1d2430; --paper: #fff; --line: #cfd6e0 }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e9f0; --paper: #14181f; --line: #39424f } }
-body { margin: 0 auto; padding: 1rem 1rem 6rem; max-width: 80rem; background: var(--paper);
+body { margin: 0 auto; padding: 1rem 1rem 6rem; max-width: 88rem; background: var(--paper);
   color: var(--ink); font: 15px/1.4 system-ui, sans-serif }
 .scroll { overflow-x: auto; outline-offset: 2px }
 table { border-collapse: collapse; margin: .5rem 0 1.5rem }
@@ -43,8 +44,8 @@ th { font-weight: 500; text-align: left; padding: .15rem .5rem .15rem 0; white-s
 thead th { vertical-align: bottom; padding: 0 .2rem .3rem }
 thead th span { writing-mode: vertical-rl; transform: rotate(180deg) }
 td { padding: 1px }
-td button { width: 4.6rem; height: 1.6rem; border: 0; border-radius: 3px; color: #10151c;
-  font: 12px/1.6rem system-ui, sans-serif; cursor: pointer; overflow: hidden }
+td button { width: 5.6rem; height: 1.5rem; padding: 0; border: 0; border-radius: 3px; color: #10151c;
+  font: 11.5px/1.5rem system-ui, sans-serif; cursor: pointer; white-space: nowrap; overflow: hidden }
 button:focus-visible, .scroll:focus-visible { outline: 3px solid #3b7dd8 }
 .perched, .released { background: #8fd19e } .release_aborted { background: #b9dd8a }
 .failed_to_seal { background: #f3dc7d } .aborted { background: #f4c27a }
@@ -110,7 +111,8 @@ public:
             escaped(campaign_.name), kStyle, escaped(campaign_.description));
         add_text("<ul class=\"key\">");
         for (const auto& [outcome, count] : outcomes_) {
-            add_text("<li class=\"{0}\">{0}: {1}</li>", escaped(outcome), count);
+            add_text("<li class=\"{}\">{}: {}</li>", escaped(outcome),
+                     escaped(record::words(outcome)), count);
         }
         add_text(
             "</ul>\n<p>Press a cell: why it ended so, and the command that flies it again."
@@ -179,8 +181,9 @@ private:
             add_text("<td></td>");
             return;
         }
-        const std::string shown =
-            cell->runs == 1 ? cell->outcome : fmt::format("{} of {}", cell->successes, cell->runs);
+        const std::string shown = cell->runs == 1
+                                      ? record::words(cell->outcome)
+                                      : fmt::format("{} of {}", cell->successes, cell->runs);
         add_text(
             "<td><button class=\"{0}\" data-run=\"{1}\" title=\"run {1}, {0}: {2}\">{3}"
             "</button></td>",

@@ -277,7 +277,11 @@ bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory, doub
 }
 
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
-            const Readings& readings, const Estimate& estimate, double time_s, EventList& events) {
+            const Readings& readings, const Estimate& told, double time_s, EventList& events) {
+    Estimate estimate = told;
+    if (memory.state == S::resting && time_s - told.time_s > parameters.sensor_limit_s) {
+        estimate.valid = false;  // nobody leaves the wall by an attitude of long ago
+    }
     if (looks_at_wall(memory.state)) {
         see_wall(parameters, memory.wall, readings, estimate);
     }

@@ -149,7 +149,8 @@ struct EventList {
                             double time_s);
 
 /// One update: what the sensors say goes in, what the vehicle shall do comes out in
-/// memory.setpoint, what happened in the list. Reads no clock: `time_s` must not run back.
+/// memory.setpoint, what happened in the list. Reads no clock: `time_s` must not run back. A
+/// vehicle at rest does not leave the wall by an estimate older than sensor_limit_s.
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
             const Readings& readings, const Estimate& estimate, double time_s, EventList& events);
 

@@ -146,6 +146,24 @@ TEST_F(Flown, SummaryForPeopleAndForPrograms) {
     EXPECT_EQ(json["outcomes"][0]["outcome"], "released");
 }
 
+TEST(CellsPage, SaysHowEachCellOfTwoGridsEndedAndWhichRunItWas) {
+    const Bench bench;
+    (void)bench.write("cells.yaml",
+                      "scenario: hover\nseed: 1\nrepeats: 1\n"
+                      "overrides: [simulation.hover_s=3, \"faults={fault: none, at_s: 1}\"]\n"
+                      "parameters:\n"
+                      "  simulation.start_height_m: {grid: [1, 2]}\n"
+                      "  faults.fault: {grid: [none, motor_lost]}\n");
+    ASSERT_EQ(bench.run({"campaign", "cells.yaml", "--out", "flown"}).exit_code, 0);
+    ASSERT_EQ(bench.run({"summary", "flown"}).exit_code, 0);
+    const std::string page = text_of(bench.folder() / "flown/cells.html");
+    EXPECT_THAT(page, HasSubstr("<button class=\"released\" data-run=\"0\""));
+    EXPECT_THAT(page, HasSubstr("<button class=\"crashed\" data-run=\"1\" "
+                                "title=\"run 1, crashed: hit the ground\""));
+    EXPECT_THAT(page, HasSubstr("<button class=\"crashed\" data-run=\"3\""));
+    EXPECT_THAT(page, HasSubstr("released: 2"));
+}
+
 TEST_F(Flown, ResultsAreNeverOverwritten) {
     expect_refused({"campaign", "x.yaml", "--out", "."}, "--resume");
     (void)bench_.write("x.yaml", short_hovers(7));

@@ -57,6 +57,14 @@ TEST(FaultsInTheLoop, PosesThatLieAreNotFlownBy) {
     }
 }
 
+TEST(FaultsInTheLoop, WithoutAnImuItStaysOnTheWallThatItRestsOn) {
+    for (const char* scenario : {"perch_concrete", "perch_metal"}) {
+        const Trace trace = with_fault(scenario, "fault: imu_lost, phase: resting");
+        EXPECT_EQ(trace.result.outcome, Outcome::release_aborted) << scenario;
+        EXPECT_EQ(trace.result.reason, "no position estimate: rests on the wall") << scenario;
+    }
+}
+
 /// The pressure that pump and hole agree on, and the way there, in closed form.
 TEST(FaultsInTheLoop, AHoleInTheHoseSettlesWherePumpAndHoleAgree) {
     constexpr double kHole_mm2 = 0.05;
