@@ -18,6 +18,7 @@ struct LabOptions {
     std::string scenario = "perch_concrete";
     std::string listen = "127.0.0.1";
     int port = 0;
+    std::string out;
     bool open = false;
 };
 
@@ -27,12 +28,14 @@ OptionList options_of(LabOptions& options) {
         {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
         {"--listen ADDRESS", &options.listen,
          "whom to listen to: an address of this machine (default: itself alone)"},
+        {"--out DIR", &options.out,
+         "keep results of campaigns there (default: they go with the lab)"},
         {"--open", &options.open, "open the page in a browser"}};
 }
 
 ExitCode run_lab(const LabOptions& options) {
     const std::atomic<bool>* stop = stop_on_signals();
-    lab::Lab lab(options.scenario, stop);
+    lab::Lab lab(options.scenario, stop, options.out);
     serve::Server server({.host = options.listen,
                           .port = static_cast<std::uint16_t>(options.port),
                           .token = serve::make_token()});
@@ -60,7 +63,8 @@ Verb lab_verb() {
                             "range, unit and source; the\n"
                             "flight follows while one is dragged, the last one stays as a ghost. "
                             "What was changed is in\n"
-                            "the page's address, and can be saved as YAML or as a command.\n");
+                            "the page's address, and can be saved as YAML or as a command. Many: a "
+                            "campaign, each of its\nflights a point to look at.\n");
 }
 
 }  // namespace limpet::app

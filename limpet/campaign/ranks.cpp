@@ -433,7 +433,8 @@ void dismiss_ranks(RankLink& link) {
 
 Progress run_among_ranks(Results& results, int jobs, const CampaignWatch& watch, RankLink& link) {
     std::atomic<bool> stop = false;
-    const CampaignWatch ours{.on_progress = watch.on_progress, .stop = &stop};
+    const CampaignWatch ours{
+        .on_progress = watch.on_progress, .stop = &stop, .on_row = watch.on_row};
     Ledger ledger(results, ours, link.ranks());
     Host host(link, results.campaign(), ledger);
     const Fliers fliers(jobs, results.campaign(), ledger, &stop);

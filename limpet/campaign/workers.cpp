@@ -74,6 +74,9 @@ void Ledger::land(const RunRow& row, int rank) {
     }
     progress_.elapsed_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (watch_.on_row) {
+        watch_.on_row(row);
+    }
     if (watch_.on_progress) {
         watch_.on_progress(progress_);
     }

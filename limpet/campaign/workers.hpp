@@ -32,6 +32,7 @@ struct CampaignWatch {
     std::function<void(const Progress&)>
         on_progress;                          ///< after each row, by any thread, one at a time
     const std::atomic<bool>* stop = nullptr;  ///< then flights in the air end, no new ones
+    std::function<void(const RunRow&)> on_row = {};  ///< as on_progress, just before it
 };
 
 /// Flies the runs that are missing from the results, on `jobs` threads, until all are there or the

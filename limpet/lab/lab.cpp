@@ -6,10 +6,10 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/lab/request.hpp"
 #include "limpet/lab/schema.hpp"
 #include "limpet/report/view.hpp"
 #include "limpet/scenario/catalogue.hpp"
@@ -22,40 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostChanges = 1000;
 constexpr auto kLongestFlight = std::chrono::seconds(20);  ///< of wall time
-
-struct Asked {
-    std::string scenario;
-    std::vector<std::string> changes;
-    bool brief = false;
-};
-
-/// @throws InputError when it is no request
-Asked asked_in(std::string_view request, const std::string& first) {
-    const auto json = nlohmann::json::parse(request, nullptr, false);
-    if (!json.is_object()) {
-        throw InputError("a request is a JSON object: {\"scenario\": ..., \"set\": [...]}");
-    }
-    try {
-        Asked asked{.scenario = json.value("scenario", first),
-                    .changes = json.value("set", std::vector<std::string>{}),
-                    .brief = json.value("brief", false)};
-        if (asked.changes.size() > kMostChanges) {
-            throw InputError(fmt::format("\"set\": {} changes, allowed are {}",
-                                         asked.changes.size(), kMostChanges));
-        }
-        // A page asks for what is installed, not for files.
-        if (scenario::is_path(asked.scenario)) {
-            throw InputError("\"scenario\": a name, not a path");
-        }
-        return asked;
-    } catch (const nlohmann::json::exception&) {
-        throw InputError(
-            "\"scenario\" is a text, \"set\" a list of texts \"key=value\", \"brief\" true or "
-            "false");
-    }
-}
 
 scenario::Scenario load(const Asked& asked) {
     return scenario::load_scenario(asked.scenario, {.overrides = asked.changes});
@@ -67,11 +34,6 @@ nlohmann::json names_json(const std::vector<scenario::CatalogueEntry>& entries) 
         names.push_back({{"name", entry.name}, {"description", entry.description}});
     }
     return names;
-}
-
-std::string bytes_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /// The page of recordings with a place for the lab in it, which may ask this server.
@@ -91,9 +53,13 @@ serve::Response json_answer(std::string body) {
     return {.content_type = "application/json", .body = std::move(body)};
 }
 
+serve::Response recording_answer(std::string bytes) {
+    return {.content_type = "application/octet-stream", .body = std::move(bytes)};
+}
+
 }  // namespace
 
-Lab::Lab(std::string scenario, const std::atomic<bool>* stop)
+Lab::Lab(std::string scenario, const std::atomic<bool>* stop, fs::path keep)
     : first_(std::move(scenario)), stop_(stop) {
     (void)report::view_page();
     (void)scenario::load_scenario(first_);
@@ -102,9 +68,11 @@ Lab::Lab(std::string scenario, const std::atomic<bool>* stop)
         throw InputError("cannot make " + folder);
     }
     scratch_ = folder;
+    many_ = std::make_unique<Many>(first_, scratch_ / "many", std::move(keep));
 }
 
 Lab::~Lab() {
+    many_.reset();
     std::error_code ignored;
     fs::remove_all(scratch_, ignored);
 }
@@ -114,12 +82,13 @@ std::string Lab::catalogue() const {
     return nlohmann::json{{"scenario", first_},
                           {"scenarios", names_json(scenario::list_files(root / "scenarios"))},
                           {"surfaces", names_json(scenario::list_surfaces(root))},
-                          {"vehicles", names_json(scenario::list_files(root / "vehicles"))}}
+                          {"vehicles", names_json(scenario::list_files(root / "vehicles"))},
+                          {"campaigns", names_json(scenario::list_files(root / "campaigns"))}}
         .dump();
 }
 
 std::string Lab::schema(std::string_view request) const {
-    const scenario::Scenario scenario = load(asked_in(request, first_));
+    const scenario::Scenario scenario = load(asked_in(object_in(request), first_));
     nlohmann::json answer = schema_of(scenario);
     answer["surface"] = scenario.wall.present ? scenario.wall.surface.name : "";
     answer["seed"] = scenario.seed;
@@ -127,7 +96,7 @@ std::string Lab::schema(std::string_view request) const {
 }
 
 std::string Lab::fly(std::string_view request) {
-    const Asked asked = asked_in(request, first_);
+    const Asked asked = asked_in(object_in(request), first_);
     const auto model = simulation::build_model(load(asked));
     const fs::path recording = scratch_ / "flight.mcap";
     std::atomic<bool> enough = false;
@@ -136,13 +105,11 @@ std::string Lab::fly(std::string_view request) {
             enough = Clock::now() > end || (stop_ && *stop_);
         }};
     (void)simulation::fly(model, recording, watch, 0, {.stop = &enough, .brief = asked.brief});
-    std::string bytes = bytes_of(recording);
-    fs::remove(recording);
-    return bytes;
+    return taken(recording);
 }
 
 std::string Lab::yaml(std::string_view request) const {
-    return load(asked_in(request, first_)).yaml;
+    return load(asked_in(object_in(request), first_)).yaml;
 }
 
 void Lab::serve_on(serve::Server& server) {
@@ -157,8 +124,21 @@ void Lab::serve_on(serve::Server& server) {
     server.post("/yaml", [this](const serve::Request& asked) {
         return serve::Response{.content_type = "application/yaml", .body = yaml(asked.body)};
     });
-    server.post("/fly", [this](const serve::Request& asked) {
-        return serve::Response{.content_type = "application/octet-stream", .body = fly(asked.body)};
+    server.post("/fly",
+                [this](const serve::Request& asked) { return recording_answer(fly(asked.body)); });
+    server.post("/many/begin", [this](const serve::Request& asked) {
+        many_->begin(asked.body);
+        return json_answer(many_->rows("{}"));
+    });
+    server.post("/many/stop", [this](const serve::Request&) {
+        many_->stop();
+        return json_answer("{}");
+    });
+    server.post("/many/rows", [this](const serve::Request& asked) {
+        return json_answer(many_->rows(asked.body));
+    });
+    server.post("/many/flight", [this](const serve::Request& asked) {
+        return recording_answer(many_->flight(asked.body));
     });
 }
 

@@ -3,25 +3,30 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
+#include "limpet/lab/many.hpp"
 #include "limpet/serve/server.hpp"
 
 namespace limpet::lab {
 
-/// What the page asks for. Nothing is kept between two requests.
+/// What the page asks for. Nothing is kept between two requests but the campaign that is flown.
 class Lab {
 public:
     /// @param scenario  that the page opens with
     /// @param stop      ends a flight and the answer to come; lives as long
+    /// @param keep      folder in which results of campaigns stay; empty: nothing stays
     /// @throws InputError if there is no such scenario, or the program has no page
-    explicit Lab(std::string scenario, const std::atomic<bool>* stop = nullptr);
+    explicit Lab(std::string scenario, const std::atomic<bool>* stop = nullptr,
+                 std::filesystem::path keep = {});
     ~Lab();
     Lab(const Lab&) = delete;
     Lab& operator=(const Lab&) = delete;
 
-    /// {"scenario": the first, "scenarios": [{"name", "description"}], "surfaces", "vehicles"}
+    /// {"scenario": the first, "scenarios": [{"name", "description"}], "surfaces", "vehicles",
+    ///  "campaigns"}
     [[nodiscard]] std::string catalogue() const;
     /// Every number that can be set, as the scenario ships it.
     /// @param request  {"scenario": "perch_concrete", "set": ["wall.surface=metal", ...]}
@@ -43,6 +48,7 @@ private:
     std::string first_;
     const std::atomic<bool>* stop_;
     std::filesystem::path scratch_;
+    std::unique_ptr<Many> many_;
 };
 
 }  // namespace limpet::lab

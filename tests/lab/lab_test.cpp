@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
@@ -98,6 +99,90 @@ TEST_F(LabOf, WhatCannotBeIsALine) {
 TEST_F(LabOf, SavesAScenarioThatFliesTheSame) {
     const std::string text = lab_->yaml(R"({"set": ["simulation.time_limit_s=3"]})");
     EXPECT_THAT(text, HasSubstr("time_limit_s: 3"));
+}
+
+class ManyOf : public testing::Test {
+protected:
+    /// The state once nothing flies any more.
+    static json ended(Many& many) {
+        json state = json::parse(many.rows("{}"));
+        while (state["running"]) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            state = json::parse(many.rows("{}"));
+        }
+        return state;
+    }
+    static std::string refusal(Many& many, const std::string& request) {
+        try {
+            many.begin(request);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    static constexpr const char* kHovers =
+        R"({"set": ["seed=5", "simulation.time_limit_s=60"], "repeats": 2, "axes": [
+            {"key": "simulation.hover_s", "from": 0.5, "to": 1.5, "count": 3},
+            {"key": "simulation.start_offset_m", "from": 0, "to": 0.1, "count": 2}]})";
+    TestFolder folder_;
+};
+
+TEST_F(ManyOf, FliesAGridAndEachOfItsRunsAgain) {
+    Many many("hover", folder_ / "scratch", {});
+    EXPECT_EQ(json::parse(many.rows("{}"))["id"], 0);
+    many.begin(kHovers);
+    const json state = ended(many);
+    EXPECT_EQ(state["problem"], "");
+    EXPECT_EQ(state["points"], 6);
+    ASSERT_EQ(state["rows"].size(), 12U);
+    EXPECT_EQ(state["keys"][0]["values"], json({0.5, 1.0, 1.5}));  // in the order asked for
+    EXPECT_EQ(state["keys"][1]["key"], "simulation.start_offset_m");
+    EXPECT_EQ(state["success"]["runs"], 12);
+    EXPECT_EQ(state["metrics"].size(), state["rows"][0]["metrics"].size());
+
+    const std::filesystem::path file = folder_ / "run.mcap";
+    const auto longest = [&](int run) {
+        std::ofstream(file, std::ios::binary)
+            << many.flight(json{{"id", state["id"]}, {"run", run}}.dump());
+        return record::read_recording(file).table("/truth/vehicle").time_s.back();
+    };
+    EXPECT_NEAR(longest(10) - longest(6), 1.0, 0.02);  // hover 1.5 s, hover 0.5 s
+    EXPECT_THROW((void)many.flight(R"({"id": 1, "run": 12})"), InputError);
+    EXPECT_THROW((void)many.flight(R"({"id": 2, "run": 0})"), InputError);
+    EXPECT_THROW((void)many.flight("{}"), InputError);
+    EXPECT_EQ(json::parse(many.rows(R"({"from": 11})"))["rows"].size(), 1U);
+}
+
+TEST_F(ManyOf, StopsAndKeepsWhereAsked) {
+    {
+        Many many("hover", folder_ / "scratch", folder_ / "kept");
+        many.begin(R"({"campaign": "smoke"})");
+        many.stop();
+        EXPECT_LT(ended(many)["rows"].size(), 16U);
+        many.begin(R"({"campaign": "smoke"})");
+        EXPECT_EQ(ended(many)["rows"].size(), 16U);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "kept/smoke_3"));
+    campaign::Results kept(campaign::Results::file_of(folder_ / "kept/smoke_2"),
+                           campaign::Access::read);
+    EXPECT_EQ(kept.finished(), 16U);
+}
+
+TEST_F(ManyOf, WhatCannotBeIsALine) {
+    Many many("hover", folder_ / "scratch", {});
+    many.begin(kHovers);
+    EXPECT_THAT(refusal(many, R"({"campaign": "../smoke.yaml"})"), HasSubstr("not a path"));
+    EXPECT_THAT(refusal(many, R"({"campaign": "smok"})"), HasSubstr("did you mean smoke"));
+    EXPECT_THAT(refusal(many, R"({"axes": [{"key": "guidance.hover"}]})"), HasSubstr("\"from\""));
+    EXPECT_THAT(
+        refusal(many,
+                R"({"axes": [{"key": "simulation.hove_s", "from": 1, "to": 2, "count": 2}]})"),
+        testing::StartsWith("parameters.simulation.hove_s: unknown key"));
+    EXPECT_THAT(
+        refusal(many,
+                R"({"axes": [{"key": "simulation.hover_s", "from": 1, "to": 2, "count": 30000}]})"),
+        HasSubstr("at most 20000"));
+    EXPECT_EQ(ended(many)["rows"].size(), 12U);  // the last one stood
 }
 
 }  // namespace

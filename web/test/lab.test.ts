@@ -25,7 +25,14 @@ interface LabState {
 }
 interface Shown {
   limpet: { state(): { recordings: number; end: number; geometries: number; time: number } };
-  lab: { state(): LabState };
+  lab: { state(): LabState; many: { outside(): ManyShown } };
+}
+interface ManyShown {
+  running: boolean;
+  runs: number;
+  rows: { run: number; outcome: string; values: number[] }[];
+  looked?: { run: number; outcome: string; end: number };
+  places: [number, number][];
 }
 
 let served: ChildProcess;
@@ -216,6 +223,108 @@ test("another surface, another scenario, found parameters", { skip }, async () =
   });
 });
 
+const tab = (name: string, on = page): Promise<void> =>
+  on.evaluate((wanted) => {
+    [...document.querySelectorAll<HTMLElement>("#lab [role=tab]")]
+      .find((one) => one.textContent === wanted)
+      ?.click();
+  }, name);
+const many = (): Promise<ManyShown> =>
+  page.evaluate(() => (window as unknown as Shown).lab.many.outside());
+async function press(text: string): Promise<void> {
+  const clicked = await page.evaluate((wanted) => {
+    const found = [...document.querySelectorAll<HTMLElement>("#lab .many button")].find(
+      (one) => one.textContent === wanted,
+    );
+    found?.click();
+    return found !== undefined;
+  }, text);
+  assert.ok(clicked, `no button ${text}`);
+}
+/** Landed runs, at least so many. */
+const landed = (count: number): Promise<unknown> =>
+  page.waitForFunction(
+    (wanted) => (window as unknown as Shown).lab.many.outside().rows.length >= wanted,
+    {},
+    count,
+  );
+
+test("many fly; a point is a flight to look at", { skip }, async () => {
+  await page.select("#lab select", "perch_concrete");
+  await page.waitForFunction(
+    () => (window as unknown as Shown).lab.state().command === "limpet fly perch_concrete",
+  );
+  await idle();
+  await drag("guidance.attempts", [1]);
+  await tab("Many");
+  await page.$eval("#lab .many input[aria-label=from]", (input) => {
+    input.value = "0.6";
+  });
+  await page.$eval("#lab .many input[aria-label=to]", (input) => {
+    input.value = "1.2";
+  });
+  await page.$eval("#lab .many input[aria-label=values]", (input) => {
+    input.value = "4";
+  });
+  await press("Fly them");
+  await landed(2); // live
+  await landed(40);
+  await page.waitForFunction(() => !(window as unknown as Shown).lab.many.outside().running);
+  const { rows, places } = await many();
+  assert.equal(rows.length, 40);
+  assert.deepEqual([...new Set(rows.map(({ values }) => values[0]))].sort(), [0.6, 0.8, 1, 1.2]);
+  const of = (speed: number): string[] =>
+    rows.filter(({ values }) => values[0] === speed).map(({ outcome }) => outcome);
+  assert.ok(
+    of(0.6).filter((outcome) => outcome === "released").length <
+      of(1.2).filter((outcome) => outcome === "released").length,
+    JSON.stringify(rows),
+  );
+  // Each failure and each success: a click on its point shows how that very run went.
+  for (const wanted of ["released", "failed_to_seal"]) {
+    const k = rows.findIndex(({ outcome }) => outcome === wanted);
+    const [x, y] = places[k] ?? [0, 0];
+    const canvas = await page.$("#lab canvas.map");
+    await canvas?.scrollIntoView();
+    const box = await canvas?.boundingBox();
+    await page.mouse.click((box?.x ?? 0) + x, (box?.y ?? 0) + y);
+    await page.waitForFunction(
+      (run) => (window as unknown as Shown).lab.many.outside().looked?.run === run,
+      {},
+      rows[k]?.run,
+    );
+    const { looked } = await many();
+    assert.equal(looked?.outcome, wanted);
+    assert.equal((await shown()).end, looked?.end);
+  }
+  await picture("lab_many.png");
+});
+
+test("a campaign that ships is stopped, and found again by another page", { skip }, async () => {
+  await page.select("#lab .many select", "fig3");
+  await press("Fly them");
+  await page.waitForFunction(() => (window as unknown as Shown).lab.many.outside().runs === 253);
+  await landed(3);
+  await press("Stop");
+  await page.waitForFunction(() => !(window as unknown as Shown).lab.many.outside().running);
+  const { rows } = await many();
+  assert.ok(rows.length < 253, `${rows.length} rows`);
+  const other = await browser.newPage();
+  try {
+    await other.goto(page.url());
+    await other.waitForSelector("#lab [role=tab]");
+    await tab("Many", other);
+    await other.waitForFunction(
+      (there) => (window as unknown as Shown).lab.many.outside().rows.length === there,
+      {},
+      rows.length,
+    );
+  } finally {
+    await other.close(); // a page behind another one draws nothing
+  }
+  await tab("One");
+});
+
 test("re-flown again and again, the memory is flat; how long a hand waits", { skip }, async () => {
   await page.select("#lab select", "perch_concrete");
   await page.waitForFunction(() =>
@@ -239,18 +348,28 @@ test("re-flown again and again, the memory is flat; how long a hand waits", { sk
 test("readable for everybody, also on a phone", { skip }, async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   await page.evaluate(axe);
-  const wrong = await page.evaluate(async () => {
-    const found = await (
-      window as unknown as {
-        axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
-      }
-    ).axe.run();
-    return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
-  });
-  assert.deepEqual(wrong, []);
+  for (const name of ["One", "Many"]) {
+    await tab(name);
+    for (const scheme of ["light", "dark"]) {
+      await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+      const wrong = await page.evaluate(async () => {
+        const found = await (
+          window as unknown as {
+            axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+          }
+        ).axe.run();
+        return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
+      });
+      assert.deepEqual(wrong, [], `${name}, ${scheme}`);
+      await picture(`lab_${name.toLowerCase()}_${scheme}.png`);
+    }
+  }
   await page.setViewport({ width: 400, height: 800 });
-  // once the charts have followed
-  await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
-  await picture("lab_phone.png");
+  for (const name of ["Many", "One"]) {
+    await tab(name);
+    // once the charts have followed
+    await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
+    await picture(`lab_${name.toLowerCase()}_phone.png`);
+  }
   assert.deepEqual(said, []);
 });

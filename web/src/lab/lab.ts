@@ -3,22 +3,14 @@
 import { kColumns } from "../charts/panels";
 import { type Recording, readRecording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
+import { button, element, labelled, tabs } from "./element";
+import { Many } from "./many";
 import * as server from "./server";
 
 export interface LabHost {
   /** The first is the flight, the second its ghost; camera and time stay. */
   refresh(recordings: Recording[]): void;
   say(text: string): void;
-}
-
-function element<K extends keyof HTMLElementTagNameMap>(
-  name: K,
-  properties: Partial<HTMLElementTagNameMap[K]> = {},
-  ...inside: (Node | string)[]
-): HTMLElementTagNameMap[K] {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...inside);
-  return made;
 }
 
 /** Sections that people turn first; the others follow. */
@@ -39,6 +31,7 @@ export class Lab {
   private flown: Recording | undefined; // the one that stands
   private busy = false;
   private wanted: { brief: boolean; since: number } | undefined;
+  readonly many: Many;
   /** Of the latest re-flights, from the hand to the picture [ms]. */
   readonly delays: number[] = [];
 
@@ -47,11 +40,6 @@ export class Lab {
     private readonly host: LabHost,
   ) {
     this.search.addEventListener("input", () => this.filter());
-    const button = (text: string, title: string, does: () => void): HTMLButtonElement => {
-      const made = element("button", { type: "button", title }, text);
-      made.addEventListener("click", does);
-      return made;
-    };
     const tools = element(
       "div",
       { className: "tools" },
@@ -59,11 +47,21 @@ export class Lab {
       button("Save YAML", "The scenario with its changes, as a file", () => void this.save()),
       button("Copy command", "The command line that flies this", () => void this.copy()),
     );
-    place.append(this.choices, this.status, this.diff, tools, this.search, this.sections);
+    const one = element("div", {}, this.diff, tools, this.search, this.sections);
+    this.many = new Many(this);
+    const row = tabs("What to do", [
+      { name: "One", panel: one },
+      { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
+    ]);
+    place.append(this.choices, this.status, row, one, this.many.element);
     void this.begin();
   }
 
-  private wish(): server.Wish {
+  /** Over the flight that stands. */
+  watch(recording: Recording): void {
+    this.host.refresh(this.flown === undefined ? [recording] : [recording, this.flown]);
+  }
+  wish(): server.Wish {
     return { scenario: this.changes.scenario, set: this.changes.list() };
   }
   private async begin(): Promise<void> {
@@ -74,7 +72,7 @@ export class Lab {
       this.refly(false);
     });
   }
-  private async trying(does: () => Promise<void>): Promise<void> {
+  async trying(does: () => Promise<void>): Promise<void> {
     try {
       await does();
       this.host.say("");
@@ -91,6 +89,7 @@ export class Lab {
     });
     const schema = await server.schema({ scenario: this.changes.scenario, set: named });
     this.buildChoices(schema);
+    this.many.offer(schema.sections, this.catalogue?.campaigns ?? []);
     const rank = (section: server.Section): number =>
       (kFirst.indexOf(section.name) + kFirst.length + 1) % (kFirst.length + 1);
     this.sections.replaceChildren(
@@ -122,7 +121,7 @@ export class Lab {
       );
       list.value = chosen;
       list.addEventListener("change", () => chose(list.value));
-      return element("label", {}, element("span", {}, label), list);
+      return labelled(label, list);
     };
     const rebuild = (): void => void this.trying(() => this.build().then(() => this.refly(false)));
     const choose = (key: string) => (name: string) => {
@@ -159,7 +158,7 @@ export class Lab {
           choose("vehicle")(name);
         }
       }),
-      element("label", {}, element("span", {}, "Seed"), seed),
+      labelled("Seed", seed),
     );
   }
 
@@ -187,7 +186,7 @@ export class Lab {
     );
     const made = element("div", { className: "row" });
     made.dataset.key = choice.key;
-    made.append(element("label", {}, element("span", {}, choice.key.split(".").pop() ?? ""), list));
+    made.append(labelled(choice.key.split(".").pop() ?? "", list));
     return made;
   }
   private rowOf(row: server.Row): HTMLElement {
@@ -235,7 +234,7 @@ export class Lab {
         this.change(row.key, number.value, ships, false);
       });
       made.append(
-        element("label", {}, element("span", {}, name), number, element("small", {}, row.unit)),
+        labelled(name, number, element("small", {}, row.unit)),
         slider,
         element("small", { className: "what" }, `${row.what} · ${row.minimum} to ${row.maximum}`),
       );
@@ -308,7 +307,7 @@ export class Lab {
       await this.trying(async () => {
         const bytes = await server.fly({ ...this.wish(), brief });
         const recording = await readRecording(this.changes.scenario, bytes, kColumns);
-        this.host.refresh(this.flown === undefined ? [recording] : [recording, this.flown]);
+        this.watch(recording);
         if (!brief) {
           this.flown = recording;
         }

@@ -35,6 +35,7 @@ export interface Catalogue {
   scenarios: Named[];
   surfaces: Named[];
   vehicles: Named[];
+  campaigns: Named[];
 }
 export interface Wish {
   scenario: string;
@@ -42,7 +43,40 @@ export interface Wish {
   brief?: boolean;
 }
 
-async function ask(path: string, wish?: Wish): Promise<Response> {
+/** Of limpet/lab/many.hpp */
+export interface ManyRow {
+  run: number;
+  outcome: string;
+  reason: string;
+  success: boolean;
+  values: (number | string)[];
+  metrics: (number | null)[];
+}
+export interface ManyState {
+  id: number; // 0: none has begun; then the rest but the rows is missing
+  name: string;
+  scenario: string;
+  runs: number;
+  finished: number;
+  running: boolean;
+  left_s: number;
+  problem: string;
+  folder: string;
+  keys: { key: string; values: (number | string)[] }[];
+  metrics: string[];
+  points: number;
+  success: { runs: number; outcomes: string[]; low: number; high: number };
+  rows: ManyRow[];
+}
+export interface Axis {
+  key: string;
+  from: number;
+  to: number;
+  count: number;
+}
+export type ManyWish = { campaign: string } | (Wish & { axes: Axis[]; repeats: number });
+
+async function ask(path: string, wish?: object): Promise<Response> {
   const answer = await fetch(
     `${path}${location.search}`,
     wish && { method: "POST", body: JSON.stringify(wish) },
@@ -60,3 +94,11 @@ export const schema = async (wish: Wish): Promise<Schema> =>
 export const yaml = async (wish: Wish): Promise<string> => (await ask("/yaml", wish)).text();
 export const fly = async (wish: Wish): Promise<Uint8Array> =>
   new Uint8Array(await (await ask("/fly", wish)).arrayBuffer());
+
+const state = async (path: string, wish: object): Promise<ManyState> =>
+  (await ask(path, wish)).json() as Promise<ManyState>;
+export const manyBegin = (wish: ManyWish): Promise<ManyState> => state("/many/begin", wish);
+export const manyRows = (from: number): Promise<ManyState> => state("/many/rows", { from });
+export const manyStop = async (): Promise<void> => void (await ask("/many/stop", {}));
+export const manyFlight = async (id: number, run: number): Promise<Uint8Array> =>
+  new Uint8Array(await (await ask("/many/flight", { id, run })).arrayBuffer());

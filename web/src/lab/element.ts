@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a page, made in one expression.
+
+export function element<K extends keyof HTMLElementTagNameMap>(
+  name: K,
+  properties: Partial<HTMLElementTagNameMap[K]> = {},
+  ...inside: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...inside);
+  return made;
+}
+
+export function button(text: string, title: string, does: () => void): HTMLButtonElement {
+  const made = element("button", { type: "button", title }, text);
+  made.addEventListener("click", does);
+  return made;
+}
+
+/** A control with its name before it. */
+export function labelled(name: string, ...controls: (Node | string)[]): HTMLLabelElement {
+  return element("label", {}, element("span", {}, name), ...controls);
+}
+
+export interface Tab {
+  name: string;
+  panel: HTMLElement;
+  shown?: () => void;
+}
+/** A row of tabs; the panels stay where they are, one is seen. Arrow keys go from tab to tab. */
+export function tabs(name: string, all: Tab[]): HTMLElement {
+  const list = element("div", { className: "tabs", role: "tablist", ariaLabel: name });
+  const heads = all.map(({ name, panel }) => {
+    panel.id = `tab_${name.toLowerCase()}`;
+    panel.role = "tabpanel";
+    panel.ariaLabel = name;
+    const head = element("button", { type: "button", role: "tab" }, name);
+    head.setAttribute("aria-controls", panel.id);
+    return head;
+  });
+  const choose = (chosen: number): void => {
+    all.forEach(({ panel }, k) => {
+      panel.hidden = k !== chosen;
+      heads[k]?.setAttribute("aria-selected", String(k === chosen));
+      heads[k]?.setAttribute("tabindex", k === chosen ? "0" : "-1");
+    });
+    all[chosen]?.shown?.();
+  };
+  heads.forEach((head, k) => {
+    head.addEventListener("click", () => choose(k));
+    head.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (step !== undefined) {
+        const next = (k + step + heads.length) % heads.length;
+        choose(next);
+        heads[next]?.focus();
+        event.stopPropagation();
+        event.preventDefault();
+      }
+    });
+  });
+  list.append(...heads);
+  choose(0);
+  return list;
+}

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// A campaign flown from the page: its map fills while it flies, each point is a flight to look at.
+import { kColumns } from "../charts/panels";
+import { type Recording, readRecording } from "../recording/recording";
+import { rounded, slide } from "./changes";
+import { button, element, labelled } from "./element";
+import { type AxisOf, drawMark, SuccessMap, type Value } from "./map";
+import * as server from "./server";
+
+export interface ManyHost {
+  wish(): server.Wish;
+  trying(does: () => Promise<void>): Promise<void>;
+  watch(recording: Recording): void;
+}
+
+const kEvery_ms = 300;
+const kOwn = ""; // not a campaign that ships: the scenario over axes
+const kUsual = ["guidance.dock_speed_m_s", ""];
+
+class AxisChoice {
+  readonly element = element("fieldset", { className: "axis" });
+  private readonly key = element("select", {});
+  private readonly from = element("input", { type: "number", step: "any", ariaLabel: "from" });
+  private readonly to = element("input", { type: "number", step: "any", ariaLabel: "to" });
+  private readonly count = element("input", {
+    type: "number",
+    min: "2",
+    max: "100",
+    value: "6",
+    ariaLabel: "values",
+  });
+  private rows = new Map<string, server.Row>();
+
+  constructor(name: string) {
+    this.key.addEventListener("change", () => this.fill());
+    this.element.append(
+      labelled(name, this.key),
+      element(
+        "div",
+        { className: "range" },
+        this.from,
+        " to ",
+        this.to,
+        " in ",
+        this.count,
+        " values",
+      ),
+    );
+  }
+  offer(sections: server.Section[], otherwise: string): void {
+    const before = this.key.value;
+    this.rows = new Map(
+      sections.flatMap(({ rows }) =>
+        rows.filter(({ kind }) => kind !== "switch").map((row) => [row.key, row] as const),
+      ),
+    );
+    this.key.replaceChildren(
+      element("option", { value: "" }, "none"),
+      ...sections.map(({ name, rows }) =>
+        element(
+          "optgroup",
+          { label: name },
+          ...rows
+            .filter(({ key }) => this.rows.has(key))
+            .map(({ key }) => element("option", { value: key }, key.slice(name.length + 1))),
+        ),
+      ),
+    );
+    const wanted = before || otherwise;
+    this.key.value = this.rows.has(wanted) ? wanted : "";
+    if (before !== this.key.value) {
+      this.fill();
+    }
+  }
+  private fill(): void {
+    const row = this.rows.get(this.key.value);
+    if (row !== undefined) {
+      const [from, to] = slide(row.value, row.minimum, row.maximum);
+      this.from.value = String(rounded(from, from, to));
+      this.to.value = String(rounded(to, from, to));
+    }
+  }
+  axis(): server.Axis[] {
+    return this.key.value === ""
+      ? []
+      : [
+          {
+            key: this.key.value,
+            from: Number(this.from.value),
+            to: Number(this.to.value),
+            count: Number(this.count.value),
+          },
+        ];
+  }
+}
+
+export class Many {
+  readonly element = element("div", { className: "many" });
+  private readonly campaign = element("select", {});
+  private readonly about = element("p", { className: "what" });
+  private readonly axes = [new AxisChoice("Along"), new AxisChoice("and along")] as const;
+  private readonly repeats = element("input", { type: "number", min: "1", value: "10" });
+  private readonly own: HTMLElement;
+  private readonly bar = element("progress", { ariaLabel: "Runs flown", value: 0 });
+  private readonly told = element("output", { className: "status" });
+  private readonly stop = button("Stop", "Begin no more flights", () => void this.end());
+  private readonly across = element("select", { ariaLabel: "Across the map" });
+  private readonly up = element("select", { ariaLabel: "Up the map" });
+  private readonly legend = element("ul", { className: "legend" });
+  private readonly map = new SuccessMap((run) => void this.look(run));
+  private readonly run = element("input", { type: "number", min: "0", value: "0" });
+  private readonly found = element("div", { className: "found", hidden: true });
+  private campaigns: server.Named[] = [];
+  private state: server.ManyState | undefined;
+  private rows: server.ManyRow[] = [];
+  private asking = false;
+  private looked: { run: number; outcome: string; end: number } | undefined;
+
+  constructor(private readonly host: ManyHost) {
+    this.own = element(
+      "div",
+      {},
+      ...this.axes.map((axis) => axis.element),
+      labelled("Runs at each", this.repeats),
+    );
+    this.stop.disabled = true;
+    this.campaign.addEventListener("change", () => this.describe());
+    for (const select of [this.across, this.up]) {
+      select.addEventListener("change", () => this.draw());
+    }
+    const fly = button("Fly them", "Begin this campaign", () => void this.begin());
+    const look = button("Look", "Fly this run again and show it", () =>
+      this.look(Number(this.run.value)),
+    );
+    this.found.append(
+      element("div", { className: "tools" }, labelled("Across", this.across)),
+      element("div", { className: "tools" }, labelled("Up", this.up)),
+      this.map.canvas,
+      this.legend,
+      element("div", { className: "tools" }, labelled("Run", this.run), look),
+    );
+    this.element.append(
+      labelled("Campaign", this.campaign),
+      this.about,
+      this.own,
+      element("div", { className: "tools" }, fly, this.stop),
+      this.bar,
+      this.told,
+      this.found,
+    );
+  }
+  /** What can be flown. */
+  offer(sections: server.Section[], campaigns: server.Named[]): void {
+    const before = this.campaign.value;
+    this.campaigns = campaigns;
+    this.campaign.replaceChildren(
+      element("option", { value: kOwn }, "this scenario over its parameters"),
+      ...campaigns.map(({ name }) => element("option", { value: name }, name)),
+    );
+    this.campaign.value = before;
+    this.axes.forEach((axis, k) => {
+      axis.offer(sections, kUsual[k] ?? "");
+    });
+    this.describe();
+  }
+  /** The tab is seen: a campaign may have been flying since before the page was opened. */
+  shown(): void {
+    this.map.draw();
+    void this.follow();
+  }
+  private describe(): void {
+    const { value } = this.campaign;
+    this.own.hidden = value !== kOwn;
+    this.about.textContent =
+      value === kOwn
+        ? "The scenario above with the changes made to it."
+        : (this.campaigns.find(({ name }) => name === value)?.description ?? "");
+  }
+
+  private async begin(): Promise<void> {
+    await this.host.trying(async () => {
+      const { value } = this.campaign;
+      this.take(
+        await server.manyBegin(
+          value !== kOwn
+            ? { campaign: value }
+            : {
+                ...this.host.wish(),
+                axes: this.axes.flatMap((axis) => axis.axis()),
+                repeats: Math.round(Number(this.repeats.value)),
+              },
+        ),
+        0,
+      );
+    });
+    void this.follow();
+  }
+  private async end(): Promise<void> {
+    await this.host.trying(() => server.manyStop());
+  }
+  /** Asks until the campaign has ended. */
+  private async follow(): Promise<void> {
+    if (this.asking) {
+      return;
+    }
+    this.asking = true;
+    await this.host.trying(async () => {
+      do {
+        const from = this.rows.length;
+        this.take(await server.manyRows(from), from);
+        if (this.state?.running === true) {
+          await new Promise((passed) => setTimeout(passed, kEvery_ms));
+        }
+      } while (this.state?.running === true || this.rows.length < (this.state?.finished ?? 0));
+    });
+    this.asking = false;
+  }
+  /** @param from  how many of its rows were there when it was asked for */
+  private take(state: server.ManyState, from: number): void {
+    if (state.id === 0) {
+      return;
+    }
+    const another = state.id !== this.state?.id;
+    if (another) {
+      this.rows = [];
+    }
+    this.state = state;
+    const fits = from === this.rows.length; // else it is asked for again
+    if (fits) {
+      this.rows.push(...state.rows);
+    }
+    if (another) {
+      this.offerAxes(state);
+      this.map.chosen = undefined;
+      this.looked = undefined;
+    }
+    this.found.hidden = false;
+    this.stop.disabled = !state.running;
+    this.bar.max = state.runs;
+    this.bar.value = state.finished;
+    if (another || (fits && state.rows.length > 0)) {
+      this.draw();
+    }
+    this.tell(state);
+  }
+  private tell(state: server.ManyState): void {
+    const { success } = state;
+    const left = state.running ? `, ${Math.ceil(state.left_s)} s left` : "";
+    const ended = !state.running && state.finished < state.runs ? ", stopped" : "";
+    this.told.textContent = [
+      `${state.name}, ${state.scenario}: ${state.finished} of ${state.runs} runs${left}${ended}`,
+      `${success.outcomes.join(" or ")}: ${success.runs} of ${state.finished}, probability ${success.low.toFixed(2)} to ${success.high.toFixed(2)} (95 %)`,
+      ...(state.folder === "" ? [] : [`kept in ${state.folder}`]),
+      ...(state.problem === "" ? [] : [state.problem]),
+    ].join("\n");
+  }
+  private offerAxes(state: server.ManyState): void {
+    const names = [...state.keys.map(({ key }) => key), "repeat", ...state.metrics];
+    for (const select of [this.across, this.up]) {
+      select.replaceChildren(...names.map((name) => element("option", { value: name }, name)));
+    }
+    this.across.value = names[0] ?? "repeat";
+    this.up.value = names[1] ?? "repeat";
+  }
+  private axisOf(name: string): [AxisOf, (row: server.ManyRow) => Value] {
+    const { state } = this;
+    const key = state?.keys.findIndex((one) => one.key === name) ?? -1;
+    if (key >= 0) {
+      return [{ name, values: state?.keys[key]?.values ?? [] }, (row) => row.values[key] ?? null];
+    }
+    const metric = state?.metrics.indexOf(name) ?? -1;
+    return metric >= 0
+      ? [{ name, values: [] }, (row) => row.metrics[metric] ?? null]
+      : [{ name, values: [] }, (row) => Math.floor(row.run / (state?.points ?? 1))];
+  }
+  private draw(): void {
+    const [x, xOf] = this.axisOf(this.across.value);
+    const [y, yOf] = this.axisOf(this.up.value);
+    this.map.show(
+      [x, y],
+      this.rows.map((row) => ({ ...row, x: xOf(row), y: yOf(row) })),
+    );
+    const counts = new Map<string, { outcome: string; success: boolean; runs: number }>();
+    for (const { outcome, success } of this.rows) {
+      const count = counts.get(outcome) ?? { outcome, success, runs: 0 };
+      count.runs += 1;
+      counts.set(outcome, count);
+    }
+    this.legend.replaceChildren(
+      ...[...counts.values()]
+        .sort((a, b) => b.runs - a.runs)
+        .map((count) => {
+          const sign = element("canvas", { width: 12, height: 12, ariaHidden: "true" });
+          const context = sign.getContext("2d");
+          if (context !== null) {
+            drawMark(context, count, 6, 6);
+          }
+          return element("li", {}, sign, ` ${count.outcome} ${count.runs}`);
+        }),
+    );
+    this.map.canvas.ariaLabel = `${this.rows.length} runs, ${x.name} across, ${y.name} up: ${[
+      ...counts.values(),
+    ]
+      .map(({ outcome, runs }) => `${runs} ${outcome}`)
+      .join(", ")}`;
+  }
+  /** The server flies it to the state hash of its row, or says that it cannot. */
+  private async look(run: number): Promise<void> {
+    const { state } = this;
+    await this.host.trying(async () => {
+      const row = this.rows.find((one) => one.run === run);
+      if (state === undefined || row === undefined) {
+        throw new Error(`run ${run} is not there (yet)`);
+      }
+      const bytes = await server.manyFlight(state.id, run);
+      const recording = await readRecording(`run ${run}`, bytes, kColumns);
+      this.host.watch(recording);
+      this.run.value = String(run);
+      this.map.chosen = run;
+      this.map.draw();
+      this.looked = { run, outcome: recording.outcome, end: recording.duration };
+      this.told.textContent = [
+        `run ${run}: ${row.outcome}${row.reason === "" ? "" : `, ${row.reason}`}`,
+        ...state.keys.map(({ key }, k) => `${key} = ${row.values[k]}`),
+      ].join("\n");
+    });
+  }
+  /** For those who look at the page from outside. */
+  outside(): Record<string, unknown> {
+    return {
+      id: this.state?.id ?? 0,
+      running: this.state?.running ?? false,
+      runs: this.state?.runs ?? 0,
+      rows: this.rows,
+      looked: this.looked,
+      places: this.rows.map(({ run }) => this.map.placeOf(run)),
+    };
+  }
+}
