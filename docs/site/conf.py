@@ -40,7 +40,7 @@ pygments_style = "friendly"
 CHAPTERS = {
     "Begin": ["docs/tutorial", "docs/commands", "docs/reading_a_flight"],
     "Yours": ["docs/own_vehicle", "docs/own_controller", "scenarios/README", "campaigns/README", "python/README", "samples/README"],
-    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "ros/README", "docs/live", "docs/scaling", "docs/security"],
+    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "ros/README", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
     "Reference": ["docs/site/cpp", "docs/site/python"],

@@ -68,6 +68,7 @@ Lab::Lab(std::string scenario, const std::atomic<bool>* stop, fs::path keep)
         throw InputError("cannot make " + folder);
     }
     scratch_ = folder;
+    learn_ = std::make_unique<Learn>(first_);
     many_ = std::make_unique<Many>(first_, scratch_ / "many", std::move(keep));
 }
 
@@ -137,6 +138,15 @@ void Lab::serve_on(serve::Server& server) {
     server.post("/many/rows", [this](const serve::Request& asked) {
         return json_answer(many_->rows(asked.body));
     });
+    server.post("/learn/begin", [this](const serve::Request& asked) {
+        learn_->begin(asked.body);
+        return json_answer(learn_->state());
+    });
+    server.post("/learn/stop", [this](const serve::Request&) {
+        learn_->stop();
+        return json_answer("{}");
+    });
+    server.get("/learn", [this](const serve::Request&) { return json_answer(learn_->state()); });
     server.post("/many/flight", [this](const serve::Request& asked) {
         return recording_answer(many_->flight(asked.body));
     });

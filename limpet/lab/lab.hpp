@@ -7,12 +7,14 @@
 #include <string>
 #include <string_view>
 
+#include "limpet/lab/learn.hpp"
 #include "limpet/lab/many.hpp"
 #include "limpet/serve/server.hpp"
 
 namespace limpet::lab {
 
-/// What the page asks for. Nothing is kept between two requests but the campaign that is flown.
+/// What the page asks for. Nothing is kept between two requests but the flights that it began
+/// and has not ended: a campaign, what turning each parameter does.
 class Lab {
 public:
     /// @param scenario  that the page opens with
@@ -48,6 +50,7 @@ private:
     std::string first_;
     const std::atomic<bool>* stop_;
     std::filesystem::path scratch_;
+    std::unique_ptr<Learn> learn_;
     std::unique_ptr<Many> many_;
 };
 

@@ -185,5 +185,46 @@ TEST_F(ManyOf, WhatCannotBeIsALine) {
     EXPECT_EQ(ended(many)["rows"].size(), 12U);  // the last one stood
 }
 
+TEST(LearnOf, TurnsEachNumberAloneAndTheRestStays) {
+    Learn learn("hover");
+    learn.begin(R"({"set": ["simulation.hover_s=1"], "share": 0.2})");
+    json state = json::parse(learn.state());
+    while (state["running"]) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        state = json::parse(learn.state());
+    }
+    EXPECT_EQ(state["flown"], state["flights"]);
+    const auto found = std::find_if(
+        state["rows"].begin(), state["rows"].end(),
+        [](const json& row) { return row["key"] == "vehicle.battery.avionics_power_W"; });
+    ASSERT_NE(found, state["rows"].end());
+    const auto energy =
+        std::find(state["metrics"].begin(), state["metrics"].end(), "energy_flying_Wh") -
+        state["metrics"].begin();
+    const auto of = [&](const json& flight) { return flight["metrics"][energy].get<double>(); };
+    EXPECT_GT(of((*found)["more"]), of(state["base"]));
+    EXPECT_LT(of((*found)["less"]), of(state["base"]));
+    // An inertia that no body has is not flown, and says nothing of the energy.
+    const auto refused =
+        std::find_if(state["rows"].begin(), state["rows"].end(),
+                     [](const json& row) { return row["key"] == "vehicle.inertia_kg_m2.zz"; });
+    ASSERT_NE(refused, state["rows"].end());
+    EXPECT_EQ((*refused)["more"]["outcome"], "refused");
+    EXPECT_TRUE((*refused)["more"]["metrics"][energy].is_null());
+    EXPECT_THROW(learn.begin(R"({"share": 0})"), InputError);
+    EXPECT_THROW(learn.begin(R"({"scenario": "hovver"})"), InputError);
+}
+
+TEST(LearnOf, StopsAndBeginsAnew) {
+    Learn learn("hover");
+    EXPECT_EQ(json::parse(learn.state())["id"], 0);
+    learn.begin("{}");
+    learn.stop();
+    learn.begin(R"({"set": ["simulation.hover_s=1"]})");
+    const json state = json::parse(learn.state());
+    EXPECT_EQ(state["id"], 2);
+    EXPECT_TRUE(state["running"]);
+}
+
 }  // namespace
 }  // namespace limpet::lab

@@ -25,7 +25,13 @@ interface LabState {
 }
 interface Shown {
   limpet: { state(): { recordings: number; end: number; geometries: number; time: number } };
-  lab: { state(): LabState; many: { outside(): ManyShown } };
+  lab: { state(): LabState; many: { outside(): ManyShown }; learn: { outside(): LearnShown } };
+}
+interface LearnShown {
+  running: boolean;
+  flown: number;
+  flights: number;
+  bars: { key: string; less?: number; more?: number }[];
 }
 interface ManyShown {
   running: boolean;
@@ -233,9 +239,9 @@ const many = (): Promise<ManyShown> =>
   page.evaluate(() => (window as unknown as Shown).lab.many.outside());
 async function press(text: string): Promise<void> {
   const clicked = await page.evaluate((wanted) => {
-    const found = [...document.querySelectorAll<HTMLElement>("#lab .many button")].find(
-      (one) => one.textContent === wanted,
-    );
+    const found = [
+      ...document.querySelectorAll<HTMLElement>("#lab .many:not([hidden]) button"),
+    ].find((one) => one.textContent === wanted);
     found?.click();
     return found !== undefined;
   }, text);
@@ -325,6 +331,28 @@ test("a campaign that ships is stopped, and found again by another page", { skip
   await tab("One");
 });
 
+test("what a number hangs on: each parameter turned alone", { skip }, async () => {
+  await page.select("#lab select", "hover");
+  await page.waitForFunction(
+    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
+  );
+  await idle();
+  await tab("Learn");
+  await press("Turn them all");
+  await page.waitForFunction(() => {
+    const { flown, flights } = (window as unknown as Shown).lab.learn.outside();
+    return flights > 200 && flown === flights;
+  });
+  await page.select("#lab .learn select", "energy_flying_Wh");
+  const { bars } = await page.evaluate(() => (window as unknown as Shown).lab.learn.outside());
+  assert.equal(bars.length, 15);
+  assert.equal((await page.$$("#lab .bars li")).length, 15);
+  const efficient = bars.find(({ key }) => key === "vehicle.battery.drive_efficiency");
+  assert.ok((efficient?.less ?? 0) > 0 && (efficient?.more ?? 0) < 0, JSON.stringify(bars));
+  await picture("lab_learn.png");
+  await tab("One");
+});
+
 test("re-flown again and again, the memory is flat; how long a hand waits", { skip }, async () => {
   await page.select("#lab select", "perch_concrete");
   await page.waitForFunction(() =>
@@ -348,7 +376,7 @@ test("re-flown again and again, the memory is flat; how long a hand waits", { sk
 test("readable for everybody, also on a phone", { skip }, async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   await page.evaluate(axe);
-  for (const name of ["One", "Many"]) {
+  for (const name of ["One", "Many", "Learn"]) {
     await tab(name);
     for (const scheme of ["light", "dark"]) {
       await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
@@ -365,7 +393,7 @@ test("readable for everybody, also on a phone", { skip }, async () => {
     }
   }
   await page.setViewport({ width: 400, height: 800 });
-  for (const name of ["Many", "One"]) {
+  for (const name of ["Learn", "Many", "One"]) {
     await tab(name);
     // once the charts have followed
     await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);

@@ -4,6 +4,7 @@ import { kColumns } from "../charts/panels";
 import { type Recording, readRecording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
 import { button, element, labelled, tabs } from "./element";
+import { Learn } from "./learn";
 import { Many } from "./many";
 import * as server from "./server";
 
@@ -32,6 +33,7 @@ export class Lab {
   private busy = false;
   private wanted: { brief: boolean; since: number } | undefined;
   readonly many: Many;
+  readonly learn: Learn;
   /** Of the latest re-flights, from the hand to the picture [ms]. */
   readonly delays: number[] = [];
 
@@ -49,11 +51,13 @@ export class Lab {
     );
     const one = element("div", {}, this.diff, tools, this.search, this.sections);
     this.many = new Many(this);
+    this.learn = new Learn(this);
     const row = tabs("What to do", [
       { name: "One", panel: one },
       { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
+      { name: "Learn", panel: this.learn.element, shown: () => this.learn.shown() },
     ]);
-    place.append(this.choices, this.status, row, one, this.many.element);
+    place.append(this.choices, this.status, row, one, this.many.element, this.learn.element);
     void this.begin();
   }
 

@@ -102,3 +102,30 @@ export const manyRows = (from: number): Promise<ManyState> => state("/many/rows"
 export const manyStop = async (): Promise<void> => void (await ask("/many/stop", {}));
 export const manyFlight = async (id: number, run: number): Promise<Uint8Array> =>
   new Uint8Array(await (await ask("/many/flight", { id, run })).arrayBuffer());
+
+/** Of limpet/lab/learn.hpp */
+export interface LearnFlight {
+  value: number;
+  outcome: string;
+  metrics: (number | null)[];
+}
+export interface LearnRow {
+  key: string;
+  unit: string;
+  less: LearnFlight;
+  more: LearnFlight;
+}
+export interface LearnState {
+  id: number; // 0: nothing has begun
+  running: boolean;
+  flights: number;
+  flown: number;
+  metrics: string[];
+  base: LearnFlight | null;
+  rows: LearnRow[];
+}
+export const learnBegin = async (wish: Wish & { share: number }): Promise<LearnState> =>
+  (await ask("/learn/begin", wish)).json() as Promise<LearnState>;
+export const learnState = async (): Promise<LearnState> =>
+  (await ask("/learn")).json() as Promise<LearnState>;
+export const learnStop = async (): Promise<void> => void (await ask("/learn/stop", {}));

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which parameters a number of the flight hangs on: each is turned alone, less and more.
+import { button, element, labelled } from "./element";
+import * as server from "./server";
+
+export interface LearnHost {
+  wish(): server.Wish;
+  trying(does: () => Promise<void>): Promise<void>;
+}
+
+const kEvery_ms = 500;
+const kBars = 15;
+const kUsual = "impact_force_N";
+
+interface Bar {
+  key: string;
+  less: number | undefined; // of the number, against the flight as it is
+  more: number | undefined;
+  row: server.LearnRow;
+}
+
+/** The parameters that move `metric` most, the strongest first. */
+export function strongest(state: server.LearnState, metric: string, count: number): Bar[] {
+  const at = state.metrics.indexOf(metric);
+  const base = state.base?.metrics[at] ?? null;
+  if (base === null) {
+    return [];
+  }
+  const change = ({ metrics }: server.LearnFlight): number | undefined => {
+    const value = metrics[at] ?? null;
+    return value === null ? undefined : value - base;
+  };
+  const size = ({ less, more }: Bar): number => Math.max(Math.abs(less ?? 0), Math.abs(more ?? 0));
+  return state.rows
+    .map((row) => ({ key: row.key, less: change(row.less), more: change(row.more), row }))
+    .filter((bar) => size(bar) > 0)
+    .sort((a, b) => size(b) - size(a))
+    .slice(0, count);
+}
+
+export class Learn {
+  readonly element = element("div", { className: "many learn" });
+  private readonly share = element("input", {
+    type: "number",
+    min: "0.1",
+    max: "90",
+    step: "any",
+    value: "10",
+  });
+  private readonly metric = element("select", {});
+  private readonly stop = button("Stop", "Begin no more flights", () => void this.end());
+  private readonly bar = element("progress", { ariaLabel: "Flights flown", value: 0 });
+  private readonly told = element("output", { className: "status" });
+  private readonly bars = element("ol", { className: "bars" });
+  private readonly broken = element("p", { className: "what" });
+  private state: server.LearnState | undefined;
+  private asking = false;
+
+  constructor(private readonly host: LearnHost) {
+    this.metric.addEventListener("change", () => this.draw());
+    this.stop.disabled = true;
+    const fly = button("Turn them all", "Two flights for each number of the scenario", () =>
+      this.begin(),
+    );
+    this.element.append(
+      element(
+        "p",
+        { className: "what" },
+        "The scenario above with its changes; each of its numbers turned alone, less and more, with the same random numbers.",
+      ),
+      labelled("Turned by", this.share, "%"),
+      element("div", { className: "tools" }, fly, this.stop),
+      this.bar,
+      this.told,
+      labelled("What it does to", this.metric),
+      this.bars,
+      this.broken,
+    );
+  }
+  shown(): void {
+    void this.follow();
+  }
+  private async begin(): Promise<void> {
+    await this.host.trying(async () => {
+      const share = Number(this.share.value) / 100;
+      this.take(await server.learnBegin({ ...this.host.wish(), share }));
+    });
+    void this.follow();
+  }
+  private async end(): Promise<void> {
+    await this.host.trying(() => server.learnStop());
+  }
+  private async follow(): Promise<void> {
+    if (this.asking) {
+      return;
+    }
+    this.asking = true;
+    await this.host.trying(async () => {
+      for (;;) {
+        this.take(await server.learnState());
+        if (this.state?.running !== true) {
+          break;
+        }
+        await new Promise((passed) => setTimeout(passed, kEvery_ms));
+      }
+    });
+    this.asking = false;
+  }
+  private take(state: server.LearnState): void {
+    if (state.id === 0) {
+      return;
+    }
+    this.state = state;
+    this.stop.disabled = !state.running;
+    this.bar.max = state.flights;
+    this.bar.value = state.flown;
+    if (this.metric.options.length === 0) {
+      this.metric.replaceChildren(
+        ...state.metrics.map((name) => element("option", { value: name }, name)),
+      );
+      this.metric.value = kUsual;
+    }
+    this.draw();
+  }
+  private draw(): void {
+    const { state } = this;
+    if (state === undefined) {
+      return;
+    }
+    const metric = this.metric.value;
+    const base = state.base?.metrics[state.metrics.indexOf(metric)] ?? null;
+    const ended = !state.running && state.flown < state.flights ? ", stopped" : "";
+    const now =
+      base === null
+        ? `${metric} did not come to pass in the flight as it is`
+        : `${metric} of the flight as it is: ${text(base)}`;
+    this.told.textContent = `${state.flown} of ${state.flights} flights${ended}\n${now}`;
+    const bars = strongest(state, metric, kBars);
+    const most = bars.reduce(
+      (size, { less, more }) => Math.max(size, Math.abs(less ?? 0), Math.abs(more ?? 0)),
+      0,
+    );
+    this.bars.replaceChildren(...bars.map((bar) => itemOf(bar, most)));
+    const others = state.rows.flatMap(({ key, less, more }) =>
+      [less, more]
+        .filter(({ outcome }) => outcome !== state.base?.outcome)
+        .map(({ outcome, value }) => `${key} = ${text(value)}: ${outcome}`),
+    );
+    this.broken.textContent =
+      others.length === 0 ? "" : `Other endings than ${state.base?.outcome}: ${others.join("; ")}`;
+  }
+  /** For those who look at the page from outside. */
+  outside(): Record<string, unknown> {
+    const bars = this.state === undefined ? [] : strongest(this.state, this.metric.value, kBars);
+    return {
+      running: this.state?.running ?? false,
+      flown: this.state?.flown ?? 0,
+      flights: this.state?.flights ?? 0,
+      bars: bars.map(({ key, less, more }) => ({ key, less, more })),
+    };
+  }
+}
+
+const text = (value: number): string => String(Number(value.toPrecision(4)));
+
+function itemOf({ key, less, more, row }: Bar, most: number): HTMLElement {
+  const strip = (change: number | undefined, name: string): HTMLElement => {
+    const part = element("i", { className: name });
+    const width = (50 * Math.abs(change ?? 0)) / most;
+    part.style.width = `${width}%`;
+    part.style.left = `${(change ?? 0) < 0 ? 50 - width : 50}%`;
+    return part;
+  };
+  const said = ({ value }: server.LearnFlight, change: number | undefined): string =>
+    `${text(value)} ${row.unit}: ${change === undefined ? "none" : `${change > 0 ? "+" : ""}${text(change)}`}`;
+  return element(
+    "li",
+    {},
+    element("strong", {}, key),
+    element("div", { className: "strip" }, strip(less, "less"), strip(more, "more")),
+    element("small", {}, `${said(row.less, less)} · ${said(row.more, more)}`),
+  );
+}
