@@ -83,8 +83,8 @@ TEST_F(BadInput, UnknownKey) {
     EXPECT_EQ(
         hover_error("wind: 5\n"),
         "x.yaml:3: wind: unknown key; there are description, mission, mount, vehicle, seed, "
-        "noise, wall, pendulum, press_rig, environment, suction, guidance, autopilot, sensors, "
-        "simulation");
+        "noise, wall, pendulum, press_rig, environment, faults, suction, guidance, autopilot, "
+        "sensors, simulation");
     EXPECT_EQ(
         hover_error("autopilot: {gain: 5}\n"),
         "x.yaml:3: autopilot.gain: unknown key; `limpet params autopilot` lists what there is");
