@@ -55,7 +55,7 @@ OptionList kind_option(std::string& kind) {
 
 Verb list_verb() {
     return verb<std::string>(
-        "list", "List scenarios, campaigns, surfaces, vehicles, companions, faults or keys",
+        "list", "List what there is: scenarios, surfaces, vehicles, faults, keys and more",
         kind_option, print_list);
 }
 

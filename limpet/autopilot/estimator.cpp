@@ -78,6 +78,9 @@ void take_imu(const AutopilotParameters& p, EstimatorState& state, const Sample<
                        .rate_B_rad_s = value.rate_B_rad_s,
                        .specific_force_B_m_s2 = value.specific_force_B_m_s2};
     state.navigation = advance(state.navigation, step);
+    constexpr double kLately_s = 0.5;
+    state.turned_rad += step.dt_s * (step.rate_B_rad_s - state.navigation.gyro_bias_rad_s -
+                                     state.turned_rad / kLately_s);
     remember(state.history, step);
     state.imu = value;
     state.time_s = imu.time_s;
@@ -119,9 +122,13 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
     apply(state, fusion.correction);
 }
 
-/// A camera's pose has noise: the same one again, bit for bit, is a tracker that repeats itself.
-bool repeats(const PoseReading& pose, const PoseReading& last) {
-    return pose.p_WB_m == last.p_WB_m && pose.q_WB.coeffs() == last.q_WB.coeffs();
+/// The same pose again, bit for bit, of a body that turns is a tracker that repeats itself; one at
+/// rest may be seen so where there is no noise.
+bool repeats_itself(const EstimatorState& state, const PoseReading& pose) {
+    const PoseReading& last = state.motion_capture;
+    const bool turns = state.turned_rad.norm() > radians(0.5);
+    return (turns || state.motion_capture_frozen) && pose.p_WB_m == last.p_WB_m &&
+           pose.q_WB.coeffs() == last.q_WB.coeffs();
 }
 
 /// A body that lies quite otherwise than the gyros say is another one, for as long as they can
@@ -138,8 +145,11 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
                          const Sample<PoseReading>& sample) {
     const double stamp_s = sample.time_s - kMillisecond_s * p.EKF2_EV_DELAY;
     const PoseReading& pose = sample.value;
-    const bool usable = pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() &&
-                        !repeats(pose, state.motion_capture);
+    if (sample.newer_than(state.motion_capture_s)) {
+        state.motion_capture_frozen = repeats_itself(state, pose);
+    }
+    const bool usable =
+        pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() && !state.motion_capture_frozen;
     take(p, state, state.motion_capture_s, sample, stamp_s, usable,
          [&](Fusion& fusion, const Instant& at) {
              if (is_another_body(state, at, pose.q_WB, stamp_s)) {

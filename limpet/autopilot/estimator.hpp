@@ -32,6 +32,8 @@ struct EstimatorState {
     double barometer_s = kNever;
     double magnetometer_s = kNever;
     PoseReading motion_capture;  ///< the last one seen
+    bool motion_capture_frozen = false;
+    Vector3 turned_rad = Vector3::Zero();  ///< by the gyros, in the last half second or so
     Aiding motion_capture_position;
     Aiding motion_capture_attitude;
     Aiding gps_position;
@@ -46,9 +48,9 @@ struct EstimatorState {
                                              const Estimate& initial);
 
 /// Takes every sample whose stamp is new; one that is not finite is as if it had not come. So is a
-/// pose that repeats the last bit for bit (a tracker that is frozen), and one that is turned from
-/// what the gyros tell by more than half a radian (another body).
-/// Allocates nothing.
+/// pose that repeats the last bit for bit while the gyros turn (a tracker that is frozen), and one
+/// that is turned from what the gyros tell by more than half a radian (another body). Allocates
+/// nothing.
 void update_estimator(const AutopilotParameters& parameters, EstimatorState& state,
                       const Readings& readings);
 
