@@ -54,9 +54,9 @@ OptionList kind_option(std::string& kind) {
 }  // namespace
 
 Verb list_verb() {
-    return verb<std::string>(
-        "list", "List what there is: scenarios, surfaces, vehicles, faults, keys and more",
-        kind_option, print_list);
+    return verb<std::string>("list",
+                             "List what there is: scenarios, surfaces, vehicles, faults, keys",
+                             kind_option, print_list);
 }
 
 }  // namespace limpet::app
