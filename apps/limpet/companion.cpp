@@ -134,7 +134,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
         return ExitCode::ok;
     }
     std::signal(SIGPIPE, SIG_IGN);
-    const std::atomic<bool>* stop = stop_on_signals();
+    const std::atomic<bool>* stop = stop_on_signals(SecondSignal::changes_nothing);
     const auto live = open_live(options.live, live_options(config), terminal);
     bool aborted = false;
     const live::LiveDesk desk = {.serve =

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 #include <signal.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +19,25 @@ constexpr std::size_t kLabel = 11;
 
 /// A signal handler can reach nothing else.
 std::atomic<bool> interrupted = false;
+std::atomic<long long> first_signal_ns = 0;
+std::atomic<bool> only_the_first = false;
+
+long long now_ns() {
+    timespec now = {};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1'000'000'000LL * now.tv_sec + now.tv_nsec;
+}
+
+/// timeout(1) and some terminals send one twice, to the program and to its group.
+void hear_signal(int number) {
+    constexpr long long kTheSame_ns = 1'000'000'000;
+    if (!interrupted.exchange(true)) {
+        first_signal_ns = now_ns();
+    } else if (!only_the_first && now_ns() - first_signal_ns > kTheSame_ns) {
+        signal(number, SIG_DFL);
+        (void)raise(number);
+    }
+}
 
 /// What does not get there is known to the stream: main() asks standard output in the end.
 void put(std::FILE* out, const std::string& text) {
@@ -144,10 +164,10 @@ void complain(std::string message) {
     put(stderr, "limpet: " + message + "\n");
 }
 
-const std::atomic<bool>* stop_on_signals() {
+const std::atomic<bool>* stop_on_signals(SecondSignal second) {
+    only_the_first = second == SecondSignal::changes_nothing;
     struct sigaction action = {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    action.sa_handler = hear_signal;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     sigaction(SIGHUP, &action, nullptr);  // the terminal is gone

@@ -63,8 +63,13 @@ private:
 /// error that takes nothing changes no exit code.
 void complain(std::string message);
 
+enum class SecondSignal {
+    ends,             ///< the program as ever, if it comes a second or more after the first
+    changes_nothing,  ///< a vehicle is in the air: what the first began goes on
+};
+
 /// From now on the first Ctrl-C, SIGTERM or SIGHUP sets the flag, for long work to end in good
-/// order; the second ends the program as ever.
-[[nodiscard]] const std::atomic<bool>* stop_on_signals();
+/// order.
+[[nodiscard]] const std::atomic<bool>* stop_on_signals(SecondSignal second = SecondSignal::ends);
 
 }  // namespace limpet::app

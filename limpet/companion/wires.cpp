@@ -27,6 +27,7 @@ std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
 Wires open_wires(const CompanionConfig& config) {
     Wires wires;
     wires.autopilot = open_link(config, config.autopilot, 0);
+    wires.autopilot->admit_by_heartbeat();
     if (config.sensors) {
         wires.sensors = open_link(config, *config.sensors, 1);
     }

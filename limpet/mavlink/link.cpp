@@ -17,8 +17,23 @@ Link::Link(std::unique_ptr<wire::Transport> transport, Sender self)
     : transport_(std::move(transport)), self_(self) {}
 
 void Link::sign(LinkSigning signing) {
-    signing_.emplace(signing.key, signing.link_id);
-    unix_us_ = std::move(signing.unix_us);
+    seal_->signing.emplace(signing.key, signing.link_id);
+    seal_->unix_us = std::move(signing.unix_us);
+}
+
+void Link::admit_by_heartbeat() {
+    transport_->admit([seal = seal_](std::span<const std::byte> datagram) {
+        ByteView bytes(reinterpret_cast<const std::uint8_t*>(datagram.data()), datagram.size());
+        Parser parser;
+        while (const auto frame = parser.next(bytes)) {
+            if (frame->id == Heartbeat::kId &&
+                (!seal->signing || seal->signing->judge(*frame, signing_time(seal->unix_us())) ==
+                                       Verdict::accepted)) {
+                return true;
+            }
+        }
+        return false;
+    });
 }
 
 std::uint64_t Link::generation() const {
@@ -27,8 +42,8 @@ std::uint64_t Link::generation() const {
 }
 
 wire::TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout) {
-    if (signing_) {
-        frame = signing_->sign(out_, frame, signing_time(unix_us_()));
+    if (seal_->signing) {
+        frame = seal_->signing->sign(out_, frame, signing_time(seal_->unix_us()));
     }
     if (!corked_) {
         return send_bytes(frame, 1, timeout);
@@ -64,7 +79,8 @@ wire::TransferStatus Link::uncork(std::chrono::nanoseconds timeout) {
 }
 
 bool Link::accepts(const Frame& frame) {
-    if (!signing_ || signing_->check(frame, signing_time(unix_us_())) == Verdict::accepted) {
+    if (!seal_->signing ||
+        seal_->signing->check(frame, signing_time(seal_->unix_us())) == Verdict::accepted) {
         return true;
     }
     ++count_.unsigned_;

@@ -52,6 +52,9 @@ public:
     Link(std::unique_ptr<wire::Transport> transport, Sender self);
 
     void sign(LinkSigning signing);
+    /// Over UDP a listening end takes nobody for its peer before a whole heartbeat of theirs,
+    /// rightly signed where the link is.
+    void admit_by_heartbeat();
 
     /// @param timeout  longest wait for room in the wire
     template <class Message>
@@ -86,11 +89,16 @@ private:
                                     std::chrono::nanoseconds timeout);
     [[nodiscard]] bool accepts(const Frame& frame);
 
+    /// Shared with the admission, which outlives a move of the link.
+    struct Seal {
+        std::optional<Signing> signing;
+        std::function<std::uint64_t()> unix_us;
+    };
+
     std::unique_ptr<wire::Transport> transport_;
     Sender self_;
     Parser parser_;
-    std::optional<Signing> signing_;
-    std::function<std::uint64_t()> unix_us_;
+    std::shared_ptr<Seal> seal_ = std::make_shared<Seal>();
     std::array<std::byte, 4096> in_ = {};
     ByteView unread_;
     std::uint64_t heard_generation_ = 0;  ///< that of the bytes in the parser

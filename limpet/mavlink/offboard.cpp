@@ -62,9 +62,10 @@ void Offboard::hear(const Frame& frame, double time_s) {
     } else if (const auto system_state = decode<ExtendedSysState>(frame)) {
         report_.landed_state = system_state->landed_state;
     } else if (const auto text = decode<StatusText>(frame)) {
-        const std::string_view said = text_of(text->text);  // PX4 ends some with a tab
-        report_.text = said.substr(0, said.find_last_not_of(" \t\r\n") + 1);
-        ++report_.texts;
+        if (auto whole = texts_.hear(*text)) {
+            report_.text = std::move(*whole);
+            ++report_.texts;
+        }
     } else if (const auto ack = decode<CommandAck>(frame)) {
         if (addressed_to(self_, *ack)) {  // a ground station's commands are answered too
             hear_command_ack(*ack);

@@ -11,6 +11,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/text_joiner.hpp"
 
 namespace limpet::mavlink {
 
@@ -106,6 +107,7 @@ private:
     OffboardOptions options_;
     Sender self_;  ///< whom answers to our commands are for
     AutopilotReport report_;
+    TextJoiner texts_;
     Estimate estimate_;
     double estimate_s_ = -1.0;   ///< < 0: never told
     double heartbeat_s_ = -1.0;  ///< < 0: never heard

@@ -22,6 +22,10 @@ struct FreeContext {
     void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
 
+std::uint64_t stamp_of(const Frame& frame) {
+    return boost::endian::load_little_u48(&frame.bytes.last(kSignature_bytes)[1]);
+}
+
 }  // namespace
 
 /// A context made once: a frame then costs no allocation.
@@ -79,7 +83,17 @@ ByteView Signing::sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now) {
     return ByteView(buffer).first(hashed + kDigest_bytes);
 }
 
-Verdict Signing::check(const Frame& frame, std::uint64_t now) {
+Signing::Heard* Signing::heard(const Frame& frame) {
+    const std::uint8_t link_id = frame.bytes.last(kSignature_bytes)[0];
+    const auto known = std::span(heard_).first(senders_);
+    const auto sender = std::find_if(known.begin(), known.end(), [&](const Heard& heard) {
+        return heard.system == frame.system && heard.component == frame.component &&
+               heard.link_id == link_id;
+    });
+    return sender == known.end() ? nullptr : &*sender;
+}
+
+Verdict Signing::judge(const Frame& frame, std::uint64_t now) {
     if (!frame.is_signed) {
         return Verdict::not_signed;
     }
@@ -88,29 +102,29 @@ Verdict Signing::check(const Frame& frame, std::uint64_t now) {
     if (CRYPTO_memcmp(expected.data(), frame.bytes.data() + hashed, kDigest_bytes) != 0) {
         return Verdict::wrong_signature;
     }
-    const ByteView trailer = frame.bytes.last(kSignature_bytes);
-    const std::uint64_t stamped = boost::endian::load_little_u48(&trailer[1]);
-    const auto known = std::span(heard_).first(senders_);
-    const auto sender = std::find_if(known.begin(), known.end(), [&](const Heard& heard) {
-        return heard.system == frame.system && heard.component == frame.component &&
-               heard.link_id == trailer[0];
-    });
-    if (sender != known.end()) {
-        if (stamped <= sender->timestamp) {
-            return Verdict::replayed;
-        }
-        sender->timestamp = stamped;
-    } else {
-        if (stamped + kLargestAge < std::max(timestamp_, now)) {
-            return Verdict::too_old;
-        }
-        if (senders_ == kMaxSenders) {
-            return Verdict::too_many_senders;
-        }
-        heard_[senders_++] = {frame.system, frame.component, trailer[0], stamped};
+    const std::uint64_t stamped = stamp_of(frame);
+    if (const Heard* sender = heard(frame)) {
+        return stamped <= sender->timestamp ? Verdict::replayed : Verdict::accepted;
     }
-    timestamp_ = std::max(timestamp_, stamped);
-    return Verdict::accepted;
+    if (stamped + kLargestAge < std::max(timestamp_, now)) {
+        return Verdict::too_old;
+    }
+    return senders_ == kMaxSenders ? Verdict::too_many_senders : Verdict::accepted;
+}
+
+Verdict Signing::check(const Frame& frame, std::uint64_t now) {
+    const Verdict verdict = judge(frame, now);
+    if (verdict == Verdict::accepted) {
+        const std::uint64_t stamped = stamp_of(frame);
+        if (Heard* sender = heard(frame)) {
+            sender->timestamp = stamped;
+        } else {
+            const std::uint8_t link_id = frame.bytes.last(kSignature_bytes)[0];
+            heard_[senders_++] = {frame.system, frame.component, link_id, stamped};
+        }
+        timestamp_ = std::max(timestamp_, stamped);
+    }
+    return verdict;
 }
 
 }  // namespace limpet::mavlink

@@ -57,6 +57,8 @@ public:
     /// Changes what is known of the sender only when it accepts: forgeries cannot lock it out.
     /// @param now  signing time [10 us]
     [[nodiscard]] Verdict check(const Frame& frame, std::uint64_t now);
+    /// What check() would say; nothing changes.
+    [[nodiscard]] Verdict judge(const Frame& frame, std::uint64_t now);
 
     /// The last time used or seen [10 us]; to be kept where the clock does not survive a restart.
     [[nodiscard]] std::uint64_t timestamp() const { return timestamp_; }
@@ -73,6 +75,8 @@ private:
     };
 
     [[nodiscard]] Digest digest(ByteView up_to_timestamp);
+    /// The last one of a signed frame's sender on its link, or null.
+    [[nodiscard]] Heard* heard(const Frame& frame);
 
     SigningKey key_;
     std::uint8_t link_id_;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,6 +34,9 @@ struct TransportStatistics {
     std::uint64_t peers_refused = 0;  ///< second TCP clients, datagrams of others
 };
 
+/// Whether what a datagram holds may make its sender the peer.
+using Admission = std::function<bool(std::span<const std::byte> datagram)>;
+
 /// A wire: bytes to and from one peer. Streams (TCP, serial) deliver in any pieces, UDP whole
 /// datagrams. For one thread; starts none. A signal neither shortens nor lengthens a wait (who must
 /// hear Ctrl-C waits in slices), and a peer that goes away never raises SIGPIPE. Send and receive
@@ -58,6 +62,10 @@ public:
     /// Waits until somebody is there to send to: client, server, a first datagram.
     /// @return is somebody there; one that went unnoticed shows at the next transfer
     [[nodiscard]] virtual bool wait_for_peer(std::chrono::nanoseconds timeout) = 0;
+
+    /// Of a UDP end that listens: nobody is its peer before a datagram of theirs is let in, and
+    /// what others send meanwhile is dropped and counted. Elsewhere a connection says who is there.
+    virtual void admit(Admission /*admission*/) {}
 
     /// Ends it for good; a second call does nothing. The destructor closes too.
     virtual void close() = 0;

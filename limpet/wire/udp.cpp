@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <boost/asio/ip/multicast.hpp>
 #include <boost/asio/ip/udp.hpp>
 
@@ -92,14 +93,16 @@ public:
 
     bool wait_for_peer(nanoseconds timeout) override {
         const Deadline deadline(timeout);
+        std::array<std::byte, 2048> seen;
         while (!closed_ && !peer_known_ && wait(POLLIN, deadline)) {
-            std::byte one{};
-            if (take({&one, 1}, MSG_PEEK | MSG_TRUNC) == 0) {
-                (void)take({&one, 1}, 0);  // an empty datagram: nobody's message
+            if (take(seen, MSG_PEEK | MSG_TRUNC) == 0) {
+                (void)take(seen, 0);  // empty, or of somebody who is not let in
             }
         }
         return !closed_ && peer_known_;
     }
+
+    void admit(Admission admission) override { admission_ = std::move(admission); }
 
     void close() override {
         closed_ = true;
@@ -124,6 +127,9 @@ private:
     /// Of a listening end on a single host: commands must not go to whoever sends rubbish.
     bool one_at_a_time() const { return role_ == Role::listen && address_.medium == Medium::udp; }
     bool peer_speaks() const { return std::chrono::steady_clock::now() - spoke_ < kFaithful; }
+    bool lets_in(std::span<const std::byte> datagram) const {
+        return !admission_ || !one_at_a_time() || admission_(datagram);
+    }
     bool group() const { return address_.medium == Medium::udp_multicast; }
 
     address_v4 interface() const {
@@ -174,7 +180,9 @@ private:
         if (error) {  // also "refused" by the host of an earlier datagram
             return 0;
         }
-        if (heard_ && from != peer_ && (keeps_first_ || (one_at_a_time() && peer_speaks()))) {
+        const bool another = !heard_ || from != peer_;
+        const bool taken = heard_ && (keeps_first_ || (one_at_a_time() && peer_speaks()));
+        if (another && (taken || !lets_in(into.first(std::min(length, into.size()))))) {
             if ((flags & MSG_PEEK) == 0) {
                 ++statistics_.peers_refused;
             }
@@ -183,7 +191,7 @@ private:
         if (length > 0 && one_at_a_time()) {
             spoke_ = std::chrono::steady_clock::now();
         }
-        if (length > 0 && (!heard_ || from != peer_)) {
+        if (length > 0 && another) {
             ++statistics_.peers;
             heard_ = true;
             peer_ = from;
@@ -204,6 +212,7 @@ private:
     boost::asio::io_context io_{1};
     udp::socket socket_;
     TransportStatistics statistics_;
+    Admission admission_;
     std::chrono::steady_clock::time_point spoke_;  ///< when the peer did last
     bool peer_known_ = false;
     bool heard_ = false;

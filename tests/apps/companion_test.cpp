@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <thread>
 
 #include "free_port.hpp"
 #include "limpet/record/recording.hpp"
@@ -140,6 +141,9 @@ TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     Started companion(bench.folder(), "companion", patient({"--out", "companion_out"}));
     ASSERT_TRUE(companion.says("landing_started", kLong)) << companion.output();
     companion.signal(SIGINT);
+    companion.signal(SIGTERM);  // no further one hastens it
+    std::this_thread::sleep_for(1200ms);
+    companion.signal(SIGTERM);
     const Finished flown = companion.wait(60s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
     EXPECT_THAT(flown.out, HasSubstr("goes on until it rests or is off the wall"));

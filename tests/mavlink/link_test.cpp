@@ -120,5 +120,57 @@ TEST(Link, SignedHearsSignedAlone) {
     EXPECT_THAT(wire.link.count().received, Eq(1U));
 }
 
+/// Both ends on loopback, and a third who says what it likes.
+struct Overheard {
+    explicit Overheard(bool is_signed)
+        : here(wire::open_udp({.medium = wire::Medium::udp, .host = "127.0.0.1", .port = 0},
+                              wire::Role::listen),
+               {.system = 255, .component = kCompanionComponent}),
+          there(wire::open_udp(here.transport().address(), wire::Role::connect),
+                {.system = 1, .component = kAutopilotComponent}),
+          stranger(wire::open_udp(here.transport().address(), wire::Role::connect)) {
+        here.admit_by_heartbeat();
+        if (is_signed) {
+            here.sign(signing(7));
+            there.sign(signing(7));
+        }
+    }
+    void say(const std::vector<std::byte>& bytes) {
+        EXPECT_EQ(stranger->send(bytes, std::chrono::seconds(1)).status,
+                  wire::TransferStatus::done);
+        EXPECT_FALSE(here.receive(std::chrono::milliseconds(20)));
+        EXPECT_EQ(here.transport().statistics().peers, 0U);
+    }
+    void expect_the_autopilot_is_heard() {
+        EXPECT_EQ(there.send(beat(3)), wire::TransferStatus::done);
+        const auto frame = here.receive(std::chrono::seconds(5));
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(decode<Heartbeat>(*frame)->custom_mode, 3U);
+        EXPECT_EQ(here.transport().statistics().peers, 1U);
+    }
+    Link here;
+    Link there;
+    std::unique_ptr<wire::Transport> stranger;
+};
+
+TEST(Link, RubbishKeepsNobodyOut) {
+    Overheard wire(false);
+    wire.say({std::byte{'x'}});
+    Sender forger{.system = 1, .component = 1};
+    std::vector<std::byte> cut = ScriptedLink::frame_of(beat(), forger);
+    cut.pop_back();
+    wire.say(cut);
+    Attitude other_message;
+    wire.say(ScriptedLink::frame_of(other_message, forger));
+    wire.expect_the_autopilot_is_heard();
+}
+
+TEST(Link, ASignedOneIsTakenByNoUnsignedHeartbeat) {
+    Overheard wire(true);
+    Sender forger{.system = 1, .component = 1};
+    wire.say(ScriptedLink::frame_of(beat(), forger));
+    wire.expect_the_autopilot_is_heard();
+}
+
 }  // namespace
 }  // namespace limpet::mavlink

@@ -64,6 +64,27 @@ TEST_F(UdpPair, WhoSpeaksKeepsItsPlaceWhileOthersSendRubbish) {
     EXPECT_EQ(here->statistics().peers_refused, 1U);
 }
 
+TEST_F(UdpPair, WhoIsNotLetInIsNobodysPeerHoweverOftenItSpeaks) {
+    here->admit([](std::span<const std::byte> datagram) {
+        return datagram.size() > 1 && datagram[0] == std::byte{'a'};
+    });
+    RawSocket other(SOCK_DGRAM);
+    ASSERT_TRUE(other.connect(port));
+    other.say("x");
+    EXPECT_FALSE(here->wait_for_peer(20ms));
+    other.say("y");
+    EXPECT_EQ(heard(*here, 20ms), "<timed out>");
+    EXPECT_EQ(here->statistics().peers, 0U);
+    EXPECT_EQ(here->statistics().peers_refused, 2U);
+    EXPECT_EQ(say(*there, "a friend"), wire::TransferStatus::done);
+    EXPECT_TRUE(here->wait_for_peer(5s));
+    EXPECT_EQ(heard(*here), "a friend");
+    EXPECT_EQ(say(*there, "may now say anything"), wire::TransferStatus::done);
+    EXPECT_EQ(heard(*here), "may now say anything");
+    other.say("also a word");
+    EXPECT_EQ(heard(*here, 20ms), "<timed out>");  // one at a time
+}
+
 TEST_F(UdpPair, AnswersTheNextOneOnceTheFormerIsSilent) {
     RawSocket other(SOCK_DGRAM);
     ASSERT_TRUE(other.connect(port));
