@@ -26,11 +26,14 @@ void Link::admit_by_heartbeat() {
         ByteView bytes(reinterpret_cast<const std::uint8_t*>(datagram.data()), datagram.size());
         Parser parser;
         while (const auto frame = parser.next(bytes)) {
-            if (frame->id == Heartbeat::kId &&
-                (!seal->signing || seal->signing->judge(*frame, signing_time(seal->unix_us())) ==
-                                       Verdict::accepted)) {
+            if (frame->id != Heartbeat::kId) {
+                continue;
+            }
+            if (!seal->signing ||
+                seal->signing->judge(*frame, signing_time(seal->unix_us())) == Verdict::accepted) {
                 return true;
             }
+            ++seal->refused;
         }
         return false;
     });
@@ -83,7 +86,7 @@ bool Link::accepts(const Frame& frame) {
         seal_->signing->check(frame, signing_time(seal_->unix_us())) == Verdict::accepted) {
         return true;
     }
-    ++count_.unsigned_;
+    ++seal_->refused;
     return false;
 }
 
@@ -119,6 +122,7 @@ std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
 
 LinkCount Link::count() const {
     LinkCount count = count_;
+    count.unsigned_ = seal_->refused;
     const LinkStatistics& now = parser_.statistics();
     count.lost = before_.lost + now.lost;
     count.damaged = before_.bad_checksum + now.bad_checksum;

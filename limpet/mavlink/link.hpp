@@ -93,6 +93,7 @@ private:
     struct Seal {
         std::optional<Signing> signing;
         std::function<std::uint64_t()> unix_us;
+        std::uint64_t refused = 0;  ///< for their signature
     };
 
     std::unique_ptr<wire::Transport> transport_;

@@ -95,9 +95,7 @@ public:
         const Deadline deadline(timeout);
         std::array<std::byte, 2048> seen;
         while (!closed_ && !peer_known_ && wait(POLLIN, deadline)) {
-            if (take(seen, MSG_PEEK | MSG_TRUNC) == 0) {
-                (void)take(seen, 0);  // empty, or of somebody who is not let in
-            }
+            (void)take(seen, MSG_PEEK | MSG_TRUNC);
         }
         return !closed_ && peer_known_;
     }
@@ -183,21 +181,33 @@ private:
         const bool another = !heard_ || from != peer_;
         const bool taken = heard_ && (keeps_first_ || (one_at_a_time() && peer_speaks()));
         if (another && (taken || !lets_in(into.first(std::min(length, into.size()))))) {
-            if ((flags & MSG_PEEK) == 0) {
-                ++statistics_.peers_refused;
-            }
+            ++statistics_.peers_refused;
+            drop(flags);
             return 0;
         }
-        if (length > 0 && one_at_a_time()) {
+        if (length == 0) {  // nobody's message
+            drop(flags);
+            return 0;
+        }
+        if (one_at_a_time()) {
             spoke_ = std::chrono::steady_clock::now();
         }
-        if (length > 0 && another) {
+        if (another) {
             ++statistics_.peers;
             heard_ = true;
             peer_ = from;
             peer_known_ = true;
         }
         return length;
+    }
+
+    /// One that was only looked at, and is not for us.
+    void drop(int flags) {
+        if ((flags & MSG_PEEK) != 0) {
+            std::byte none{};
+            error_code ignored;
+            (void)socket_.receive(boost::asio::buffer(&none, 1), 0, ignored);
+        }
     }
 
     bool wait(short events, const Deadline& deadline) {

@@ -131,6 +131,7 @@ TEST(Inputs, OfASourceThatIsNotChosenCountForNothing) {
                                         0);
     };
     (void)sensors.send(range(3.0, 0));
+    (void)autopilot.send(mavlink::Heartbeat{});  // by which it is admitted
     (void)autopilot.send(range(2.0, 0));
     (void)autopilot.send(range(2.5, 1));
     (void)autopilot.send(range(9.0, 2));  // a LiDAR that looks elsewhere

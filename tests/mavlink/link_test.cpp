@@ -169,6 +169,7 @@ TEST(Link, ASignedOneIsTakenByNoUnsignedHeartbeat) {
     Overheard wire(true);
     Sender forger{.system = 1, .component = 1};
     wire.say(ScriptedLink::frame_of(beat(), forger));
+    EXPECT_EQ(wire.here.count().unsigned_, 1U);
     wire.expect_the_autopilot_is_heard();
 }
 
