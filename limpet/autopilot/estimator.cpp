@@ -126,7 +126,7 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
 /// rest may be seen so where there is no noise.
 bool repeats_itself(const EstimatorState& state, const PoseReading& pose) {
     const PoseReading& last = state.motion_capture;
-    const bool turns = state.turned_rad.norm() > radians(0.5);
+    const bool turns = state.turned_rad.norm() > radians(0.1);
     return (turns || state.motion_capture_frozen) && pose.p_WB_m == last.p_WB_m &&
            pose.q_WB.coeffs() == last.q_WB.coeffs();
 }
