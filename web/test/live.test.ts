@@ -31,10 +31,10 @@ class Flight {
   private said = "";
   private readonly ended: Promise<number | null>;
 
-  constructor(name: string) {
+  constructor(name: string, speed: number) {
     const out = join(folder, name);
     this.process = spawn(program, [
-      ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", "20"],
+      ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`],
       ...["--json", "--out", out],
     ]);
     // With --json all but the result is on standard error.
@@ -194,7 +194,7 @@ type Transforms = {
 };
 
 test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("watched");
+  const flight = new Flight("watched", 4);
   const address = await flight.address();
   const viewer = new Viewer(address, "foxglove.sdk.v1");
   await viewer.until(() => viewer.channels.size >= 23);
@@ -273,7 +273,7 @@ test("a flight is watched, and no other for it", { skip, timeout: 60_000 }, asyn
 });
 
 test("parameters and services", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("asked");
+  const flight = new Flight("asked", 20);
   const viewer = new Viewer(await flight.address(), "foxglove.websocket.v1");
   await viewer.until(() => viewer.services.size === 4 && viewer.channels.size >= 23);
   assert.deepEqual(viewer.info?.capabilities, [
@@ -333,7 +333,7 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
 });
 
 test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("closed");
+  const flight = new Flight("closed", 20);
   const address = await flight.address();
   const knock = (where: string, origin?: string) =>
     new Promise<string>((done) => {
