@@ -12,10 +12,13 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
-/// Who has waited long in gusts asks for less.
+/// Who has waited long in gusts asks for less; less still where nothing but waiting follows.
 double patience(const Scene& s) {
     constexpr double kLong_s = 4.0;
-    return std::max(1.0, s.elapsed_s() / kLong_s);
+    const bool only_waits =
+        windy(s.parameters, s.memory) && (s.memory.state == PerchingState::retreating ||
+                                          s.memory.state == PerchingState::backing_off);
+    return std::max(1.0, s.elapsed_s() / (only_waits ? 0.5 * kLong_s : kLong_s));
 }
 
 bool stands_at_pre_position(const Scene& s) {
@@ -52,10 +55,14 @@ bool stands_before_wall(const Scene& s) {
 }
 
 bool is_level(const Scene& s) {
-    return s.elapsed_s() > s.parameters.level_pitch_s &&
+    // Gusts do not let it stand still either.
+    constexpr double kSoon_s = 1.5;
+    const double waited_s = s.elapsed_s() - s.parameters.level_pitch_s;
+    const double patience = windy(s.parameters, s.memory) ? std::max(1.0, waited_s / kSoon_s) : 1.0;
+    return waited_s > 0.0 &&
            std::abs(s.pitch_rad() - level_pitch_rad(s.parameters, s.memory)) <
-               radians(s.parameters.level_limit_deg) &&
-           s.estimate.w_WB_B_rad_s.norm() < radians(s.parameters.level_rate_deg_s);
+               patience * radians(s.parameters.level_limit_deg) &&
+           s.estimate.w_WB_B_rad_s.norm() < patience * radians(s.parameters.level_rate_deg_s);
 }
 
 // --- what each sense says of the cup ------------------------------------------------------------
@@ -163,13 +170,16 @@ bool wall_lost(const Scene& s) {
     return !sees_wall(s);
 }
 bool too_windy(const Scene& s) {
-    // Across, it can lean only while the cup holds it off the wall: at 20 deg the legs miss it.
+    // Across, it can lean only while the cup holds it off the wall: at 20 deg the legs miss it, and
+    // a wind off the wall takes of that.
     constexpr double kAcross = 0.66;
     const double limit_m_s2 = kGravity_m_s2 * std::tan(radians(s.parameters.lean_limit_deg));
     const Vector3& trim_W_m_s2 = s.memory.wind.trim_W_m_s2;
-    const double across_m_s2 = s.memory.wall.into_wall_W().cross(trim_W_m_s2).norm();
+    const Vector3 n_W = s.memory.wall.into_wall_W();
+    const double across = n_W.cross(trim_W_m_s2).norm() / (kAcross * limit_m_s2);
+    const double against = std::max(0.0, n_W.dot(trim_W_m_s2)) / limit_m_s2;
     return s.elapsed_s() > s.parameters.settle_s &&
-           (trim_W_m_s2.norm() > limit_m_s2 || across_m_s2 > kAcross * limit_m_s2);
+           (trim_W_m_s2.norm() > limit_m_s2 || std::hypot(across, against) > 1.0);
 }
 bool force_lost(const Scene& s) {
     return !s.readings.force.fresh(s.time_s, s.parameters.sensor_limit_s);

@@ -167,12 +167,13 @@ double level_share(const PerchingParameters& parameters, const PerchingMemory& m
 }
 
 /// On the cup: an attitude, and a roll that keeps the vehicle beside neither side of the cup. Near
-/// the wall it stops leaning: both legs shall meet it, and they hold the side then.
+/// the wall it stops leaning: both legs shall meet it, what hangs below the cup keeps its side by
+/// its weight, and the legs hold it then.
 /// @param share  of the weight along the thrust axis as long as it does not roll
 AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const PerchingMemory& memory,
                             const Estimate& estimate, double pitch_rad, double share) {
     constexpr double kSteepest = 0.6;  // of the thrust, 31 deg
-    constexpr double kFade_deg = 1.0;
+    constexpr double kFade_deg = 10.0;
     double side_m_s2 = 0.0;
     if (share > 0.0 && sits_on_grip(parameters, memory, estimate)) {
         const Vector3 right_W = right_of(memory);
@@ -194,6 +195,26 @@ AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const Perching
             .thrust = thrust_command(parameters, share / std::cos(roll_rad))};
 }
 
+/// Into the wall, in wind and gusts without being turned about the cup meanwhile.
+decltype(Setpoint::motion) press(const PerchingParameters& parameters, const PerchingMemory& memory,
+                                 const Estimate& estimate) {
+    constexpr double kAside_m = 0.03;
+    const Vector3 n_W = memory.wall.into_wall_W();
+    const Vector3 right_W = right_of(memory);
+    const Vector3 p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * n_W;
+    const double side_m = right_W.dot(estimate.p_WB_m - p_W_m);
+    if (!windy(parameters, memory) && std::abs(side_m) < kAside_m) {
+        return PositionSetpoint{.p_W_m = p_W_m, .yaw_rad = memory.wall.heading_rad};
+    }
+    const double side_m_s = -parameters.side_gain_1_s * side_m;
+    const double side_m_s2 = parameters.sway_gain_1_s * (side_m_s - right_W.dot(estimate.v_WB_m_s));
+    const Vector3 ahead_W_m = p_W_m - estimate.p_WB_m + side_m * right_W;
+    return VelocitySetpoint{
+        .v_W_m_s = parameters.line_gain_1_s * ahead_W_m + side_m_s * right_W,
+        .yaw_rad = memory.wall.heading_rad,
+        .feedforward_a_W_m_s2 = side_m_s2 * right_W + wind_trim_W_m_s2(parameters, memory)};
+}
+
 /// States in which the cup holds: attitude and thrust, since a position loop would pry at it.
 Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory& memory,
                      const Estimate& estimate, double elapsed_s) {
@@ -210,9 +231,7 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
     Setpoint setpoint{.armed = true, .pump_on = true};
     if (memory.state == PerchingState::holding || memory.state == PerchingState::deciding) {
         setpoint.hold_integrators = true;
-        setpoint.motion = PositionSetpoint{
-            .p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * memory.wall.into_wall_W(),
-            .yaw_rad = memory.wall.heading_rad};
+        setpoint.motion = press(parameters, memory, estimate);
     } else if (memory.state == PerchingState::pitching_up) {
         const double pitch_rad = pitch_between(perched_rad, parameters.land_pitch_s);
         setpoint.motion = hangs(pitch_rad, 1.0);

@@ -59,11 +59,11 @@ struct PerchingParameters {
     double climb_rate_gain_1_s = 4.0;  ///< acceleration asked per error of that rate
     double reseal_limit_s = 3.0;
     // wind
-    double lean_limit_deg = 25.0;     ///< leans farther against the wind: no docking run
-    double calm_lean_deg = 1.5;       ///< leans less: counts as calm
-    double side_gain_1_s = 2.0;       ///< on the cup: speed asked per error of the side
-    double sway_gain_1_s = 6.0;       ///< acceleration asked per error of that speed
-    double side_integral_1_s3 = 3.0;  ///< and per error of the side, a second
+    double lean_limit_deg = 25.0;      ///< leans farther against the wind: no docking run
+    double calm_lean_deg = 1.5;        ///< leans less: counts as calm
+    double side_gain_1_s = 3.0;        ///< on the cup: speed asked per error of the side
+    double sway_gain_1_s = 8.0;        ///< acceleration asked per error of that speed
+    double side_integral_1_s3 = 10.0;  ///< and per error of the side, a second
     // retreat
     double retreat_speed_m_s = 0.6;
     double retreat_acceleration_m_s2 = 1.0;

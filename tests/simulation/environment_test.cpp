@@ -60,6 +60,37 @@ TEST(WindInTheLoop, MoreThanItCanLeanAgainstIsDeclined) {
     EXPECT_EQ(flight.result.attempts, 0);
 }
 
+TEST(WindInTheLoop, BetweenWhatItFliesAndDeclinesNothingHitsTheWall) {
+    for (const char* speed : {"6.5", "7"}) {
+        for (const char* from : {"45", "135", "315"}) {
+            const Trace flight = trace(
+                model_of("perch_metal_valve", {std::string("environment.wind_speed_m_s=") + speed,
+                                               std::string("environment.wind_from_deg=") + from}));
+            EXPECT_NE(flight.result.outcome, Outcome::crashed) << speed << " from " << from;
+        }
+    }
+}
+
+TEST(WindInTheLoop, InGustsItIsPatientAndLeaves) {
+    for (const char* from : {"0", "90", "180", "270"}) {
+        const Trace flight = trace(model_of(
+            "perch_metal_valve", {"environment.wind_speed_m_s=2", "environment.gust_sigma_m_s=0.5",
+                                  std::string("environment.wind_from_deg=") + from}));
+        EXPECT_EQ(flight.result.outcome, Outcome::released) << from << ": " << flight.result.reason;
+    }
+}
+
+TEST(WindInTheLoop, ACrosswindThatBeginsOnTheWallIsStood) {
+    for (const char* phase :
+         {"holding", "pitching_up", "unloading", "pitching_down", "releasing"}) {
+        const Trace flight =
+            trace(model_of("perch_metal_valve", {std::string("faults={fault: gust_across, size: "
+                                                             "2.5, phase: ") +
+                                                 phase + "}"}));
+        EXPECT_EQ(flight.result.outcome, Outcome::released) << phase << flight.result.reason;
+    }
+}
+
 TEST(WindInTheLoop, AResumedRunGoesOnInTheSameGusts) {
     const auto model =
         model_of("perch_concrete",
