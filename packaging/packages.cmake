@@ -1,6 +1,6 @@
 # Debian packages of what is installed, a component each: `packaging/build`, or cpack in a build folder.
 #
-#   limpet           the program, its manual, completion and documents
+#   limpet           the program, its manual, completion, documents, a unit for systemd
 #   limpet-data      scenarios, vehicles, surfaces: what all the others read
 #   liblimpetX.Y     the shared library
 #   liblimpet-dev    headers and package files
@@ -89,5 +89,6 @@ foreach(component ${CPACK_COMPONENTS_ALL})
     EXCLUDE_FROM_ALL)
 endforeach()
 install(FILES README.md DESTINATION share/doc/limpet COMPONENT program)
+install(FILES packaging/limpet-companion@.service DESTINATION lib/systemd/system COMPONENT program)
 install(DIRECTORY docs/ DESTINATION share/doc/limpet COMPONENT program PATTERN decisions EXCLUDE PATTERN extending EXCLUDE)
 include(CPack)

@@ -11,9 +11,9 @@
 
 #include "command_line.hpp"
 #include "flight_report.hpp"
+#include "limpet/companion/real_time.hpp"
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/mavlink/key_file.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
@@ -77,15 +77,18 @@ void introduce(const CompanionOptions& options, const companion::CompanionConfig
     }
 }
 
-void conclude(const companion::CompanionResult& result, const std::filesystem::path& recording,
-              Terminal& terminal) {
+void conclude(const companion::CompanionResult& result, const companion::Wires& wires,
+              const std::filesystem::path& recording, Terminal& terminal) {
     tell(terminal, "");
     const std::string outcome =
         result.outcome ? std::string(to_string(*result.outcome)) + ": " : "";
     tell(terminal, "ended", outcome + result.reason);
     tell(terminal, "loop",
-         fmt::format("{} ticks, {} of them late by more than a period, the latest by {:.1f} ms",
-                     result.ticks, result.late_ticks, 1e3 * result.latest_s));
+         fmt::format("{} ticks, {} of them late by more than a period; {}", result.ticks,
+                     result.late_ticks, text_of(result.lateness)));
+    for (const std::string& line : signing_report(wires)) {
+        tell(terminal, "signing", line);
+    }
     if (!recording.empty()) {
         tell(terminal, "written", fmt::format("{0} (limpet plot {0})", recording.string()));
     }
@@ -118,6 +121,16 @@ live::LiveOptions live_options(companion::CompanionConfig config) {
             .parameters = live_parameters(sections, "")};
 }
 
+companion::CompanionResult fly(const CompanionOptions& options,
+                               const companion::CompanionConfig& config, companion::Wires& wires,
+                               const companion::CompanionConduct& conduct, Terminal& terminal) {
+    const companion::RealTime real_time(config.real_time_priority);
+    terminal.line(text_of(real_time.answer()));
+    terminal.line(terminal.dim(simulation::event_head()));
+    return run(config, wires, companion::steady_clock(options.speed), conduct,
+               session_watch(terminal));
+}
+
 ExitCode companion(const CompanionOptions& options, const Given& given) {
     (void)expected_outcome(options.expect);  // before any work
     only_with(given, !options.no_record, {"--live"}, "a recording, not with --no-record");
@@ -127,9 +140,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
     Terminal terminal(Terminal::Voice::normal);
     introduce(options, config, terminal);
     if (options.check) {
-        if (!config.signing_key_file.empty()) {
-            (void)mavlink::read_signing_key(config.signing_key_file);
-        }
+        check_signing(config);
         terminal.line("  good; nothing was opened");
         return ExitCode::ok;
     }
@@ -144,7 +155,12 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
                                      },
                                  .set = {}};
     companion::Wires wires = open_wires(config);
-    companion::CompanionConduct conduct{.dry_run = options.dry_run, .stop = stop};
+    for (const std::string& line : wires.notices) {
+        terminal.line(line);
+    }
+    companion::ServiceManager manager;
+    companion::CompanionConduct conduct{
+        .dry_run = options.dry_run, .stop = stop, .manager = &manager};
     if (live) {
         conduct.beside = live.get();
         conduct.wants_end = [&] {
@@ -157,14 +173,12 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
         folder.emplace(options.out);
         conduct.recording = folder->path() / "flight.mcap";
     }
-    terminal.line(terminal.dim(simulation::event_head()));
-    const companion::CompanionResult result = run(
-        config, wires, companion::steady_clock(options.speed), conduct, session_watch(terminal));
+    const companion::CompanionResult result = fly(options, config, wires, conduct, terminal);
     if (live) {
         live->say(live::StatusLevel::info, "ended: " + result.reason);
         tell(terminal, "live", report_of(*live));
     }
-    conclude(result, conduct.recording, terminal);
+    conclude(result, wires, conduct.recording, terminal);
     return code_of(options, result);
 }
 

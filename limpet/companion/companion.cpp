@@ -41,6 +41,15 @@ SessionSetup setup_of(const CompanionConfig& config, bool dry_run) {
 
 }  // namespace
 
+std::string RefusalWatch::reasons(const mavlink::Refusals& refusals, double time_s,
+                                  double limit_s) {
+    if (refusals.total() != total_) {
+        total_ = refusals.total();
+        grew_s_ = time_s;
+    }
+    return time_s - grew_s_ > limit_s ? "" : reasons_of(refusals);
+}
+
 Companion::Companion(const CompanionConfig& config, Wires& wires, record::Recorder* recorder,
                      bool dry_run, CompanionWatch watch)
     : config_(config),
@@ -75,7 +84,7 @@ void Companion::tick(double time_s, double late_s, bool interrupted) {
     ++result_.ticks;
     result_.last_s = time_s;
     result_.late_ticks += late_s > 1.0 / config_.limits.guidance_rate_Hz ? 1 : 0;
-    result_.latest_s = std::max(result_.latest_s, late_s);
+    result_.lateness.add(late_s);
     if (over_) {
         return;
     }
@@ -144,6 +153,10 @@ void Companion::feed(double time_s) {
         in.velocity_W_m_s = {estimate.time_s, estimate.v_WB_m_s};
         in.rate_B_rad_s = {estimate.time_s, estimate.w_WB_B_rad_s};
     }
+    if (!flies && wires_.sensors) {
+        in.sensors_refused = sensors_refusals_.reasons(wires_.sensors->count().refusals, time_s,
+                                                       config_.limits.silence_limit_s);
+    }
     if (dry_run_) {
         const bool armed = !flies || session_.setpoint().armed;
         in.autopilot = {time_s, {.connected = true, .armed = armed, .offboard = true}};
@@ -158,6 +171,8 @@ void Companion::feed(double time_s) {
     if (!flies) {  // for people: costs memory
         in.mechanism = mechanism_obstacle(time_s);
         in.waits_for = offboard_.obstacle(time_s);
+        in.autopilot_refused = autopilot_refusals_.reasons(wires_.autopilot->count().refusals,
+                                                           time_s, config_.limits.silence_limit_s);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/companion/dry_run.hpp"
 #include "limpet/companion/inputs.hpp"
+#include "limpet/companion/lateness.hpp"
 #include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
 #include "limpet/companion/wires.hpp"
@@ -26,8 +27,20 @@ struct CompanionResult {
     std::vector<Event> events;
     std::uint64_t ticks = 0;
     std::uint64_t late_ticks = 0;  ///< by more than a period
-    double latest_s = 0.0;         ///< the latest tick's lateness
+    Lateness lateness;             ///< of all ticks
     double last_s = 0.0;           ///< time of the last tick
+};
+
+/// What a wire refuses now, of all that it has refused.
+class RefusalWatch {
+public:
+    /// @return mavlink::reasons_of them; empty when none came for a heartbeat's limit
+    [[nodiscard]] std::string reasons(const mavlink::Refusals& refusals, double time_s,
+                                      double limit_s);
+
+private:
+    std::uint64_t total_ = 0;
+    double grew_s_ = -1e9;
 };
 
 /// Guidance beside a real autopilot: the same object code as in the simulation, readings from
@@ -84,6 +97,8 @@ private:
     mavlink::Offboard offboard_;
     Inputs inputs_;
     MechanismPace mechanism_;
+    RefusalWatch autopilot_refusals_;
+    RefusalWatch sensors_refusals_;
     PoseEstimate carried_;
     DryRun dry_;
     PerchingSession session_;

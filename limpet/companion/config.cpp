@@ -283,11 +283,13 @@ void Reader::read() {
         fail(root_, "is empty");
     }
     check_keys(root_, {"description", "vehicle", "mission", "guidance", "limits", "autopilot",
-                       "sensors", "motion_capture", "lidars", "mechanism", "signing_key_file"});
+                       "sensors", "motion_capture", "lidars", "mechanism", "loop",
+                       "signing_key_file", "signing_state_folder"});
     if (const YamlNode* node = root_.find("description")) {
         config_.description = read_text(*node);
     }
     read_rows(find("limits"), bind(companion_limits_table(), config_.limits));
+    read_rows(find("loop"), bind(loop_table(), config_));
     read_mission();
     read_guidance();
     read_autopilot();
@@ -297,6 +299,10 @@ void Reader::read() {
     read_sensors();
     if (const YamlNode* node = root_.find("signing_key_file")) {
         config_.signing_key_file = folder_ / read_text(*node);  // absolute ones stay as they are
+    }
+    only_with(!config_.signing_key_file.empty(), "signing_state_folder", "signing_key_file");
+    if (const YamlNode* node = find("signing_state_folder")) {
+        config_.signing_state_folder = folder_ / read_text(*node);
     }
     if (!missing_.empty()) {
         std::sort(missing_.begin(), missing_.end());

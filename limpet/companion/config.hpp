@@ -64,13 +64,18 @@ struct CompanionConfig {
     wire::TransportAddress mechanism_address;  ///< of line
     ReadingSource load_source = ReadingSource::mavlink;
 
-    std::filesystem::path signing_key_file;  ///< empty: unsigned
+    int real_time_priority = 20;  ///< of the loop, SCHED_FIFO; 0: an ordinary one
+
+    std::filesystem::path signing_key_file;      ///< empty: unsigned
+    std::filesystem::path signing_state_folder;  ///< its time stamps; empty: beside the key
 };
 
 /// Numbers of section `motion_capture`: how it lies in W and the rigid body on the vehicle.
 [[nodiscard]] const ParameterTable<CompanionConfig>& motion_capture_table();
 /// Numbers of section `autopilot`.
 [[nodiscard]] const ParameterTable<CompanionConfig>& autopilot_wire_table();
+/// Numbers of section `loop`.
+[[nodiscard]] const ParameterTable<CompanionConfig>& loop_table();
 /// All numbers of a companion's file, "companion.limits", ..., each bound to its value in `config`,
 /// for `limpet params`.
 [[nodiscard]] std::vector<scenario::Section> companion_sections(CompanionConfig& config);

@@ -61,6 +61,10 @@ std::vector<std::string> describe(const CompanionConfig& config) {
     lines.push_back("signing     " + (config.signing_key_file.empty()
                                           ? "none: who reaches the wires may command"
                                           : "key of " + config.signing_key_file.string()));
+    lines.push_back(config.real_time_priority == 0
+                        ? "loop        at ordinary priority, as its file wants"
+                        : fmt::format("loop        asks for SCHED_FIFO {} and locked memory",
+                                      config.real_time_priority));
     lines.push_back(
         fmt::format("speeds      docks at {:g} m/s from {:g} m, {} attempts, retreats at {:g} m/s",
                     guidance.dock_speed_m_s, guidance.pre_distance_m, guidance.attempts,

@@ -87,10 +87,20 @@ const ParameterTable<CompanionConfig>& autopilot_wire_table() {
     return table;
 }
 
+const ParameterTable<CompanionConfig>& loop_table() {
+    static const ParameterTable<CompanionConfig> table = {
+        {"real_time_priority", "-", 0.0, 49.0, &CompanionConfig::real_time_priority,
+         "SCHED_FIFO and locked memory for the loop; 0 asks for neither",
+         "assumed: above all ordinary work, below the kernel's interrupt threads (50)"},
+    };
+    return table;
+}
+
 std::vector<scenario::Section> companion_sections(CompanionConfig& config) {
     return {{"companion.limits", bind(companion_limits_table(), config.limits)},
             {"companion.motion_capture", bind(motion_capture_table(), config)},
-            {"companion.autopilot", bind(autopilot_wire_table(), config)}};
+            {"companion.autopilot", bind(autopilot_wire_table(), config)},
+            {"companion.loop", bind(loop_table(), config)}};
 }
 
 }  // namespace limpet::companion

@@ -23,7 +23,13 @@ void loop(const CompanionConfig& config, Companion& companion, const CompanionCl
     const double period_s = 1.0 / config.limits.guidance_rate_Hz;
     const double poll_s = 1.0 / config.limits.poll_rate_Hz;
     double deadline_s = clock.now_s();
+    if (conduct.manager != nullptr) {
+        conduct.manager->ready();
+    }
     while (!companion.over()) {
+        if (conduct.manager != nullptr) {
+            conduct.manager->alive();
+        }
         double now_s = clock.now_s();
         const bool stop = (conduct.stop != nullptr && *conduct.stop) ||
                           (conduct.wants_end && conduct.wants_end());
@@ -64,6 +70,9 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
     loop(config, companion, clock, conduct);
+    if (conduct.manager != nullptr) {
+        conduct.manager->stopping();
+    }
     if (recorder) {
         recorder->finish(summary_json(config, companion.result()));
     }
@@ -105,7 +114,11 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
         {"events", events},
         {"ticks", result.ticks},
         {"late_ticks", result.late_ticks},
-        {"latest_s", result.latest_s}};
+        {"lateness_s",
+         {{"median", result.lateness.quantile_s(0.5)},
+          {"p99", result.lateness.quantile_s(0.99)},
+          {"p99_9", result.lateness.quantile_s(0.999)},
+          {"worst", result.lateness.worst_s()}}}};
     return json.dump(2);
 }
 

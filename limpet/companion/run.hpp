@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "limpet/companion/companion.hpp"
+#include "limpet/companion/service_manager.hpp"
 
 namespace limpet::companion {
 
@@ -24,6 +25,7 @@ struct CompanionConduct {
     std::function<bool()> wants_end = {};     ///< asked every tick: as Ctrl-C, when it says so
     std::filesystem::path recording = {};     ///< empty: none
     record::MessageSink* beside = nullptr;    ///< takes what the recording takes, if there is one
+    ServiceManager* manager = nullptr;        ///< hears that the loop runs
 };
 
 /// Runs a companion to its end: ticks on absolute deadlines, wires looked at in between. After a
@@ -37,7 +39,7 @@ struct CompanionConduct {
 /// What the recording says of itself: the companion's file, the numbers that figures need.
 [[nodiscard]] record::RecordingInfo recording_info(const CompanionConfig& config);
 
-/// The recording's summary: outcome, reason, attempts, events, ticks.
+/// The recording's summary: outcome, reason, attempts, events, ticks, how late they began.
 [[nodiscard]] std::string summary_json(const CompanionConfig& config,
                                        const CompanionResult& result);
 

@@ -80,6 +80,9 @@ struct SessionInputs {
     Sample<AutopilotWord> autopilot;
     std::string mechanism;  ///< why pump and valve will not do as they are told; empty: they will
     std::string waits_for;  ///< what it takes to be flown, once ready: "not armed yet"
+    // Why what comes is not taken: "not signed". Empty: all is.
+    std::string autopilot_refused;
+    std::string sensors_refused;
 };
 
 /// How it is watched; empty members watch nothing.

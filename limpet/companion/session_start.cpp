@@ -90,7 +90,13 @@ std::string PerchingSession::missing(double time_s) const {
             "the cup is not free (it holds {:.0f} hPa: on a wall? the pump is left as it is)",
             readings.cup_pressure.value.pressure_Pa / 100.0));
     }
-    if (!heard(time_s)) {
+    if (!list.empty() && !inputs_.sensors_refused.empty()) {
+        add(fmt::format("the sensors' wire brings what is refused ({})", inputs_.sensors_refused));
+    }
+    if (!heard(time_s) && !inputs_.autopilot_refused.empty()) {
+        add(fmt::format("no heartbeat of the autopilot that is taken (refused: {})",
+                        inputs_.autopilot_refused));
+    } else if (!heard(time_s)) {
         add("no heartbeat of the autopilot");
     } else if (const std::string_view part = stale_estimate(time_s); !part.empty()) {
         add(fmt::format("the autopilot tells no fresh {}", part));

@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/wires.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "limpet/mavlink/key_file.hpp"
 
 namespace limpet::companion {
 namespace {
+
+constexpr std::uint8_t kAutopilotLink = 0;
+constexpr std::uint8_t kSensorsLink = 1;
+
+mavlink::Sender self_of(const CompanionConfig& config) {
+    return {.system = static_cast<std::uint8_t>(config.system),
+            .component = mavlink::kCompanionComponent};
+}
 
 /// UDP and multicast wait for whoever speaks; the others connect.
 wire::Role role_of(const wire::TransportAddress& address) {
@@ -13,12 +25,14 @@ wire::Role role_of(const wire::TransportAddress& address) {
 
 std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
                                          const wire::TransportAddress& address,
-                                         std::uint8_t link_id) {
-    auto link = std::make_unique<mavlink::Link>(
-        open_transport(address, role_of(address)),
-        mavlink::Sender{.system = static_cast<std::uint8_t>(config.system),
-                        .component = mavlink::kCompanionComponent});
-    mavlink::sign(*link, config.signing_key_file, link_id);
+                                         std::uint8_t link_id, Wires& wires) {
+    auto link =
+        std::make_unique<mavlink::Link>(open_transport(address, role_of(address)), self_of(config));
+    std::string notice =
+        sign_and_keep(*link, config.signing_key_file, config.signing_state_folder, link_id);
+    if (!notice.empty()) {
+        wires.notices.push_back(std::move(notice));
+    }
     return link;
 }
 
@@ -26,10 +40,10 @@ std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
 
 Wires open_wires(const CompanionConfig& config) {
     Wires wires;
-    wires.autopilot = open_link(config, config.autopilot, 0);
+    wires.autopilot = open_link(config, config.autopilot, kAutopilotLink, wires);
     wires.autopilot->admit_by_heartbeat();
     if (config.sensors) {
-        wires.sensors = open_link(config, *config.sensors, 1);
+        wires.sensors = open_link(config, *config.sensors, kSensorsLink, wires);
     }
     if (config.pose_source == PoseSource::natnet) {
         wires.motion_capture = std::make_unique<devices::NatNetClient>(
@@ -46,6 +60,35 @@ Wires open_wires(const CompanionConfig& config) {
         wires.mechanism = open_transport(config.mechanism_address, wire::Role::connect);
     }
     return wires;
+}
+
+void check_signing(const CompanionConfig& config) {
+    if (config.signing_key_file.empty()) {
+        return;
+    }
+    (void)mavlink::read_signing_key(config.signing_key_file);
+    for (const std::uint8_t link : {kAutopilotLink, kSensorsLink}) {
+        (void)mavlink::read_stamps(stamp_path(config.signing_key_file, config.signing_state_folder,
+                                              self_of(config), link));
+    }
+}
+
+std::vector<std::string> signing_report(const Wires& wires) {
+    std::vector<std::string> lines;
+    const auto add = [&lines](const char* name, const std::unique_ptr<mavlink::Link>& link) {
+        if (!link) {
+            return;
+        }
+        if (const std::string refused = text_of(link->count().refusals); !refused.empty()) {
+            lines.push_back(fmt::format("{}: {}", name, refused));
+        }
+        if (const std::string trouble = link->trouble_with_stamps(); !trouble.empty()) {
+            lines.push_back(fmt::format("{}: timestamps are not kept: {}", name, trouble));
+        }
+    };
+    add("autopilot", wires.autopilot);
+    add("sensors", wires.sensors);
+    return lines;
 }
 
 }  // namespace limpet::companion

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "limpet/companion/config.hpp"
 #include "limpet/devices/natnet_client.hpp"
@@ -19,11 +21,21 @@ struct Wires {
     std::unique_ptr<wire::Transport> lidar_left;  ///< TFmini Plus
     std::unique_ptr<wire::Transport> lidar_right;
     std::unique_ptr<wire::Transport> mechanism;  ///< its lines
+    std::vector<std::string> notices;            ///< for people: what was odd when they were opened
 };
 
-/// Opens what the configuration names; signs the MAVLink links when there is a key.
-/// @throws InputError naming address or key file, before or after others were opened: nothing was
+/// Opens what the configuration names; signs the MAVLink links when there is a key, and keeps their
+/// timestamps.
+/// @throws InputError naming address, key file or timestamps, before or after others were opened:
+/// nothing was
 ///         sent
 [[nodiscard]] Wires open_wires(const CompanionConfig& config);
+
+/// Reads what signing needs, opens and writes nothing.
+/// @throws InputError naming key file or timestamps
+void check_signing(const CompanionConfig& config);
+
+/// What signing has refused and could not do, a line a wire, for people; none: all is well.
+[[nodiscard]] std::vector<std::string> signing_report(const Wires& wires);
 
 }  // namespace limpet::companion

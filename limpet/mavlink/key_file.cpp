@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 
@@ -71,6 +72,26 @@ std::string_view without_blanks(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+std::uint64_t machine_time_us() {
+    using namespace std::chrono;
+    return static_cast<std::uint64_t>(
+        duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
+}
+
+/// A clock that stands at the timestamp kept at least; where the last ones used are not known, as
+/// far beyond as they may be.
+std::function<std::uint64_t()> not_before(const SigningStamps& kept,
+                                          std::function<std::uint64_t()> clock) {
+    using namespace std::chrono;
+    const microseconds lost = kept.are_last ? 0s : 2 * StampFile::kEvery;
+    const std::uint64_t begin_us =
+        unix_time_us(kept.timestamp) + static_cast<std::uint64_t>(lost.count());
+    return [begin_us, clock = std::move(clock), begin = steady_clock::now()] {
+        const auto gone = duration_cast<microseconds>(steady_clock::now() - begin).count();
+        return std::max(clock(), begin_us + static_cast<std::uint64_t>(gone));
+    };
+}
+
 }  // namespace
 
 SigningKey read_signing_key(const std::filesystem::path& path) {
@@ -96,11 +117,39 @@ void sign(Link& link, const std::filesystem::path& key_file, std::uint8_t link_i
     if (key_file.empty()) {
         return;
     }
-    link.sign({.key = read_signing_key(key_file), .link_id = link_id, .unix_us = [] {
-                   using namespace std::chrono;
-                   return static_cast<std::uint64_t>(
-                       duration_cast<microseconds>(system_clock::now().time_since_epoch()).count());
-               }});
+    link.sign({.key = read_signing_key(key_file), .link_id = link_id, .unix_us = machine_time_us});
+}
+
+std::filesystem::path stamp_path(const std::filesystem::path& key_file,
+                                 const std::filesystem::path& folder, const Sender& self,
+                                 std::uint8_t link_id) {
+    return (folder.empty() ? key_file.parent_path() : folder) /
+           fmt::format("{}.stamps-{}-{}-{}", key_file.filename().string(), self.system,
+                       self.component, link_id);
+}
+
+std::string sign_and_keep(Link& link, const std::filesystem::path& key_file,
+                          const std::filesystem::path& folder, std::uint8_t link_id,
+                          const std::function<std::uint64_t()>& now_us) {
+    if (key_file.empty()) {
+        return "";
+    }
+    LinkSigning signing{.key = read_signing_key(key_file),
+                        .link_id = link_id,
+                        .unix_us = now_us ? now_us : machine_time_us};
+    signing.stamps =
+        std::make_shared<StampFile>(stamp_path(key_file, folder, link.self(), link_id));
+    const SigningStamps& kept = signing.stamps->before();
+    const std::uint64_t now = signing_time(signing.unix_us());
+    std::string notice;
+    if (now < kept.timestamp) {
+        notice =
+            fmt::format("signing: this machine's clock is {} s behind {}; time goes on from there",
+                        (kept.timestamp - now) / kSigningSecond, signing.stamps->path().string());
+        signing.unix_us = not_before(kept, std::move(signing.unix_us));
+    }
+    link.sign(std::move(signing));
+    return notice;
 }
 
 }  // namespace limpet::mavlink

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "limpet/mavlink/link.hpp"
 
@@ -17,5 +19,20 @@ namespace limpet::mavlink {
 /// Signs a link with the key in a file, by the machine's clock; an empty path leaves it unsigned.
 /// @throws InputError as read_signing_key
 void sign(Link& link, const std::filesystem::path& key_file, std::uint8_t link_id = 0);
+
+/// Where a link's signing timestamps lie: KEY_FILE's name, and who sends on which link.
+/// @param folder  empty: beside the key
+[[nodiscard]] std::filesystem::path stamp_path(const std::filesystem::path& key_file,
+                                               const std::filesystem::path& folder,
+                                               const Sender& self, std::uint8_t link_id);
+
+/// Signs as above, and keeps the timestamps in stamp_path(): they outlive a restart and a clock
+/// that was set back, which is then taken to stand where they ended.
+/// @param now_us  the machine's clock [us since 1970 UTC]
+/// @return that the clock is behind them, for people; empty: it is not
+/// @throws InputError as read_signing_key and StampFile
+[[nodiscard]] std::string sign_and_keep(Link& link, const std::filesystem::path& key_file,
+                                        const std::filesystem::path& folder, std::uint8_t link_id,
+                                        const std::function<std::uint64_t()>& now_us = {});
 
 }  // namespace limpet::mavlink

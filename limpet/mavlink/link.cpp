@@ -19,6 +19,36 @@ Link::Link(std::unique_ptr<wire::Transport> transport, Sender self)
 void Link::sign(LinkSigning signing) {
     seal_->signing.emplace(signing.key, signing.link_id);
     seal_->unix_us = std::move(signing.unix_us);
+    seal_->stamps = std::move(signing.stamps);
+    if (seal_->stamps) {
+        seal_->signing->restore(seal_->stamps->before());
+    }
+}
+
+Link::Seal::~Seal() {
+    if (stamps) {
+        stamps->close_with(signing->stamps());
+    }
+}
+
+bool Link::Seal::accepts(const Frame& frame, bool check) {
+    if (!signing) {
+        return true;
+    }
+    const std::uint64_t now = signing_time(unix_us());
+    const std::uint64_t time = std::max(now, signing->timestamp());
+    const Verdict verdict = check ? signing->check(frame, now) : signing->judge(frame, now);
+    refusals.count(verdict, frame, time, now);
+    offer_stamps();
+    return verdict == Verdict::accepted;
+}
+
+/// Once a second: who keeps them writes more rarely.
+void Link::Seal::offer_stamps() {
+    if (stamps && signing->timestamp() >= offered + kSigningSecond) {
+        offered = signing->timestamp();
+        stamps->offer(signing->stamps());
+    }
 }
 
 void Link::admit_by_heartbeat() {
@@ -26,14 +56,9 @@ void Link::admit_by_heartbeat() {
         ByteView bytes(reinterpret_cast<const std::uint8_t*>(datagram.data()), datagram.size());
         Parser parser;
         while (const auto frame = parser.next(bytes)) {
-            if (frame->id != Heartbeat::kId) {
-                continue;
-            }
-            if (!seal->signing ||
-                seal->signing->judge(*frame, signing_time(seal->unix_us())) == Verdict::accepted) {
+            if (frame->id == Heartbeat::kId && seal->accepts(*frame, false)) {
                 return true;
             }
-            ++seal->refused;
         }
         return false;
     });
@@ -47,6 +72,7 @@ std::uint64_t Link::generation() const {
 wire::TransferStatus Link::send_frame(ByteView frame, std::chrono::nanoseconds timeout) {
     if (seal_->signing) {
         frame = seal_->signing->sign(out_, frame, signing_time(seal_->unix_us()));
+        seal_->offer_stamps();
     }
     if (!corked_) {
         return send_bytes(frame, 1, timeout);
@@ -81,21 +107,12 @@ wire::TransferStatus Link::uncork(std::chrono::nanoseconds timeout) {
     return messages == 0 ? wire::TransferStatus::done : send_bytes(bytes, messages, timeout);
 }
 
-bool Link::accepts(const Frame& frame) {
-    if (!seal_->signing ||
-        seal_->signing->check(frame, signing_time(seal_->unix_us())) == Verdict::accepted) {
-        return true;
-    }
-    ++seal_->refused;
-    return false;
-}
-
 std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point end = Clock::now() + timeout;
     for (int pieces = 0; pieces < kMostPieces || Clock::now() < end;) {
         while (const auto frame = parser_.next(unread_)) {
-            if (accepts(*frame)) {
+            if (seal_->accepts(*frame, true)) {
                 ++count_.received;
                 return frame;
             }
@@ -122,12 +139,17 @@ std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
 
 LinkCount Link::count() const {
     LinkCount count = count_;
-    count.unsigned_ = seal_->refused;
     const LinkStatistics& now = parser_.statistics();
     count.lost = before_.lost + now.lost;
     count.damaged = before_.bad_checksum + now.bad_checksum;
     count.discarded_bytes = before_.discarded_bytes + now.discarded_bytes;
+    count.refusals = seal_->refusals;
+    count.unsigned_ = count.refusals.total();
     return count;
+}
+
+std::string Link::trouble_with_stamps() const {
+    return seal_->stamps ? seal_->stamps->trouble() : "";
 }
 
 }  // namespace limpet::mavlink

@@ -8,9 +8,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "limpet/mavlink/codec.hpp"
+#include "limpet/mavlink/refusals.hpp"
 #include "limpet/mavlink/signing.hpp"
+#include "limpet/mavlink/stamp_file.hpp"
 #include "limpet/wire/transport.hpp"
 
 namespace limpet::mavlink {
@@ -31,6 +34,7 @@ struct LinkSigning {
     SigningKey key = {};
     std::uint8_t link_id = 0;
     std::function<std::uint64_t()> unix_us;  ///< the clock [us since 1970 UTC]
+    std::shared_ptr<StampFile> stamps = {};  ///< goes on from there, and keeps them there
 };
 
 /// What a link has carried since it was made.
@@ -40,7 +44,8 @@ struct LinkCount {
     std::uint64_t received = 0;   ///< frames handed out
     std::uint64_t lost = 0;       ///< left out by sequence number
     std::uint64_t damaged = 0;    ///< wrong checksum
-    std::uint64_t unsigned_ = 0;  ///< refused for their signature
+    std::uint64_t unsigned_ = 0;  ///< refused for their signature: the sum of `refusals`
+    Refusals refusals;            ///< of who wants to be a peer, too
     std::uint64_t discarded_bytes = 0;
 };
 
@@ -80,6 +85,8 @@ public:
     [[nodiscard]] std::uint64_t generation() const;
 
     [[nodiscard]] LinkCount count() const;
+    /// Why signing timestamps could not be kept; empty: they could, or need not be.
+    [[nodiscard]] std::string trouble_with_stamps() const;
     [[nodiscard]] const Sender& self() const { return self_; }
     [[nodiscard]] const wire::Transport& transport() const { return *transport_; }
 
@@ -87,13 +94,23 @@ private:
     wire::TransferStatus send_frame(ByteView frame, std::chrono::nanoseconds timeout);
     wire::TransferStatus send_bytes(ByteView bytes, std::uint64_t messages,
                                     std::chrono::nanoseconds timeout);
-    [[nodiscard]] bool accepts(const Frame& frame);
 
     /// Shared with the admission, which outlives a move of the link.
     struct Seal {
+        Seal() = default;
+        ~Seal();
+        Seal(const Seal&) = delete;
+        Seal& operator=(const Seal&) = delete;
+
+        /// @param check  or only judge
+        [[nodiscard]] bool accepts(const Frame& frame, bool check);
+        void offer_stamps();
+
         std::optional<Signing> signing;
         std::function<std::uint64_t()> unix_us;
-        std::uint64_t refused = 0;  ///< for their signature
+        std::shared_ptr<StampFile> stamps;
+        std::uint64_t offered = 0;  ///< signing time
+        Refusals refusals;
     };
 
     std::unique_ptr<wire::Transport> transport_;

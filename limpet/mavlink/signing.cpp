@@ -14,17 +14,12 @@ namespace {
 
 /// 2015-01-01 00:00 UTC, of which MAVLink counts [us since 1970].
 constexpr std::uint64_t kEpoch_us = 1'420'070'400'000'000;
-constexpr std::uint64_t kLargestTimestamp = (std::uint64_t{1} << 48U) - 1;
 constexpr std::size_t kTimestamp_bytes = 6;
 constexpr std::size_t kDigest_bytes = 6;
 
 struct FreeContext {
     void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
-
-std::uint64_t stamp_of(const Frame& frame) {
-    return boost::endian::load_little_u48(&frame.bytes.last(kSignature_bytes)[1]);
-}
 
 }  // namespace
 
@@ -35,6 +30,14 @@ struct Signing::Hasher {
 
 std::uint64_t signing_time(std::uint64_t unix_us) {
     return unix_us > kEpoch_us ? (unix_us - kEpoch_us) / 10 : 0;
+}
+
+std::uint64_t unix_time_us(std::uint64_t signing_time) {
+    return kEpoch_us + 10 * signing_time;
+}
+
+std::uint64_t stamp_of(const Frame& frame) {
+    return boost::endian::load_little_u48(&frame.bytes.last(kSignature_bytes)[1]);
 }
 
 Signing::Signing(const SigningKey& key, std::uint8_t link_id)
@@ -74,9 +77,9 @@ ByteView Signing::sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now) {
     boost::endian::store_little_u16(
         &buffer[covered], frame_checksum(ByteView(buffer).first(covered), info->crc_extra));
 
-    timestamp_ = std::min(std::max(timestamp_ + 1, now), kLargestTimestamp);
+    stamps_.timestamp = std::min(std::max(stamps_.timestamp + 1, now), kLargestTimestamp);
     buffer[frame.size()] = link_id_;
-    boost::endian::store_little_u48(&buffer[frame.size() + 1], timestamp_);
+    boost::endian::store_little_u48(&buffer[frame.size() + 1], stamps_.timestamp);
     const std::size_t hashed = frame.size() + 1 + kTimestamp_bytes;
     const Digest signature = digest(ByteView(buffer).first(hashed));
     std::copy(signature.begin(), signature.end(), &buffer[hashed]);
@@ -85,12 +88,31 @@ ByteView Signing::sign(FrameBuffer& buffer, ByteView frame, std::uint64_t now) {
 
 Signing::Heard* Signing::heard(const Frame& frame) {
     const std::uint8_t link_id = frame.bytes.last(kSignature_bytes)[0];
-    const auto known = std::span(heard_).first(senders_);
+    const auto known = std::span(stamps_.heard).first(stamps_.senders);
     const auto sender = std::find_if(known.begin(), known.end(), [&](const Heard& heard) {
         return heard.system == frame.system && heard.component == frame.component &&
                heard.link_id == link_id;
     });
     return sender == known.end() ? nullptr : &*sender;
+}
+
+Signing::Heard* Signing::room(std::uint64_t now) {
+    if (stamps_.senders < kMaxSenders) {
+        return &stamps_.heard[stamps_.senders];
+    }
+    const std::uint64_t time = std::max(stamps_.timestamp, now);
+    const auto gone = std::find_if(
+        stamps_.heard.begin(), stamps_.heard.end(),
+        [&](const Heard& heard) { return heard.restored && heard.timestamp + kLargestAge < time; });
+    return gone == stamps_.heard.end() ? nullptr : &*gone;
+}
+
+void Signing::restore(const SigningStamps& stamps) {
+    stamps_ = stamps;
+    stamps_.are_last = false;
+    for (Heard& heard : stamps_.heard) {
+        heard.restored = true;
+    }
 }
 
 Verdict Signing::judge(const Frame& frame, std::uint64_t now) {
@@ -103,26 +125,33 @@ Verdict Signing::judge(const Frame& frame, std::uint64_t now) {
         return Verdict::wrong_signature;
     }
     const std::uint64_t stamped = stamp_of(frame);
-    if (const Heard* sender = heard(frame)) {
-        return stamped <= sender->timestamp ? Verdict::replayed : Verdict::accepted;
+    const Heard* sender = heard(frame);
+    if (sender != nullptr && stamped <= sender->timestamp) {
+        return Verdict::replayed;
     }
-    if (stamped + kLargestAge < std::max(timestamp_, now)) {
+    const bool is_new = sender == nullptr || sender->restored;
+    if (is_new && stamped + kLargestAge < std::max(stamps_.timestamp, now)) {
         return Verdict::too_old;
     }
-    return senders_ == kMaxSenders ? Verdict::too_many_senders : Verdict::accepted;
+    return sender == nullptr && room(now) == nullptr ? Verdict::too_many_senders
+                                                     : Verdict::accepted;
 }
 
 Verdict Signing::check(const Frame& frame, std::uint64_t now) {
     const Verdict verdict = judge(frame, now);
     if (verdict == Verdict::accepted) {
         const std::uint64_t stamped = stamp_of(frame);
-        if (Heard* sender = heard(frame)) {
-            sender->timestamp = stamped;
-        } else {
-            const std::uint8_t link_id = frame.bytes.last(kSignature_bytes)[0];
-            heard_[senders_++] = {frame.system, frame.component, link_id, stamped};
+        Heard* sender = heard(frame);
+        if (sender == nullptr) {
+            sender = room(now);
+            stamps_.senders = std::min(stamps_.senders + 1, kMaxSenders);
         }
-        timestamp_ = std::max(timestamp_, stamped);
+        *sender = {.system = frame.system,
+                   .component = frame.component,
+                   .link_id = frame.bytes.last(kSignature_bytes)[0],
+                   .restored = false,
+                   .timestamp = stamped};
+        stamps_.timestamp = std::max(stamps_.timestamp, stamped);
     }
     return verdict;
 }

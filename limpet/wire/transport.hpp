@@ -65,7 +65,7 @@ public:
 
     /// Of a UDP end that listens: nobody is its peer before a datagram of theirs is let in, and
     /// what others send meanwhile is dropped and counted. Elsewhere a connection says who is there.
-    virtual void admit(Admission /*admission*/) {}
+    virtual void admit(const Admission& /*admission*/) {}
 
     /// Ends it for good; a second call does nothing. The destructor closes too.
     virtual void close() = 0;

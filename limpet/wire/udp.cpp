@@ -100,7 +100,7 @@ public:
         return !closed_ && peer_known_;
     }
 
-    void admit(Admission admission) override { admission_ = std::move(admission); }
+    void admit(const Admission& admission) override { admission_ = admission; }
 
     void close() override {
         closed_ = true;

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
 #include <thread>
 
 #include "free_port.hpp"
@@ -40,7 +46,8 @@ TEST(CompanionVerb, CheckSaysWhatItWouldDoAndOpensNothing) {
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
     for (const char* part : {"autopilot   serial:/dev/ttyAMA0:921600", "waits until an operator",
                              "NatNet on udp-multi", "TFmini Plus, left serial:",
-                             "lines over serial:", "signing     none", "hands back  pose"}) {
+                             "lines over serial:", "signing     none", "hands back  pose",
+                             "loop        asks for SCHED_FIFO 20 and locked memory"}) {
         EXPECT_THAT(finished.out, HasSubstr(part));
     }
     EXPECT_TRUE(bench.files().empty());
@@ -79,6 +86,104 @@ TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
     EXPECT_THAT(finished.err, HasSubstr("limpet: nothing was flown: waited 2 s: no"));
     EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
     EXPECT_EQ(record::read_recording(bench.folder() / "out/companion/flight.mcap").damage, "");
+}
+
+TEST(CompanionVerb, SaysWhetherItGotRealTimeAndHowLateItWas) {
+    for (const std::string priority : {"5", "0"}) {
+        const Bench bench;
+        const Finished finished = bench.run(
+            Ports().companion_words({"--set", "limits.wait_limit_s=1", "--set",
+                                     "loop.real_time_priority=" + priority, "--no-record"}));
+        EXPECT_EQ(finished.exit_code, 2) << finished.err;
+        EXPECT_THAT(finished.out,
+                    testing::ContainsRegex(priority == "0" ? "real time: not asked for"
+                                                           : "real time: .*(SCHED_FIFO 5|memory)"));
+        EXPECT_THAT(finished.out, testing::ContainsRegex(
+                                      "[0-9]+ ticks, [0-9]+ of them late by more than a period; "
+                                      "late by [0-9.]+ ms .median., .* ms .worst."));
+    }
+}
+
+TEST(CompanionVerb, TellsItsServiceManagerThatItsLoopRuns) {
+    const Bench bench;
+    const std::string name = (bench.folder() / "notify").string();
+    const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+    sockaddr_un here{};
+    here.sun_family = AF_UNIX;
+    ASSERT_LT(name.size(), sizeof(here.sun_path));
+    std::memcpy(here.sun_path, name.c_str(), name.size() + 1);
+    ASSERT_EQ(bind(socket, reinterpret_cast<const sockaddr*>(&here), sizeof(here)), 0);
+    setenv("NOTIFY_SOCKET", name.c_str(), 1);
+    setenv("WATCHDOG_USEC", "1200000", 1);
+    const Finished finished =
+        bench.run(Ports().companion_words({"--set", "limits.wait_limit_s=1", "--no-record"}));
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
+    EXPECT_EQ(finished.exit_code, 2) << finished.err;
+    std::vector<std::string> words;
+    char text[100];
+    for (ssize_t size = 0; (size = recv(socket, text, sizeof(text), 0)) >= 0;) {
+        words.emplace_back(text, static_cast<std::size_t>(size));
+    }
+    close(socket);
+    ASSERT_GE(words.size(), 3U);
+    EXPECT_EQ(words.front(), "READY=1");
+    EXPECT_EQ(words[1], "WATCHDOG=1");
+    EXPECT_EQ(words.back(), "STOPPING=1");
+}
+
+const char* const kUnit = LIMPET_SOURCE_DIR "/packaging/limpet-companion@.service";
+
+TEST(CompanionUnit, StartsWhatTheProgramKnows) {
+    const std::string unit = text_of(kUnit);
+    const std::string start = "ExecStart=limpet ";
+    const auto at = unit.find(start);
+    ASSERT_NE(at, std::string::npos);
+    std::istringstream line(
+        unit.substr(at + start.size(), unit.find('\n', at) - at - start.size()));
+    std::vector<std::string> words;
+    for (std::string word; line >> word;) {
+        if (word != "$OPTIONS") {
+            words.push_back(word == "/etc/limpet/%i.yaml" ? "simulation" : word);
+        }
+    }
+    words.emplace_back("--check");
+    const Bench bench;
+    const Finished finished = bench.run(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_THAT(finished.out, HasSubstr("waits until an operator")) << "a restart arms nobody";
+}
+
+/// The shipped unit, with this program in the installed one's place.
+TEST(CompanionUnit, IsAsSystemdWantsIt) {
+    if (std::system("systemd-analyze --version >/dev/null 2>&1") != 0) {
+        GTEST_SKIP() << "no systemd-analyze (package systemd)";
+    }
+    const Bench bench;
+    std::string unit = text_of(kUnit);
+    const std::string start = "ExecStart=limpet ";
+    const auto at = unit.find(start);
+    ASSERT_NE(at, std::string::npos);
+    unit.replace(at, start.size(), "ExecStart=" LIMPET_PROGRAM " ");
+    const std::string folder = bench.folder().string();
+    const auto complaint = [&](const std::string& text) {
+        (void)bench.write("limpet-companion@.service", text);
+        (void)std::system(("cd " + folder +
+                           " && systemd-analyze verify --man=no ./limpet-companion@wall.service "
+                           ">said 2>&1; echo exit $? >>said")
+                              .c_str());
+        std::istringstream said(text_of(bench.folder() / "said"));
+        std::string ours;
+        for (std::string line;
+             std::getline(said, line);) {  // it speaks of the machine's units, too
+            if (line.find("limpet-companion") != std::string::npos || line == "exit 1") {
+                ours += line + "\n";
+            }
+        }
+        return ours;
+    };
+    EXPECT_EQ(complaint(unit), "");
+    EXPECT_NE(complaint(unit + "\n[Service]\nLimitRTPRIO=many\n"), "") << "it looks";
 }
 
 TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {

@@ -149,6 +149,54 @@ TEST(Companion, WithAKeyHearsOnlyWhatIsSigned) {
     }
 }
 
+TEST(Companion, ThatWaitsForWhatItRefusesSaysWhy) {
+    constexpr std::uint64_t kNow_us = 1'700'000'000'000'000;
+    const auto signing = [](std::uint8_t secret, std::uint64_t now_us) {
+        mavlink::LinkSigning with{.key = {}, .link_id = 5, .unix_us = [now_us] { return now_us; }};
+        with.key.fill(secret);
+        return with;
+    };
+    struct Case {
+        std::uint8_t secret;
+        std::uint64_t now_us;
+        const char* waits;
+        const char* report;
+    };
+    for (const Case& with :
+         {Case{2, kNow_us, "(refused: signed with another key)", " signed with another key"},
+          Case{1, kNow_us - 3'600'000'000, "(refused: over a minute too old: its clock is behind ",
+               " over a minute too old, up to 3600 s behind our time"}}) {
+        Rehearsal r({"limits.wait_limit_s=2"});
+        r.wires.autopilot->sign(signing(1, kNow_us));
+        r.wires.sensors->sign(signing(1, kNow_us));
+        r.stage.sign_autopilot(signing(with.secret, with.now_us));
+        ASSERT_TRUE(r.run_out(5.0));
+        EXPECT_EQ(r.result().end, CompanionEnd::absent);
+        EXPECT_THAT(r.result().reason,
+                    testing::HasSubstr(std::string("no heartbeat of the autopilot that is taken ") +
+                                       with.waits));
+        EXPECT_THAT(r.result().reason,
+                    testing::HasSubstr("the sensors' wire brings what is refused (not signed)"));
+        EXPECT_LE(r.lines.size(), 3U) << "not a line a frame";
+        const std::vector<std::string> report = signing_report(r.wires);
+        ASSERT_EQ(report.size(), 2U);
+        EXPECT_THAT(report[0], testing::StartsWith("autopilot: "));
+        EXPECT_THAT(report[0], testing::EndsWith(with.report));
+        EXPECT_THAT(report[1], testing::MatchesRegex("sensors: ([0-9]+) frames refused: .* not "
+                                                     "signed"));
+    }
+}
+
+TEST(Companion, ARefusalThatIsOverIsNoReasonAnyMore) {
+    RefusalWatch watch;
+    mavlink::Refusals refusals;
+    EXPECT_EQ(watch.reasons(refusals, 10.0, 3.0), "");
+    refusals.by_verdict[static_cast<std::size_t>(mavlink::Verdict::replayed)] = 4;
+    EXPECT_EQ(watch.reasons(refusals, 11.0, 3.0), "played again, or its clock was set back");
+    EXPECT_NE(watch.reasons(refusals, 14.0, 3.0), "");
+    EXPECT_EQ(watch.reasons(refusals, 14.1, 3.0), "");
+}
+
 TEST(Companion, IsNotWaitedForLongerThanTheOperatorsLimit) {
     Rehearsal r({"autopilot.asks_for_mode=false", "limits.operator_limit_s=5"});
     ASSERT_TRUE(r.run_out(8.0));

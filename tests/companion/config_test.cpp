@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using wire::Medium;
 
 const std::string kGood = R"(vehicle: perching_uav
 mission: perch
@@ -184,6 +185,46 @@ TEST(CompanionConfig, RefusesOneWireForTwo) {
                                  "source: tfmini\n  left: serial:/dev/ttyUSB0:115200\n"
                                  "  right: serial:/dev/ttyUSB0:115200")),
                 HasSubstr("lidars.left and lidars.right are both serial:/dev/ttyUSB0:115200"));
+}
+
+TEST(CompanionConfig, TheLoopsPriorityCanBeTurnedAndTurnedOff) {
+    EXPECT_EQ(load(kGood).real_time_priority, 20);
+    EXPECT_EQ(load(kGood + "loop: {real_time_priority: 0}\n").real_time_priority, 0);
+    EXPECT_EQ(load(kGood, {"loop.real_time_priority=49"}).real_time_priority, 49);
+    EXPECT_THAT(refusal(kGood + "loop: {real_time_priority: 50}\n"),
+                HasSubstr("loop.real_time_priority: 50 is out of range, allowed 0..49"));
+    EXPECT_THAT(refusal(kGood + "loop: {real_time_priority: 1.5}\n"), HasSubstr("whole"));
+    EXPECT_THAT(refusal(kGood + "loop: {priority: 5}\n"), HasSubstr("priority"));
+    const auto describes = [](const CompanionConfig& config, const std::string& line) {
+        const std::vector<std::string> lines = describe(config);
+        return std::find(lines.begin(), lines.end(), line) != lines.end();
+    };
+    EXPECT_TRUE(describes(load(kGood), "loop        asks for SCHED_FIFO 20 and locked memory"));
+    EXPECT_TRUE(describes(load(kGood + "loop: {real_time_priority: 0}\n"),
+                          "loop        at ordinary priority, as its file wants"));
+}
+
+TEST(CompanionConfig, KeepsSigningTimestampsBesideTheKeyOrElsewhere) {
+    EXPECT_THAT(refusal(kGood + "signing_state_folder: s\n"),
+                HasSubstr("signing_state_folder: is of use only with signing_key_file"));
+    CompanionConfig config = load(kGood + "signing_key_file: key\nsigning_state_folder: s\n");
+    EXPECT_EQ(config.signing_state_folder, config.signing_key_file.parent_path() / "s");
+    config.autopilot = {.medium = Medium::udp};
+    config.mechanism = MechanismWire::mavlink;
+    config.pose_source = PoseSource::mavlink;
+    fs::remove_all(config.signing_state_folder);
+    fs::remove(config.signing_key_file);
+    fs::create_directories(config.signing_state_folder);
+    std::ofstream(config.signing_key_file) << std::string(64, 'b');
+    fs::permissions(config.signing_key_file, fs::perms::owner_read | fs::perms::owner_write);
+    check_signing(config);
+    EXPECT_TRUE(fs::is_empty(config.signing_state_folder)) << "checks, writes nothing";
+    EXPECT_TRUE(open_wires(config).notices.empty());
+    const fs::path stamps = config.signing_state_folder / "key.stamps-1-191-0";
+    EXPECT_TRUE(fs::exists(stamps));
+    std::ofstream(stamps) << "rubbish\n";
+    EXPECT_THROW(check_signing(config), InputError);
+    EXPECT_THROW((void)open_wires(config), InputError);
 }
 
 TEST(CompanionConfig, RefusesAKeyFileThatIsNone) {

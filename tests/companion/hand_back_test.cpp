@@ -88,7 +88,7 @@ TEST(HandBack, ATickThatIsALittleLateIsCountedAlone) {
     r.tick();
     EXPECT_EQ(r.companion->phase(), SessionPhase::flying);
     EXPECT_EQ(r.result().late_ticks, 1U);
-    EXPECT_DOUBLE_EQ(r.result().latest_s, 0.29);
+    EXPECT_DOUBLE_EQ(r.result().lateness.worst_s(), 0.29);
 }
 
 TEST(HandBack, WhereTheOperatorTakesTheModeNothingIsAskedForAnyMore) {

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
@@ -74,8 +75,10 @@ TEST(Run, FliesAMissionOnAbsoluteDeadlinesAndRecordsIt) {
     EXPECT_THROW((void)recording.table("/truth/pose"), InputError) << "nobody knows it";
     ASSERT_NE(recording.attachment("companion.yaml"), nullptr);
     ASSERT_NE(recording.attachment("summary.json"), nullptr);
-    EXPECT_THAT(recording.attachment("summary.json")->text,
-                testing::HasSubstr("\"outcome\": \"released\""));
+    const auto summary = nlohmann::json::parse(recording.attachment("summary.json")->text);
+    EXPECT_EQ(summary["outcome"], "released");
+    EXPECT_EQ(summary["lateness_s"]["worst"], result.lateness.worst_s());
+    EXPECT_EQ(summary["lateness_s"]["median"], result.lateness.quantile_s(0.5));
     fs::remove(file);
 }
 
@@ -91,7 +94,9 @@ TEST(Run, CountsATickThatCameLateAndDoesNotMakeUpForIt) {
     const CompanionResult result = theatre.run();
     EXPECT_EQ(result.outcome, Outcome::released) << result.reason;
     EXPECT_EQ(result.late_ticks, 1U);
-    EXPECT_NEAR(result.latest_s, 0.1, 0.021);
+    EXPECT_NEAR(result.lateness.worst_s(), 0.1, 0.021);
+    EXPECT_EQ(result.lateness.count(), result.ticks);
+    EXPECT_LT(result.lateness.quantile_s(0.99), 0.001) << "one of many";
     EXPECT_NEAR(static_cast<double>(result.ticks), (result.last_s - 0.1) / 0.02, 3.0);
 }
 

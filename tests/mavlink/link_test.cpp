@@ -117,6 +117,8 @@ TEST(Link, SignedHearsSignedAlone) {
     wire.ends->to_receive.push_back(stranger.ends->sent.front());
     EXPECT_FALSE(wire.link.receive()) << "another key";
     EXPECT_THAT(wire.link.count().unsigned_, Eq(3U));
+    EXPECT_THAT(text_of(wire.link.count().refusals),
+                Eq("3 frames refused: 1 not signed, 1 signed with another key, 1 played again"));
     EXPECT_THAT(wire.link.count().received, Eq(1U));
 }
 
@@ -170,6 +172,7 @@ TEST(Link, ASignedOneIsTakenByNoUnsignedHeartbeat) {
     Sender forger{.system = 1, .component = 1};
     wire.say(ScriptedLink::frame_of(beat(), forger));
     EXPECT_EQ(wire.here.count().unsigned_, 1U);
+    EXPECT_EQ(reasons_of(wire.here.count().refusals), "not signed") << "before it is a peer, too";
     wire.expect_the_autopilot_is_heard();
 }
 

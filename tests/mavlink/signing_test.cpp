@@ -142,8 +142,46 @@ TEST(Signing, GoesOnAfterARestartWithoutAClock) {
     Signing ours(counting_key(), 3);
     EXPECT_EQ(judged(ours, peer.send(kNow)), Verdict::accepted);
     SigningPeer again{Signing(counting_key(), 3)};
-    again.signing.set_timestamp(peer.signing.timestamp());
+    again.signing.restore(peer.signing.stamps());
     EXPECT_EQ(judged(ours, again.send(0)), Verdict::accepted);
+}
+
+TEST(Signing, AfterARestartNothingOfBeforeIsTaken) {
+    SigningPeer peer{Signing(counting_key(), 3)};
+    SigningPeer elsewhere{Signing(counting_key(), 3)};
+    Signing before(counting_key(), 0);
+    const auto recorded = peer.send(kNow);
+    EXPECT_EQ(judged(before, recorded), Verdict::accepted);
+    EXPECT_EQ(judged(before, peer.send(kNow + 5)), Verdict::accepted);
+
+    Signing forgetful(counting_key(), 0);
+    EXPECT_EQ(judged(forgetful, recorded), Verdict::accepted) << "what the stamps are kept for";
+    Signing after(counting_key(), 0);
+    after.restore(before.stamps());
+    EXPECT_EQ(judged(after, recorded, 0), Verdict::replayed) << "whatever our clock says";
+    // What it told others meanwhile is new to us, and old.
+    const auto told_others = elsewhere.send(kNow + 6);
+    EXPECT_EQ(judged(after, told_others, kNow + 7 + Signing::kLargestAge), Verdict::too_old);
+    EXPECT_EQ(judged(after, peer.send(kNow + Signing::kLargestAge), kNow + Signing::kLargestAge),
+              Verdict::accepted);
+    EXPECT_EQ(judged(after, peer.send(0), 3 * kNow), Verdict::accepted) << "known from then on";
+}
+
+TEST(Signing, SendersOfBeforeGiveWayOnceAllTheirsIsTooOld) {
+    Signing before(counting_key(), 0);
+    for (std::uint8_t link = 0; link < Signing::kMaxSenders; ++link) {
+        SigningPeer peer{Signing(counting_key(), link)};
+        EXPECT_EQ(judged(before, peer.send(kNow + link)), Verdict::accepted);
+    }
+    Signing after(counting_key(), 0);
+    after.restore(before.stamps());
+    SigningPeer another{Signing(counting_key(), 200)};
+    EXPECT_EQ(judged(after, another.send(kNow + 100), kNow + 100), Verdict::too_many_senders);
+    const std::uint64_t later = kNow + Signing::kLargestAge + 8;
+    EXPECT_EQ(judged(after, another.send(later), later), Verdict::accepted);
+    EXPECT_EQ(after.stamps().senders, Signing::kMaxSenders);
+    SigningPeer last{Signing(counting_key(), Signing::kMaxSenders - 1)};
+    EXPECT_EQ(judged(after, last.send(kNow + 15), later), Verdict::replayed) << "still known";
 }
 
 TEST(Signing, EveryMessageFitsSigned) {
