@@ -34,7 +34,10 @@ void loop(const CompanionConfig& config, Companion& companion, const CompanionCl
         const bool stop = (conduct.stop != nullptr && *conduct.stop) ||
                           (conduct.wants_end && conduct.wants_end());
         companion.tick(now_s, now_s - deadline_s, stop);
-        deadline_s = std::max(deadline_s + period_s, now_s);
+        deadline_s += period_s;
+        if (deadline_s <= now_s) {
+            deadline_s = now_s + period_s;
+        }
         for (now_s = clock.now_s(); now_s < deadline_s && !companion.over();
              now_s = clock.now_s()) {
             companion.poll(now_s);
