@@ -7,13 +7,12 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "drawn.hpp"
 #include "flown.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
@@ -24,25 +23,6 @@ namespace {
 
 const std::vector<std::string> kScenarios = {"perch_concrete", "perch_metal", "perch_metal_valve",
                                              "perch_cinder_block"};
-
-/// What says how a flight is flown, not how it is reckoned.
-bool is_drawn(const std::string& section, const BoundParameter& row) {
-    return section == "guidance" || section == "sensors" || section == "environment" ||
-           section == "suction" || section == "wall.surface" || section == "vehicle.battery" ||
-           (section == "simulation" && row.name.rfind("start_", 0) == 0);
-}
-
-/// Somewhere in the range; by its logarithm where that spans decades, a fault within the flight.
-double drawn(const BoundParameter& row, RandomStream& random) {
-    constexpr double kFlight_s = 60.0;
-    constexpr double kDecades = 100.0;
-    const double highest = row.name.find("_at_s") != row.name.npos ? kFlight_s : row.maximum;
-    const double u = random.uniform();
-    const double value = row.minimum > 0.0 && highest > kDecades * row.minimum
-                             ? row.minimum * std::pow(highest / row.minimum, u)
-                             : row.minimum + (highest - row.minimum) * u;
-    return row.value.is_whole() ? std::floor(value) : value;
-}
 
 std::vector<std::string> one_to_six(const std::string& name, RandomStream& random) {
     scenario::Scenario scenario = scenario::load_scenario(name);

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "drawn.hpp"
 #include "flown.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
@@ -54,7 +55,6 @@ std::optional<Scenario> loaded(const std::string& name, std::vector<std::string>
 
 /// Every number of vehicle, cup and surface at once, up to a factor of 1.3 either way.
 std::vector<std::string> nearby(const std::string& name, RandomStream& random) {
-    constexpr double kBand = 1.3;
     return draw(
         scenario::load_scenario(name),
         [](const std::string& section, const BoundParameter& row) {
@@ -63,10 +63,7 @@ std::vector<std::string> nearby(const std::string& name, RandomStream& random) {
             // height_m of the rotors is said by the list of hubs as well.
             return theirs && row.value.get() != 0.0 && row.name != "height_m";
         },
-        [&random](const BoundParameter& row) {
-            const double factor = std::pow(kBand, 2.0 * random.uniform() - 1.0);
-            return std::clamp(row.value.get() * factor, row.minimum, row.maximum);
-        });
+        [&random](const BoundParameter& row) { return drawn_nearby(row, random); });
 }
 
 struct Pair {
