@@ -250,10 +250,10 @@ bool brakes_held(const Scene& s) {
     return retreat_too_long(s) && (vote_of_pressure(s) == Vote::held || pulls(s));
 }
 bool settled_released(const Scene& s) {
-    return s.settled() && s.memory.cup.lets_go;
+    return s.settled() && s.memory.has_perched && s.memory.cup.lets_go;
 }
 bool too_long_released(const Scene& s) {
-    return retreat_too_long(s) && s.memory.cup.lets_go;
+    return retreat_too_long(s) && s.memory.has_perched && s.memory.cup.lets_go;
 }
 bool attempts_used_up(const Scene& s) {
     return s.settled() && s.memory.attempt >= s.parameters.attempts;

@@ -301,6 +301,17 @@ TEST(Missions, ACupThatHoldsIsNotLetGoByAPoseThatSlipped) {
     EXPECT_EQ(trace.result.outcome, Outcome::release_aborted) << trace.result.reason;
 }
 
+TEST(Missions, WhoNeverRestedIsNotReleased) {
+    // It feels no impact, and rotors that turn too fast when idle do not let it come to rest.
+    const Trace trace = simulation::trace(model_of(
+        "perch_cinder_block", {"sensors.force_range_N=3.8", "guidance.zero_thrust=0.42",
+                               "faults=[{fault: gust_across, size: 24.6, phase: backing_off, "
+                               "after_s: 1.95, for_s: 2.9}]"}));
+    EXPECT_TRUE(trace.times(perched).empty());
+    EXPECT_FALSE(trace.times(detached).empty());
+    EXPECT_EQ(trace.result.outcome, Outcome::aborted) << trace.result.reason;
+}
+
 TEST(Missions, WithAnEmptyBatteryItIsNotReleased) {
     const Trace trace = simulation::trace(model_of(
         "perch_metal", {"vehicle.battery.initial_charge=0.02", "guidance.battery_reserve=0"}));
