@@ -21,7 +21,7 @@ struct TangentFrame {
     double y_m = 0.0, z_m = 0.0;
     /// Along y_T and z_T, > 0 where the wall bulges towards the vehicle.
     double curvature_y_1_m = 0.0, curvature_z_1_m = 0.0;
-    bool on_wall = true;  ///< within the wall's edges
+    bool on_wall = true;  ///< within the wall's edges, not behind it
 
     /// Unit vector into the wall.
     [[nodiscard]] Vector3 into_W() const { return R_WT.col(0); }

@@ -17,7 +17,7 @@ TangentFrame plane_frame(const WallGeometry& wall, const Vector3& p_W_m) {
             .gap_m = -p_T_m.x(),
             .y_m = p_T_m.y(),
             .z_m = p_T_m.z(),
-            .on_wall = std::abs(p_T_m.y()) <= wall.half_width_m &&
+            .on_wall = p_T_m.x() <= kThickness_m && std::abs(p_T_m.y()) <= wall.half_width_m &&
                        std::abs(p_T_m.z()) <= wall.half_height_m};
 }
 

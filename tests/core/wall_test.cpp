@@ -67,6 +67,8 @@ TEST(PlaneWall, EndsAtItsEdges) {
     EXPECT_TRUE(tangent_frame(wall, {0.0, 0.5, -2.0}).on_wall);
     EXPECT_FALSE(tangent_frame(wall, {0.0, 0.51, 0.0}).on_wall);
     EXPECT_FALSE(tangent_frame(wall, {0.0, 0.0, 2.01}).on_wall);
+    EXPECT_TRUE(tangent_frame(wall, {1.1, 0.0, 0.0}).on_wall) << "deep in it";
+    EXPECT_FALSE(tangent_frame(wall, {1.3, 0.0, 0.0}).on_wall) << "behind it";
     EXPECT_EQ(before_wall_m(wall, {0.25, 9.0, 9.0}), 0.75);
     EXPECT_EQ(solid_of(wall).size_m.tail<2>(), Eigen::Vector2d(1.0, 4.0));
 }

@@ -84,9 +84,7 @@ inline void expect_consistent(const Flight& flight, const std::vector<Event>& ev
         return;
     }
     const bool sealed = suction::is_sealed(state.cup.status.phase);
-    // A motion beyond all bounds is a crash that need not touch anything.
-    const bool whirled = state.ending->reason.view().starts_with("turned faster");
-    EXPECT_EQ(outcome == Outcome::crashed, whirled || collision(model, state.truth).has_value());
+    EXPECT_EQ(outcome == Outcome::crashed, collision(model, state.truth).has_value());
     if (outcome == Outcome::released) {
         EXPECT_FALSE(sealed);
         EXPECT_TRUE(state.command.armed);
