@@ -12,13 +12,19 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
-/// Who has waited long in gusts asks for less; less still where nothing but waiting follows.
-double patience(const Scene& s) {
+/// Who has waited long in gusts asks for less.
+/// @param long_s  from then on
+double patience(double waited_s, double long_s) {
+    return std::max(1.0, waited_s / long_s);
+}
+
+double patience_before_wall(const Scene& s) {
     constexpr double kLong_s = 4.0;
-    const bool only_waits =
-        windy(s.parameters, s.memory) && (s.memory.state == PerchingState::retreating ||
-                                          s.memory.state == PerchingState::backing_off);
-    return std::max(1.0, s.elapsed_s() / (only_waits ? 0.5 * kLong_s : kLong_s));
+    constexpr double kLongOnTheWayBack_s = 2.0;  // nothing but waiting follows
+    const bool is_back =
+        s.memory.state == PerchingState::retreating || s.memory.state == PerchingState::backing_off;
+    return patience(s.elapsed_s(),
+                    is_back && windy(s.parameters, s.memory) ? kLongOnTheWayBack_s : kLong_s);
 }
 
 bool stands_at_pre_position(const Scene& s) {
@@ -28,8 +34,8 @@ bool stands_at_pre_position(const Scene& s) {
         std::max(0.0, lean_W_m_s2(s.estimate.q_WB).norm() - calm_m_s2(s.parameters));
     return s.memory.wall.ever &&
            (s.estimate.p_WB_m - pre_position_W(s.parameters, s.memory)).norm() <
-               patience(s) * s.parameters.pre_tolerance_m + kOff_s2 * leans_m_s2 &&
-           s.estimate.v_WB_m_s.norm() < patience(s) * s.parameters.pre_speed_m_s;
+               patience_before_wall(s) * s.parameters.pre_tolerance_m + kOff_s2 * leans_m_s2 &&
+           s.estimate.v_WB_m_s.norm() < patience_before_wall(s) * s.parameters.pre_speed_m_s;
 }
 
 bool sees_wall(const Scene& s) {
@@ -38,8 +44,8 @@ bool sees_wall(const Scene& s) {
 
 bool faces_wall(const Scene& s) {
     // Half of the limit: the other half is for the noise of the two LiDARs.
-    return std::abs(s.misalignment_rad()) <
-               0.5 * std::min(patience(s), 2.0) * radians(s.parameters.align_limit_deg) &&
+    return std::abs(s.misalignment_rad()) < 0.5 * std::min(patience_before_wall(s), 2.0) *
+                                                radians(s.parameters.align_limit_deg) &&
            stands_at_pre_position(s);
 }
 
@@ -55,14 +61,13 @@ bool stands_before_wall(const Scene& s) {
 }
 
 bool is_level(const Scene& s) {
-    // Gusts do not let it stand still either.
-    constexpr double kSoon_s = 1.5;
+    constexpr double kLong_s = 1.5;
     const double waited_s = s.elapsed_s() - s.parameters.level_pitch_s;
-    const double patience = windy(s.parameters, s.memory) ? std::max(1.0, waited_s / kSoon_s) : 1.0;
+    const double kindness = windy(s.parameters, s.memory) ? patience(waited_s, kLong_s) : 1.0;
     return waited_s > 0.0 &&
            std::abs(s.pitch_rad() - level_pitch_rad(s.parameters, s.memory)) <
-               patience * radians(s.parameters.level_limit_deg) &&
-           s.estimate.w_WB_B_rad_s.norm() < patience * radians(s.parameters.level_rate_deg_s);
+               kindness * radians(s.parameters.level_limit_deg) &&
+           s.estimate.w_WB_B_rad_s.norm() < kindness * radians(s.parameters.level_rate_deg_s);
 }
 
 // --- what each sense says of the cup ------------------------------------------------------------
