@@ -131,7 +131,7 @@ void GroundStation::tick(simulation::Flight& flight, const guidance::EventList& 
 }
 
 void GroundStation::tell_of_refusals() {
-    if (!refusals_told_ && link_.count().unsigned_ > 0) {
+    if (!refusals_told_ && link_.count().refusals.total() > 0) {
         refusals_told_ = true;
         terminal_.line(terminal_.dim(
             "          ground station: refused what has no right signature of our key"));
@@ -147,7 +147,7 @@ void GroundStation::end(const simulation::FlightResult& result) {
 std::string GroundStation::report() const {
     const mavlink::LinkCount count = link_.count();
     return fmt::format("{} sent, {} received, {} refused for their signature, {} damaged",
-                       count.sent, count.received, count.unsigned_, count.damaged);
+                       count.sent, count.received, count.refusals.total(), count.damaged);
 }
 
 }  // namespace limpet::app

@@ -48,7 +48,7 @@ Json json_of(const mavlink::Link& link) {
             {"received", count.received},
             {"lost", count.lost},
             {"damaged", count.damaged},
-            {"refused_unsigned", count.unsigned_},
+            {"refused_unsigned", count.refusals.total()},
             {"discarded_bytes", count.discarded_bytes}};
 }
 

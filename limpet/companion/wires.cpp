@@ -41,9 +41,10 @@ std::unique_ptr<mavlink::Link> open_link(const CompanionConfig& config,
 Wires open_wires(const CompanionConfig& config) {
     Wires wires;
     wires.autopilot = open_link(config, config.autopilot, kAutopilotLink, wires);
-    wires.autopilot->admit_by_heartbeat();
+    wires.autopilot->admit_by(mavlink::Heartbeat::kId);
     if (config.sensors) {
         wires.sensors = open_link(config, *config.sensors, kSensorsLink, wires);
+        wires.sensors->admit_by({});  // they need not send heartbeats
     }
     if (config.pose_source == PoseSource::natnet) {
         wires.motion_capture = std::make_unique<devices::NatNetClient>(

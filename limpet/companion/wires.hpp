@@ -27,8 +27,7 @@ struct Wires {
 /// Opens what the configuration names; signs the MAVLink links when there is a key, and keeps their
 /// timestamps.
 /// @throws InputError naming address, key file or timestamps, before or after others were opened:
-/// nothing was
-///         sent
+///         nothing was sent
 [[nodiscard]] Wires open_wires(const CompanionConfig& config);
 
 /// Reads what signing needs, opens and writes nothing.

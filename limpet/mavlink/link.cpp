@@ -51,12 +51,12 @@ void Link::Seal::offer_stamps() {
     }
 }
 
-void Link::admit_by_heartbeat() {
-    transport_->admit([seal = seal_](std::span<const std::byte> datagram) {
+void Link::admit_by(std::optional<std::uint32_t> message) {
+    transport_->admit([seal = seal_, message](std::span<const std::byte> datagram) {
         ByteView bytes(reinterpret_cast<const std::uint8_t*>(datagram.data()), datagram.size());
         Parser parser;
         while (const auto frame = parser.next(bytes)) {
-            if (frame->id == Heartbeat::kId && seal->accepts(*frame, false)) {
+            if (frame->id == message.value_or(frame->id) && seal->accepts(*frame, false)) {
                 return true;
             }
         }
@@ -144,7 +144,6 @@ LinkCount Link::count() const {
     count.damaged = before_.bad_checksum + now.bad_checksum;
     count.discarded_bytes = before_.discarded_bytes + now.discarded_bytes;
     count.refusals = seal_->refusals;
-    count.unsigned_ = count.refusals.total();
     return count;
 }
 

@@ -39,14 +39,13 @@ struct LinkSigning {
 
 /// What a link has carried since it was made.
 struct LinkCount {
-    std::uint64_t sent = 0;       ///< messages that went whole
-    std::uint64_t not_sent = 0;   ///< nobody was there, or the peer took too long
-    std::uint64_t received = 0;   ///< frames handed out
-    std::uint64_t lost = 0;       ///< left out by sequence number
-    std::uint64_t damaged = 0;    ///< wrong checksum
-    std::uint64_t unsigned_ = 0;  ///< refused for their signature: the sum of `refusals`
-    Refusals refusals;            ///< of who wants to be a peer, too
+    std::uint64_t sent = 0;      ///< messages that went whole
+    std::uint64_t not_sent = 0;  ///< nobody was there, or the peer took too long
+    std::uint64_t received = 0;  ///< frames handed out
+    std::uint64_t lost = 0;      ///< left out by sequence number
+    std::uint64_t damaged = 0;   ///< wrong checksum
     std::uint64_t discarded_bytes = 0;
+    Refusals refusals;  ///< for their signature; of who wants to be a peer, too
 };
 
 /// Messages to and from one peer: a transport, a parser, a sequence number and, when asked for,
@@ -57,9 +56,10 @@ public:
     Link(std::unique_ptr<wire::Transport> transport, Sender self);
 
     void sign(LinkSigning signing);
-    /// Over UDP a listening end takes nobody for its peer before a whole heartbeat of theirs,
-    /// rightly signed where the link is.
-    void admit_by_heartbeat();
+    /// Over UDP a listening end takes nobody for its peer before a whole message of theirs, rightly
+    /// signed where the link is.
+    /// @param message  of that kind alone; empty: of any that is known
+    void admit_by(std::optional<std::uint32_t> message);
 
     /// @param timeout  longest wait for room in the wire
     template <class Message>

@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"

@@ -45,7 +45,7 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
                    const Px4WireWatch& watch, const std::atomic<bool>* stop) {
     if (!addresses.serial() && flies) {
         offboard_ = open(open_transport(addresses.offboard, wire::Role::listen));
-        offboard_->admit_by_heartbeat();
+        offboard_->admit_by(mavlink::Heartbeat::kId);
     }
     auto wire = open_transport(addresses.hil, wire::Role::listen);
     hil_ = open(watch.tap ? watch.tap(std::move(wire)) : std::move(wire));

@@ -145,7 +145,7 @@ TEST(Companion, WithAKeyHearsOnlyWhatIsSigned) {
         }
         r.run(2.0);
         EXPECT_EQ(r.companion->phase(), stage_signs ? SessionPhase::ready : SessionPhase::waiting);
-        EXPECT_EQ(r.wires.autopilot->count().unsigned_ > 0, !stage_signs);
+        EXPECT_EQ(r.wires.autopilot->count().refusals.total() > 0, !stage_signs);
     }
 }
 

@@ -116,7 +116,7 @@ TEST(Link, SignedHearsSignedAlone) {
     ASSERT_EQ(stranger.link.send(beat(6)), wire::TransferStatus::done);
     wire.ends->to_receive.push_back(stranger.ends->sent.front());
     EXPECT_FALSE(wire.link.receive()) << "another key";
-    EXPECT_THAT(wire.link.count().unsigned_, Eq(3U));
+    EXPECT_THAT(wire.link.count().refusals.total(), Eq(3U));
     EXPECT_THAT(text_of(wire.link.count().refusals),
                 Eq("3 frames refused: 1 not signed, 1 signed with another key, 1 played again"));
     EXPECT_THAT(wire.link.count().received, Eq(1U));
@@ -124,14 +124,14 @@ TEST(Link, SignedHearsSignedAlone) {
 
 /// Both ends on loopback, and a third who says what it likes.
 struct Overheard {
-    explicit Overheard(bool is_signed)
+    explicit Overheard(bool is_signed, std::optional<std::uint32_t> message = Heartbeat::kId)
         : here(wire::open_udp({.medium = wire::Medium::udp, .host = "127.0.0.1", .port = 0},
                               wire::Role::listen),
                {.system = 255, .component = kCompanionComponent}),
           there(wire::open_udp(here.transport().address(), wire::Role::connect),
                 {.system = 1, .component = kAutopilotComponent}),
           stranger(wire::open_udp(here.transport().address(), wire::Role::connect)) {
-        here.admit_by_heartbeat();
+        here.admit_by(message);
         if (is_signed) {
             here.sign(signing(7));
             there.sign(signing(7));
@@ -167,11 +167,25 @@ TEST(Link, RubbishKeepsNobodyOut) {
     wire.expect_the_autopilot_is_heard();
 }
 
+TEST(Link, WhoSendsNoHeartbeatsIsKnownByAnyWholeMessage) {
+    Overheard wire(true, std::nullopt);
+    wire.say({std::byte{'x'}});
+    Sender forger{.system = 1, .component = 1};
+    wire.say(ScriptedLink::frame_of(Attitude{}, forger));
+    DistanceSensor distance;
+    distance.current_distance = 150;
+    EXPECT_EQ(wire.there.send(distance), wire::TransferStatus::done);
+    const auto frame = wire.here.receive(std::chrono::seconds(5));
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(decode<DistanceSensor>(*frame)->current_distance, 150);
+    EXPECT_EQ(wire.here.transport().statistics().peers, 1U);
+}
+
 TEST(Link, ASignedOneIsTakenByNoUnsignedHeartbeat) {
     Overheard wire(true);
     Sender forger{.system = 1, .component = 1};
     wire.say(ScriptedLink::frame_of(beat(), forger));
-    EXPECT_EQ(wire.here.count().unsigned_, 1U);
+    EXPECT_EQ(wire.here.count().refusals.total(), 1U);
     EXPECT_EQ(reasons_of(wire.here.count().refusals), "not signed") << "before it is a peer, too";
     wire.expect_the_autopilot_is_heard();
 }

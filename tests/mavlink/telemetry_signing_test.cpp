@@ -40,7 +40,7 @@ TEST_F(Signed, APeerWithTheKeyIsServed) {
     fly(1);
     EXPECT_THAT(sets_, ElementsAre(testing::Pair("MPC_XY_P", 1.5)));
     EXPECT_EQ(station_.heard<ParamValue>().size(), 1U);
-    EXPECT_EQ(station_.vehicle.count().unsigned_, 0U);
+    EXPECT_EQ(station_.vehicle.count().refusals.total(), 0U);
 }
 
 TEST_F(Signed, UnsignedOrWronglySignedSetsAreRefusedAndCounted) {
@@ -54,7 +54,7 @@ TEST_F(Signed, UnsignedOrWronglySignedSetsAreRefusedAndCounted) {
     EXPECT_THAT(sets_, IsEmpty());
     EXPECT_THAT(station_.heard<ParamValue>(), IsEmpty());
     EXPECT_THAT(station_.heard<CommandAck>(), IsEmpty());
-    EXPECT_EQ(station_.vehicle.count().unsigned_, 3U);
+    EXPECT_EQ(station_.vehicle.count().refusals.total(), 3U);
 }
 
 TEST_F(Signed, AReplayIsRefused) {
@@ -83,7 +83,7 @@ TEST_F(Signed, AReplayIsRefused) {
     }
     telemetry.update(view());
     EXPECT_EQ(sets, 1);
-    EXPECT_EQ(vehicle.count().unsigned_, 1U);
+    EXPECT_EQ(vehicle.count().refusals.total(), 1U);
 }
 
 }  // namespace
