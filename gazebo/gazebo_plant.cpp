@@ -79,6 +79,9 @@ void GazeboPlant::step(const plant::StepMode& mode) {
     if (model_->engine_->GetMaxStepSize() != mode.step_s) {
         set_step(mode.step_s);
     }
+    if (legs_lost_ != mode.legs_lost) {
+        break_legs(mode.legs_lost);
+    }
     if (model_->slider_ != nullptr) {
         twin_.close(mode.step_s);
         slider_N_ = twin_.joint_force(0, twin_.change());
@@ -87,6 +90,17 @@ void GazeboPlant::step(const plant::StepMode& mode) {
     model_->next_();
     require_healthy();
     start_twin();
+}
+
+void GazeboPlant::break_legs(const std::array<bool, 2>& lost) {
+    legs_lost_ = lost;
+    const char* const tips[] = {"leg_left", "leg_right"};
+    for (std::size_t leg = 0; leg < lost.size(); ++leg) {
+        if (const physics::CollisionPtr tip = link(plant::Body::base)->GetCollision(tips[leg])) {
+            tip->SetCollideBits(lost[leg] ? GZ_NONE_COLLIDE : GZ_ALL_COLLIDE);
+            tip->SetCategoryBits(lost[leg] ? GZ_NONE_COLLIDE : GZ_ALL_COLLIDE);
+        }
+    }
 }
 
 void GazeboPlant::set_step(double step_s) {

@@ -84,12 +84,14 @@ private:
     void start_twin();
     [[nodiscard]] Wrench contacts_W() const;
     void set_step(double step_s);
+    void break_legs(const std::array<bool, 2>& lost);
     void require_healthy() const;
 
     std::shared_ptr<const GazeboModel> model_;
     plant::MechanismStep<double> twin_;  ///< of a vehicle with a cup, see MujocoPlant
     plant::MechanismBearer<double> bearer_{twin_};
     double slider_N_ = 0.0;
+    std::array<bool, 2> legs_lost_{};
 };
 
 }  // namespace limpet::gazebo11

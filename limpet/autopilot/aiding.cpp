@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/autopilot/aiding.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace limpet::autopilot {
 namespace {
 
 /// Source: PX4's limit for external positions.
 constexpr double kBelieveAfter_s = 1.0;
-/// How little is known of velocity once it has led the position astray.
+/// How little is known, at least, of velocity once it has led the position astray.
 constexpr double kLostVelocity_m_s = 1.0;
 constexpr double kLostAttitude_rad = 0.5;
 
@@ -30,9 +33,27 @@ void open_up(Fusion& fusion, int block, double deviation) {
     }
 }
 
+/// A position is believed of the moment of its measurement: since then an error of velocity has
+/// gone on to move it.
+void know_from_then(Covariance& covariance, const Measurement& measurement) {
+    for (int i = 0; i < measurement.rows; ++i) {
+        const ErrorVector& h = measurement.jacobian[static_cast<std::size_t>(i)];
+        for (int axis = 0; axis < 3; ++axis) {
+            const int p = kPosition + axis;
+            const int v = kVelocity + axis;
+            if (h[p] == 1.0) {
+                covariance(p, v) = covariance(v, p) = -h[v] * covariance(v, v);
+                covariance(p, p) += h[v] * h[v] * covariance(v, v);
+            }
+        }
+    }
+}
+
 /// Takes the innovation as the error.
-void believe(Fusion& fusion, const Measurement& measurement, int block) {
+/// @param astray_s  for how long it has not fitted
+void believe(Fusion& fusion, const Measurement& measurement, double astray_s, int block) {
     bool told = false;
+    double astray_m = 0.0;
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
         for (int error = block; error < block + 3; ++error) {
@@ -42,9 +63,11 @@ void believe(Fusion& fusion, const Measurement& measurement, int block) {
                 told = true;
             }
         }
+        astray_m = std::max(astray_m, std::abs(measurement.innovation[row]));
     }
     if (block == kPosition) {
-        open_up(fusion, kVelocity, kLostVelocity_m_s);
+        open_up(fusion, kVelocity, std::max(kLostVelocity_m_s, astray_m / astray_s));
+        know_from_then(fusion.covariance, measurement);
     }
     if (!told) {  // a field says nothing of the turn about it: let the next ones pass the gate
         open_up(fusion, block, kLostAttitude_rad);
@@ -125,10 +148,11 @@ void fuse(Fusion& fusion, Aiding& aiding, const Measurement& measurement, double
         if (aiding.rejected++ == 0) {
             aiding.rejected_since_s = stamp_s;
         }
-        if (stamp_s - aiding.rejected_since_s < kBelieveAfter_s) {
+        const double astray_s = stamp_s - aiding.rejected_since_s;
+        if (astray_s < kBelieveAfter_s) {
             return;
         }
-        believe(fusion, measurement, block);
+        believe(fusion, measurement, astray_s, block);
     }
     aiding.fused_s = stamp_s;
     aiding.rejected = 0;

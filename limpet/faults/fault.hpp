@@ -48,6 +48,8 @@ enum class FaultKind {
     gust_along,
     gust_across,
     payload_shifts,
+    leg_broken,
+    clock_jumps,
 };
 [[nodiscard]] inline std::string_view to_string(FaultKind kind) {
     return name_of(kind);

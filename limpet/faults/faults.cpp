@@ -74,6 +74,12 @@ void act(const FaultsModel& model, const Fault& fault, std::size_t rotors, Actin
             now.gust_W_m_s += fault.size * to_the_right(model.ahead_W);
             break;
         case FaultKind::payload_shifts: now.payload_to_right_kg_m += fault.size; break;
+        case FaultKind::leg_broken:
+            for (std::size_t leg = 0; leg < now.legs_lost.size(); ++leg) {
+                now.legs_lost[leg] = now.legs_lost[leg] || hits(fault, static_cast<int>(leg));
+            }
+            break;
+        case FaultKind::clock_jumps: now.clock_ahead_s += fault.size; break;
         case FaultKind::none:
         case FaultKind::imu_lost:
         case FaultKind::imu_biased:
@@ -169,8 +175,24 @@ void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const
         case FaultKind::lip_torn:
         case FaultKind::gust_along:
         case FaultKind::gust_across:
-        case FaultKind::payload_shifts: break;  // of what acts: above
+        case FaultKind::payload_shifts:
+        case FaultKind::leg_broken:
+        case FaultKind::clock_jumps: break;  // of what acts: above
     }
+}
+
+template <class Visit, class... All>
+void for_each_sample(Visit visit, All&... readings) {
+    visit(readings.imu...);
+    visit(readings.barometer...);
+    visit(readings.magnetometer...);
+    visit(readings.gps...);
+    visit(readings.motion_capture...);
+    visit(readings.lidar_left...);
+    visit(readings.lidar_right...);
+    visit(readings.force...);
+    visit(readings.cup_pressure...);
+    visit(readings.battery...);
 }
 
 template <class T>
@@ -200,7 +222,8 @@ void step(const FaultsModel& model, FaultsState& state, guidance::PerchingState 
             progress.over = true;
             events.add(event_of(EventName::fault_ended, fault, time_s));
         }
-        if (acts(progress)) {
+        // A clock that has jumped does not jump back.
+        if (acts(progress) || (fault.kind == FaultKind::clock_jumps && progress.over)) {
             act(model, fault, rotors, state.now);
         }
     }
@@ -213,16 +236,22 @@ void hear(const FaultsModel& model, const FaultsState& state, double time_s, Rea
             corrupt(model.faults[i], model, time_s - state.progress[i].began_s, told, heard);
         }
     }
-    tell(told.imu, heard.imu);
-    tell(told.barometer, heard.barometer);
-    tell(told.magnetometer, heard.magnetometer);
-    tell(told.gps, heard.gps);
-    tell(told.motion_capture, heard.motion_capture);
-    tell(told.lidar_left, heard.lidar_left);
-    tell(told.lidar_right, heard.lidar_right);
-    tell(told.force, heard.force);
-    tell(told.cup_pressure, heard.cup_pressure);
-    tell(told.battery, heard.battery);
+    for_each_sample([](auto& known, const auto& news) { tell(known, news); }, told, heard);
+}
+
+void stamp_anew(const FaultsModel& model, const FaultsState& state, Readings& readings,
+                Estimate& estimate) {
+    for (std::size_t i = 0; i < model.faults.size(); ++i) {
+        const double began_s = state.progress[i].began_s;
+        if (model.faults[i].kind != FaultKind::clock_jumps || began_s < 0.0) {
+            continue;
+        }
+        const auto restamp = [&](double& time_s) {
+            time_s += time_s >= began_s ? model.faults[i].size : 0.0;
+        };
+        for_each_sample([&](auto& sample) { restamp(sample.time_s); }, readings);
+        restamp(estimate.time_s);
+    }
 }
 
 void mislead(const FaultsModel& model, FaultsState& state, double time_s, Estimate& estimate) {

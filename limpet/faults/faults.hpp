@@ -33,6 +33,8 @@ struct Acting {
     double hole_mm2 = 0.0;                 ///< to the atmosphere, in hose or lip
     Vector3 gust_W_m_s = Vector3::Zero();  ///< on top of the wind
     double payload_to_right_kg_m = 0.0;    ///< along y of B
+    std::array<bool, 2> legs_lost{};       ///< left, right
+    double clock_ahead_s = 0.0;            ///< guidance's
 };
 
 /// How far a fault has come.
@@ -62,5 +64,9 @@ void hear(const FaultsModel& model, const FaultsState& state, double time_s, Rea
 
 /// What drifts in an estimate; once for each.
 void mislead(const FaultsModel& model, FaultsState& state, double time_s, Estimate& estimate);
+
+/// What was heard after guidance's clock has jumped is stamped by the clock that jumped.
+void stamp_anew(const FaultsModel& model, const FaultsState& state, Readings& readings,
+                Estimate& estimate);
 
 }  // namespace limpet::faults

@@ -40,11 +40,13 @@ public:
         bodies_.apply(lane, body, wrench_W, p_W_m);
     }
     void set_mode(int lane, const StepMode& mode) override {
-        if (step_s_[lane] != mode.step_s || in_lane(contacts_, lane) != mode.contacts) {
-            step_s_.set(lane, mode.step_s);
-            set_lane(contacts_, lane, mode.contacts);
-            springs_new_ = true;
+        bool changes = step_s_[lane] != mode.step_s;
+        step_s_.set(lane, mode.step_s);
+        for (std::size_t tip = 0; tip < kTips; ++tip) {
+            changes = changes || in_lane(contacts_[tip], lane) != mode.touches(tip);
+            set_lane(contacts_[tip], lane, mode.touches(tip));
         }
+        springs_new_ = springs_new_ || changes;
     }
     void hold(int lane, const Matrix3& R_WT,
               const std::array<StepForce<double>, 6>& springs) override {
@@ -120,7 +122,7 @@ private:
 
     ReducedBodies<T> bodies_;
     T step_s_{1e-3};
-    MaskOf<T> contacts_{};
+    std::array<MaskOf<T>, kTips> contacts_{};
     MaskOf<T> holds_{};
     Mat3<T> R_WT_ = Mat3<T>::Identity();
     std::array<StepForce<T>, 6> springs_{};

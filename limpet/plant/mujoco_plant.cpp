@@ -86,7 +86,9 @@ void MujocoPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m)
 
 void MujocoPlant::step(const StepMode& mode) {
     const int without = model_->get().opt.disableflags | (mode.contacts ? 0 : mjDSBL_CONTACT);
-    if (options_->opt.timestep != mode.step_s || options_->opt.disableflags != without) {
+    if (options_->opt.timestep != mode.step_s || options_->opt.disableflags != without ||
+        legs_lost_ != mode.legs_lost) {
+        break_legs(mode.legs_lost);
         options_->opt.timestep = mode.step_s;
         options_->opt.disableflags = without;
         refresh();
@@ -103,6 +105,23 @@ void MujocoPlant::step(const StepMode& mode) {
     start_twin();
     std::fill_n(data_->xfrc_applied, 6 * options_->nbody, 0.0);
     std::fill_n(data_->qfrc_applied, options_->nv, 0.0);
+}
+
+/// A pair of leg and wall meets no more where it would have to be deeper than anything gets.
+void MujocoPlant::break_legs(const std::array<bool, 2>& lost) {
+    constexpr double kDeeper_m = -1e3;
+    if (lost == legs_lost_) {
+        return;
+    }
+    legs_lost_ = lost;
+    const mjModel& whole = model_->get();
+    pair_margin_.assign(whole.pair_margin, whole.pair_margin + whole.npair);
+    for (std::size_t leg = 0; leg < std::min(lost.size(), pair_margin_.size()); ++leg) {
+        if (lost[leg]) {
+            pair_margin_[leg] = kDeeper_m;
+        }
+    }
+    options_->pair_margin = pair_margin_.data();
 }
 
 void MujocoPlant::take_positions() {

@@ -56,6 +56,7 @@ private:
     [[nodiscard]] int engine_body(Body body) const;
     void take_positions();
     void refresh();
+    void break_legs(const std::array<bool, 2>& lost);
     void start_twin();
     void sum_contacts();
     void push_joints(double step_s);
@@ -64,6 +65,8 @@ private:
     std::shared_ptr<const MujocoModel> model_;
     std::unique_ptr<mjModel_> options_;  ///< shallow: never given to mj_deleteModel
     std::unique_ptr<mjData_, void (*)(mjData_*)> data_;
+    std::vector<double> pair_margin_;  ///< the model's own, once a leg has broken
+    std::array<bool, 2> legs_lost_{};
     std::vector<double> integrated_;  ///< qpos as the last step left it
     Wrench contacts_W_;               ///< of the last step, on the base about B
     double slider_N_ = 0.0;

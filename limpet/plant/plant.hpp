@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,6 +37,9 @@ struct PlantState {
 struct StepMode {
     double step_s = 1e-3;
     bool contacts = true;
+    std::array<bool, 2> legs_lost{};  ///< left, right: a leg that is broken off touches nothing
+
+    [[nodiscard]] bool touches(std::size_t leg) const { return contacts && !legs_lost[leg]; }
 };
 
 /// Rigid-body truth behind one small interface: it takes wrenches on bodies, steps, and answers

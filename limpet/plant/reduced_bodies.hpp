@@ -43,11 +43,11 @@ public:
     }
 
     /// All springs and forces of a step.
-    /// @param contacts  where legs can touch something
-    void prepare(const T& step_s, const Mask& contacts) {
+    /// @param contacts  where each leg can touch something
+    void prepare(const T& step_s, const std::array<Mask, kTips>& contacts) {
         if (!step_.closed(step_s)) {
             touching_ = false;
-            if (any(contacts) && numbers.mechanism.has_cup) {
+            if (any(contacts[0] || contacts[1]) && numbers.mechanism.has_cup) {
                 find_touches(step_s, contacts);
             } else {
                 state.tips = {};
@@ -143,7 +143,7 @@ private:
         step_.close();
     }
 
-    void find_touches(const T& step_s, const Mask& contacts) {
+    void find_touches(const T& step_s, const std::array<Mask, kTips>& contacts) {
         for (std::size_t tip = 0; tip < kTips; ++tip) {
             const Vec3<T> tip_W_m = state.bodies.p_WB_m + at().R_WB * numbers.tip_B_m[tip];
             for (std::size_t face = 0; face < kFaces; ++face) {
@@ -151,7 +151,7 @@ private:
                 touch.acts = touch.slides = {};
                 T gap_m(0.0);
                 for (int lane = 0; lane < kLanes; ++lane) {
-                    if (!in_lane(contacts, lane) || !look(tip_W_m, face, lane, touch, gap_m)) {
+                    if (!in_lane(contacts[tip], lane) || !look(tip_W_m, face, lane, touch, gap_m)) {
                         state.tips[tip][face].stretch_y_m.set(lane, 0.0);
                         state.tips[tip][face].stretch_z_m.set(lane, 0.0);
                     }

@@ -33,9 +33,8 @@ std::shared_ptr<const ReducedModel> own_reduced(const std::shared_ptr<const Plan
 
 using OneBody = ReducedBodies<Lanes<1>>;
 
-LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, double step_s,
-                                                       bool contacts) {
-    bodies.prepare(step_s, contacts);
+LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, const StepMode& mode) {
+    bodies.prepare(mode.step_s, {mode.touches(0), mode.touches(1)});
     (void)bodies.step().change();  // whoever prepares asks for it next
 }
 LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step_s) {
@@ -101,7 +100,7 @@ void ReducedPlant::apply(Body body, const Wrench& wrench_W, const Vector3& p_W_m
 }
 
 void ReducedPlant::prepare(const StepMode& mode) {
-    prepare_step(bodies_, mode.step_s, mode.contacts);
+    prepare_step(bodies_, mode);
 }
 
 CupBearer* ReducedPlant::bear_cup(const StepMode& mode) {

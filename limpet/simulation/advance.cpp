@@ -123,7 +123,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
     const bool fine = has_cup && needs_fine_steps(model, state);
     const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
     const plant::StepMode mode{.step_s = kTick_s / steps,
-                               .contacts = legs_can_touch(model, state.truth.base)};
+                               .contacts = legs_can_touch(model, state.truth.base),
+                               .legs_lost = state.faults.now.legs_lost};
     const AirLoad air = load_of_air(model, state);
     for (int k = 0; k < steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;

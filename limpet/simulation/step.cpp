@@ -59,6 +59,26 @@ void estimate(const FlightModel& model, FlightState& state,
     }
 }
 
+void guide(const FlightModel& model, FlightState& state, guidance::EventList& events) {
+    const double time_s = seconds(state.tick);
+    const double ahead_s = state.faults.now.clock_ahead_s;
+    if (ahead_s == 0.0) {
+        guidance::update(model.guidance, model.task, state.guidance, state.sensors.readings,
+                         state.autopilot.estimate, time_s, events);
+        return;
+    }
+    Readings readings = state.sensors.readings;
+    Estimate estimate = state.autopilot.estimate;
+    faults::stamp_anew(model.faults, state.faults, readings, estimate);
+    guidance::EventList told;
+    guidance::update(model.guidance, model.task, state.guidance, readings, estimate,
+                     time_s + ahead_s, told);
+    for (std::size_t i = 0; i < told.count; ++i) {
+        told.events[i].time_s -= ahead_s;
+        events.add(told.events[i]);
+    }
+}
+
 RotorCommand control(const FlightModel& model, FlightState& state,
                      autopilot::ExternalAutopilot* external) {
     const double time_s = seconds(state.tick);
@@ -100,8 +120,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
             state.guidance.setpoint.armed = state.command.armed;
         }
     } else if (due(state.tick, model.guidance_rate_Hz)) {
-        guidance::update(model.guidance, model.task, state.guidance, readings,
-                         state.autopilot.estimate, time_s, events);
+        guide(model, state, events);
     }
     if (controls) {
         state.command = control(model, state, outside.autopilot);

@@ -148,6 +148,19 @@ TEST(Estimator, ALastingJumpIsBelievedAfterASecond) {
     EXPECT_NEAR(euler_from_quaternion(run.state.navigation.q_WB).yaw_rad, 0.7, 0.01);
 }
 
+/// As after a blow that the accelerometer could not measure.
+TEST(Estimator, AVelocityFarOffIsFoundAgain) {
+    for (const double off_m_s : {1.5, 6.0, 20.0}) {
+        Tracking run(hanging(0.0));
+        run.go(3.0);
+        run.state.navigation.v_WB_m_s += Vector3(0.0, off_m_s, 0.0);
+        run.go(2.0);
+        EXPECT_TRUE(run.valid()) << off_m_s;
+        EXPECT_LT(run.error(kVelocity), 0.1) << off_m_s;
+        EXPECT_LT(run.error(kPosition), 0.02) << off_m_s;
+    }
+}
+
 TEST(Estimator, AnotherBodyIsNotBelievedHoweverLongItIsSeen) {
     Tracking run(hanging(0.0));
     run.go(3.0);

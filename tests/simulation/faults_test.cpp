@@ -66,6 +66,40 @@ TEST(FaultsInTheLoop, WithoutAnImuItStaysOnTheWallThatItRestsOn) {
     }
 }
 
+/// Nothing holds it off the wall any more: two engines agree on how it falls against it.
+TEST(FaultsInTheLoop, WithoutALegItTurnsAgainstTheWallAlikeOnBothEngines) {
+    const auto falling = [](const char* engine, const std::string& fault) {
+        const Trace trace = simulation::trace(
+            model_of("perch_metal", {"faults={" + fault + ", phase: resting}",
+                                     std::string("simulation.engine=") + engine}));
+        const double looked_s = trace.first(EventName::fault_began) + 0.3;
+        return *std::find_if(trace.truth.begin(), trace.truth.end(),
+                             [&](const Truth& at) { return at.time_s >= looked_s; });
+    };
+    const double whole_deg = pitch_deg(falling("reduced", "fault: payload_shifts, size: 0"));
+    for (const char* fault : {"fault: leg_broken", "fault: leg_broken, unit: 0"}) {
+        const Truth reduced = falling("reduced", fault);
+        const Truth mujoco = falling("mujoco", fault);
+        EXPECT_NEAR(pitch_deg(reduced), pitch_deg(mujoco), 0.3) << fault;
+        EXPECT_LT((reduced.base.p_WF_m - mujoco.base.p_WF_m).norm(), 3e-3) << fault;
+        EXPECT_GT(std::abs(pitch_deg(reduced) - whole_deg), 1.0) << fault;
+    }
+}
+
+/// What was heard before the jump looks old until it is heard again: a tick later.
+TEST(FaultsInTheLoop, AClockThatJumpsMakesNobodyFall) {
+    for (const char* phase : {"approaching", "holding", "pitching_up", "resting", "spinning_up",
+                              "pitching_down", "releasing", "backing_off"}) {
+        for (const char* size : {"0.3", "3", "60"}) {
+            const Trace trace =
+                with_fault("perch_concrete",
+                           fmt::format("fault: clock_jumps, size: {}, phase: {}", size, phase));
+            EXPECT_NE(trace.result.outcome, Outcome::crashed) << phase << " " << size;
+            EXPECT_NE(trace.result.outcome, Outcome::timed_out) << phase << " " << size;
+        }
+    }
+}
+
 /// The pressure that pump and hole agree on, and the way there, in closed form.
 TEST(FaultsInTheLoop, AHoleInTheHoseSettlesWherePumpAndHoleAgree) {
     constexpr double kHole_mm2 = 0.05;
