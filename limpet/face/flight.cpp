@@ -123,7 +123,7 @@ Flight::Flight(Flight&&) noexcept = default;
 Flight& Flight::operator=(Flight&&) noexcept = default;
 
 void Flight::record(const std::filesystem::path& file) {
-    inside_->log.emplace(file, *inside_->model);
+    inside_->log.emplace(file, *inside_->model, simulation::FlightLog::Options{});
 }
 
 bool Flight::tick() {

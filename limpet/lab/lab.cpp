@@ -105,7 +105,8 @@ std::string Lab::fly(std::string_view request) {
         .on_event = {}, .on_progress = [&, end = Clock::now() + kLongestFlight](double, auto) {
             enough = Clock::now() > end || (stop_ && *stop_);
         }};
-    (void)simulation::fly(model, recording, watch, 0, {.stop = &enough, .brief = asked.brief});
+    (void)simulation::fly(model, recording, watch, 0,
+                          {.stop = &enough, .brief = asked.brief, .compress = false});
     return taken(recording);
 }
 

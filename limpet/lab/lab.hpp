@@ -36,7 +36,7 @@ public:
     ///         "kind", "what", "source"}], "choices": [{"key", "names", "chosen"}]}]}
     /// @throws InputError one line, as do those below
     [[nodiscard]] std::string schema(std::string_view request) const;
-    /// @param request  as above; with "brief": true what a picture needs, at 50 Hz, for a slider
+    /// @param request  as above; with "brief": true what a picture needs, at 25 Hz, for a slider
     ///                 that is moving
     /// @return an MCAP recording
     [[nodiscard]] std::string fly(std::string_view request);

@@ -19,8 +19,9 @@ class MessageWriter {
 public:
     /// @param beside  takes the same; null: nobody. Lives as long
     /// @throws InputError if the file cannot be written
-    explicit MessageWriter(const std::filesystem::path& path, MessageSink* beside = nullptr)
-        : file_(path), beside_(beside) {}
+    explicit MessageWriter(const std::filesystem::path& path, MessageSink* beside = nullptr,
+                           const mcap::WriterOptions& options = {})
+        : file_(path, options), beside_(beside) {}
 
     [[nodiscard]] mcap::Writer& file() { return file_; }
     [[nodiscard]] const mcap::Writer& file() const { return file_; }

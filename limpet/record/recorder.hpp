@@ -51,6 +51,7 @@ struct RecordingInfo {
     std::vector<ColumnChannel> columns = {};
     std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
     MessageSink* beside = nullptr;    ///< takes the same messages; lives as long
+    bool compress = true;             ///< zstd; without, a reader has less to do
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from

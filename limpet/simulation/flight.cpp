@@ -191,7 +191,10 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                                   conduct.outside);
     std::optional<FlightLog> log;
     if (!recording.empty()) {
-        log.emplace(recording, *model, conduct.beside, conduct.brief);
+        log.emplace(
+            recording, *model,
+            FlightLog::Options{
+                .beside = conduct.beside, .brief = conduct.brief, .compress = conduct.compress});
     }
     std::vector<Event> events;
     events.reserve(64);

@@ -83,7 +83,8 @@ struct FlightConduct {
     const std::atomic<bool>* stop = nullptr;  ///< ends it, the recording whole
     /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).
     std::function<void(const std::string& obstacle)> on_obstacle = {};
-    bool brief = false;                     ///< a recording of what a picture needs, at 50 Hz
+    bool brief = false;                     ///< a recording of what a picture needs, at 25 Hz
+    bool compress = true;                   ///< the recording
     record::MessageSink* beside = nullptr;  ///< takes what the recording takes, if there is one
 };
 

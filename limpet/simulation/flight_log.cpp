@@ -51,10 +51,11 @@ record::Scene scene_of_recording(const FlightModel& model) {
     return scene;
 }
 
-record::RecordingInfo describe(const FlightModel& model, record::MessageSink* beside) {
+record::RecordingInfo describe(const FlightModel& model, const FlightLog::Options& options) {
     const scenario::Scenario& scenario = *model.scenario;
     record::RecordingInfo info;
-    info.beside = beside;
+    info.beside = options.beside;
+    info.compress = options.compress;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;
@@ -86,15 +87,15 @@ record::RecordingInfo describe(const FlightModel& model, record::MessageSink* be
 }  // namespace
 
 FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model,
-                     record::MessageSink* beside, bool brief)
-    : recorder_(path, describe(model, beside)), brief_(brief) {}
+                     const Options& options)
+    : recorder_(path, describe(model, options)), brief_(options.brief) {}
 
 void FlightLog::tick(const FlightModel& model, const FlightState& state,
                      const guidance::EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
-    constexpr int kBrief_Hz = 50;
+    constexpr int kBrief_Hz = 25;
     if (brief_ && !due(state.tick, kBrief_Hz)) {
         return;
     }

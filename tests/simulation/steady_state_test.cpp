@@ -44,7 +44,7 @@ TEST(SteadyState, NorDoesTheRecorder) {
     const auto model = model_of("perch_concrete");
     const std::filesystem::path path =
         std::filesystem::path(testing::TempDir()) / "steady_state.mcap";
-    FlightLog log(path, *model);
+    FlightLog log(path, *model, {});
     Flight flight(model);
     const auto tick = [&] {
         const guidance::EventList& events = flight.tick();

@@ -33,7 +33,7 @@ test(
         texts.push(message.message);
       }
     }
-    const recording = await readRecording(
+    const recording = readRecording(
       "flight",
       readFileSync(recording_file as string),
       new Set(["/truth/pose", "/cup"]),

@@ -294,7 +294,7 @@ export class Lab {
 
   /**
    * The latest wish is flown when the last flight is there; what came between is not.
-   * @param brief  a slider is moving: what a picture needs
+   * @param brief  a slider is moving: what a picture needs. Otherwise that first, then all.
    */
   private refly(brief: boolean): void {
     this.wanted = { brief, since: this.wanted?.since ?? performance.now() };
@@ -309,20 +309,24 @@ export class Lab {
       const { brief, since } = this.wanted;
       this.wanted = undefined;
       await this.trying(async () => {
-        const bytes = await server.fly({ ...this.wish(), brief });
-        const recording = await readRecording(this.changes.scenario, bytes, kColumns);
-        this.watch(recording);
-        if (!brief) {
-          this.flown = recording;
-        }
+        const { outcome, duration } = await this.fly(true);
         await new Promise((drawn) => requestAnimationFrame(drawn));
         const delay = performance.now() - since;
         this.delays.push(delay);
         this.delays.splice(0, this.delays.length - 500);
-        this.status.textContent = `${recording.outcome} after ${recording.duration.toFixed(1)} s; re-flown in ${delay.toFixed(0)} ms`;
+        this.status.textContent = `${outcome} after ${duration.toFixed(1)} s; re-flown in ${delay.toFixed(0)} ms`;
+        if (!brief && this.wanted === undefined) {
+          this.flown = await this.fly(false);
+        }
       });
     }
     this.busy = false;
+  }
+  private async fly(brief: boolean): Promise<Recording> {
+    const bytes = await server.fly({ ...this.wish(), brief });
+    const recording = readRecording(this.changes.scenario, bytes, kColumns);
+    this.watch(recording);
+    return recording;
   }
 
   private async save(): Promise<void> {

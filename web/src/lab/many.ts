@@ -313,7 +313,7 @@ export class Many {
         throw new Error(`run ${run} is not there (yet)`);
       }
       const bytes = await server.manyFlight(state.id, run);
-      const recording = await readRecording(`run ${run}`, bytes, kColumns);
+      const recording = readRecording(`run ${run}`, bytes, kColumns);
       this.host.watch(recording);
       this.run.value = String(run);
       this.map.chosen = run;

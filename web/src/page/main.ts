@@ -125,7 +125,7 @@ class Page {
       const recordings: Recording[] = [];
       for (const file of files) {
         recordings.push(
-          await readRecording(file.name, new Uint8Array(await file.arrayBuffer()), kColumns),
+          readRecording(file.name, new Uint8Array(await file.arrayBuffer()), kColumns),
         );
       }
       if (recordings.length > 0) {

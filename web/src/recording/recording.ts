@@ -2,7 +2,7 @@
 // A flight's recording as the page knows it: tables of numbers, where the frames are, marks, events.
 import { parse as parseDefinition } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
-import { McapIndexedReader, McapStreamReader, type McapTypes } from "@mcap/core";
+import { McapStreamReader, type McapTypes } from "@mcap/core";
 import { decompress } from "fzstd";
 import { type Pose, Track } from "./poses";
 import { Column, type Table } from "./series";
@@ -184,6 +184,7 @@ class Builder {
   channel(channel: McapTypes.TypedMcapRecords["Channel"]): void {
     const schema = this.schemas.get(channel.schemaId);
     if (
+      this.readers.has(channel.id) || // the summary names all once more
       schema === undefined ||
       schema.encoding !== "ros2msg" ||
       channel.messageEncoding !== "cdr"
@@ -325,43 +326,8 @@ const decompressHandlers = {
  * @param columns  topics whose numbers are wanted; frames, marks and events always are
  * @throws NotARecording
  */
-export async function readRecording(
-  name: string,
-  bytes: Uint8Array,
-  columns: Set<string>,
-): Promise<Recording> {
-  const whole = {
-    size: async () => BigInt(bytes.length),
-    read: async (offset: bigint, size: bigint) =>
-      bytes.subarray(Number(offset), Number(offset + size)),
-  };
+export function readRecording(name: string, bytes: Uint8Array, columns: Set<string>): Recording {
   const builder = new Builder(name, columns);
-  let reader: McapIndexedReader;
-  try {
-    reader = await McapIndexedReader.Initialize({ readable: whole, decompressHandlers });
-  } catch {
-    return readInOrder(builder, name, bytes);
-  }
-  for (const schema of reader.schemasById.values()) {
-    builder.schema(schema);
-  }
-  for (const channel of reader.channelsById.values()) {
-    builder.channel(channel);
-  }
-  for await (const message of reader.readMessages()) {
-    builder.message(message);
-  }
-  for await (const attachment of reader.readAttachments()) {
-    builder.attachment(attachment.name, attachment.data);
-  }
-  for await (const metadata of reader.readMetadata()) {
-    builder.metadata(metadata.name, metadata.metadata);
-  }
-  return builder.finish();
-}
-
-/** One that a run left behind: as far as it goes. */
-function readInOrder(builder: Builder, name: string, bytes: Uint8Array): Recording {
   const reader = new McapStreamReader({ decompressHandlers });
   try {
     reader.append(bytes);
