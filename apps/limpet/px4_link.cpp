@@ -11,10 +11,11 @@
 namespace limpet::app {
 namespace {
 
-px4::Px4Addresses addresses_of(const Px4LinkOptions& options) {
+px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
     return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}),
             .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp}),
-            .wait_s = options.wait_s};
+            .wait_s = options.wait_s,
+            .sets_origin = scenario.autopilot.EKF2_GPS_CTRL == 0};
 }
 
 /// How to start what is waited for, to be copied.
@@ -71,7 +72,7 @@ double speed_of(const std::string& text, double by_default) {
 }
 
 void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
-    (void)addresses_of(options);
+    (void)addresses_of(options, scenario);
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
@@ -108,7 +109,8 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
         watch.tap = [this](auto wire) { return tapped(std::move(wire), *wire_log_); };
     }
     try {
-        wires_.emplace(addresses_of(options), model.control_rate_Hz, flies, watch, stop);
+        wires_.emplace(addresses_of(options, *model.scenario), model.control_rate_Hz, flies, watch,
+                       stop);
     } catch (...) {
         std::error_code ignored;  // a wire on which nothing went is no log
         std::filesystem::remove(folder / "wire.mcap.part", ignored);

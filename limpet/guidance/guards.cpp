@@ -281,6 +281,16 @@ bool not_level_in_time(const Scene& s) {
 bool rest_over_blind(const Scene& s) {
     return rest_over(s) && estimate_lost(s);
 }
+bool rest_over_turned(const Scene& s) {
+    constexpr double kTurned_deg = 25.0;
+    // About the vertical alone: on the cup the vehicle also turns about the wall's normal.
+    const Quaternion turned =
+        s.estimate.q_WB *
+        quaternion_from_euler({.pitch_rad = s.pitch_rad(), .yaw_rad = s.memory.wall.heading_rad})
+            .conjugate();
+    const double about_z_rad = wrap_pi(2.0 * std::atan2(turned.z(), turned.w()));
+    return rest_over(s) && std::abs(about_z_rad) > radians(kTurned_deg);
+}
 bool battery_low_flies(const Scene& s) {
     return s.task.take_off && battery_low(s);
 }

@@ -90,6 +90,8 @@ struct Scene {
 [[nodiscard]] bool spun_up(const Scene& s);
 [[nodiscard]] bool not_level_in_time(const Scene& s);
 [[nodiscard]] bool rest_over_blind(const Scene& s);
+/// A heading that is not the wall's any more: rotors would push it along or off the wall.
+[[nodiscard]] bool rest_over_turned(const Scene& s);
 [[nodiscard]] bool battery_low_flies(const Scene& s);
 [[nodiscard]] bool battery_low_stays(const Scene& s);
 [[nodiscard]] bool back_unperched(const Scene& s);

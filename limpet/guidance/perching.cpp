@@ -101,6 +101,8 @@ constexpr std::array kTable = {
     ends(S::resting, battery_low_stays, "battery low: rests on the wall", Outcome::perched),
     ends(S::resting, rest_over_blind, "no position estimate: rests on the wall",
          Outcome::release_aborted),
+    ends(S::resting, rest_over_turned, "heading is not the wall's: rests on the wall",
+         Outcome::release_aborted),
     Transition{S::resting, battery_low_flies, S::spinning_up, "battery low", E::motors_on},
     Transition{S::resting, rest_over, S::spinning_up, "rest over", E::motors_on},
 

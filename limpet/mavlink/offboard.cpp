@@ -48,6 +48,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
         if (beat->type == MavType::quadrotor || beat->autopilot != MavAutopilot::invalid) {
             heartbeat_s_ = time_s;
             report_.armed = (beat->base_mode & kArmedFlag) != 0;
+            was_armed_ = was_armed_ || report_.armed;
             report_.custom_mode = beat->custom_mode;
             report_.offboard = main_mode(beat->custom_mode) == kMainModeOffboard;
             was_engaged_ = was_engaged_ || (report_.offboard && streaming_s_ >= 0.0);
@@ -184,7 +185,7 @@ void Offboard::speak_up(Link& link, double time_s) {
     const OffboardState now = state(time_s);
     const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
     if (heard && again(sent_request_s_, 1.0, time_s)) {
-        if (options_.sets_origin && !report_.armed) {
+        if (options_.sets_origin && !was_armed_) {
             SetGpsGlobalOrigin origin{.target_system = options_.target_system};
             put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
             (void)link.send(origin, kPatience);

@@ -46,8 +46,9 @@ struct OffboardOptions {
     bool asks_for_mode = true;
     /// A heartbeat of a ground station, not of a companion: PX4 sends STATUSTEXT to no one else.
     bool hears_texts = true;
-    /// Gives the local origin a latitude and longitude (altitude 0): without one, PX4's hold and
-    /// landing fly off to (0, 0). Reference: px4.md
+    /// Gives the local origin a latitude and longitude (altitude 0), before it is armed for the
+    /// first time: without one, PX4's hold and landing fly off to (0, 0). Not where it has GPS,
+    /// whose origin is another. Reference: px4.md
     bool sets_origin = true;
 };
 
@@ -112,6 +113,7 @@ private:
     double estimate_s_ = -1.0;   ///< < 0: never told
     double heartbeat_s_ = -1.0;  ///< < 0: never heard
     double streaming_s_ = -1.0;  ///< since when set-points go without a break
+    bool was_armed_ = false;
     bool was_engaged_ = false;
     bool handed_back_ = false;
     bool hold_accepted_ = false;

@@ -18,7 +18,8 @@ struct Px4Addresses {
     wire::TransportAddress hil = {.medium = wire::Medium::tcp, .port = 4560};
     /// Where its onboard link comes in; over serial all goes over the one wire.
     wire::TransportAddress offboard = {.medium = wire::Medium::udp, .port = 14540};
-    double wait_s = 60.0;  ///< longest wait for it, wall time
+    double wait_s = 60.0;     ///< longest wait for it, wall time
+    bool sets_origin = true;  ///< gives it a place on earth: where it has no GPS
 
     [[nodiscard]] bool serial() const { return hil.medium == wire::Medium::serial; }
 };

@@ -76,6 +76,23 @@ TEST(Faults, ARunThatMeetsNoWallIsBroken) {
     EXPECT_EQ(reason_of_abort(puppet), "no impact in time");
 }
 
+/// As an estimator does that has lost north: where it thinks forward is, there is no wall.
+TEST(Faults, OneThatRestsDoesNotArmByAHeadingThatIsNotTheWalls) {
+    for (const double misled_deg : {160.0, -40.0, 10.0}) {
+        Puppet puppet;
+        ASSERT_TRUE(puppet.run_to(PerchingState::resting));
+        puppet.misled_rad = radians(misled_deg);
+        puppet.run(puppet.parameters.rest_s + 2.0);
+        const bool stays = misled_deg != 10.0;
+        ASSERT_EQ(puppet.memory.ending.has_value(), stays) << misled_deg;
+        if (stays) {
+            EXPECT_EQ(puppet.memory.ending->outcome, Outcome::release_aborted);
+            EXPECT_EQ(puppet.memory.ending->reason.view(),
+                      "heading is not the wall's: rests on the wall");
+        }
+    }
+}
+
 TEST(Faults, VacuumLostWhileLandingRetreats) {
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::pitching_up));

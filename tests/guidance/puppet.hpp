@@ -36,7 +36,8 @@ public:
     bool pressure_works = true;
     bool holds = true;  ///< the cup, while the vehicle flies by attitude
     bool knows_position = true;
-    double swing_deg = 0.0;  ///< pitch while waiting for the release
+    double misled_rad = 0.0;  ///< by so much the estimated heading is off
+    double swing_deg = 0.0;   ///< pitch while waiting for the release
     double vacuum_Pa = 65000.0;
 
     Puppet() { restart(); }
@@ -117,7 +118,8 @@ private:
         if (memory.state == PerchingState::releasing) {
             pitch_rad += radians(swing_deg);
         }
-        estimate.q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = yaw_rad});
+        estimate.q_WB =
+            quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = yaw_rad + misled_rad});
         if (hangs) {  // turns about the cup's joint
             estimate.p_WB_m = joint_W_m - estimate.q_WB * joint_B_m;
         } else {

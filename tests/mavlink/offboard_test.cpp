@@ -343,5 +343,17 @@ TEST(Offboard, AsksForThePoseAndGivesTheOriginAltitudeZero) {
     EXPECT_EQ(peer.wire.sent<SetGpsGlobalOrigin>()[0].altitude, 0);
 }
 
+/// On the wall, disarmed between two flights, another origin would move the world under it.
+TEST(Offboard, GivesNoOriginOnceItHasBeenArmed) {
+    Peer peer;
+    peer.run(3.0);
+    peer.armed = true;
+    peer.run(1.5);
+    const std::size_t given = peer.wire.sent<SetGpsGlobalOrigin>().size();
+    peer.armed = false;
+    peer.run(3.0);
+    EXPECT_EQ(peer.wire.sent<SetGpsGlobalOrigin>().size(), given);
+}
+
 }  // namespace
 }  // namespace limpet::mavlink
