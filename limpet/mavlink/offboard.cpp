@@ -120,6 +120,18 @@ void Offboard::send_command(Link& link, std::uint16_t command, float param1, flo
                     kPatience);
 }
 
+/// PX4's position controller keeps the wind that it has found, also through a rest: off the wall it
+/// would come on top of guidance's. It forgets while it is disarmed and in use; a second is enough.
+bool Offboard::forgets(const Setpoint& setpoint, double time_s) {
+    constexpr double kForgets_s = 1.0;
+    if (report_.armed || setpoint.armed) {
+        disarmed_s_ = report_.armed ? -1.0 : disarmed_s_;
+        return false;
+    }
+    disarmed_s_ = disarmed_s_ < 0.0 ? time_s : disarmed_s_;
+    return was_armed_ && time_s - disarmed_s_ < kForgets_s;
+}
+
 void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_s) {
     const auto send = [&](auto message) {
         message.target_system = options_.target_system;
@@ -129,7 +141,10 @@ void Offboard::send_set_point(Link& link, const Setpoint& setpoint, double time_
     const std::uint32_t now_ms = boot_ms(time_s);
     // Disarmed or idle, it is told what it is: whatever it would do for a position, it must not.
     const AttitudeSetpoint rest{.q_WB = estimate_.q_WB, .thrust = 0.0};
-    if (!setpoint.armed || std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
+    if (forgets(setpoint, time_s)) {
+        send(position_target(
+            VelocitySetpoint{.yaw_rad = euler_from_quaternion(estimate_.q_WB).yaw_rad}, now_ms));
+    } else if (!setpoint.armed || std::holds_alternative<IdleSetpoint>(setpoint.motion)) {
         send(attitude_target(rest, now_ms));
     } else if (const auto* position = std::get_if<PositionSetpoint>(&setpoint.motion)) {
         send(position_target(*position, now_ms));

@@ -99,6 +99,7 @@ private:
         return handed_back_ || (was_engaged_ && !report_.offboard);
     }
     void speak_up(Link& link, double time_s);
+    [[nodiscard]] bool forgets(const Setpoint& setpoint, double time_s);
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
     void request(Link& link, const Setpoint& setpoint, double time_s);
     void request_rate(Link& link);
@@ -113,6 +114,7 @@ private:
     double estimate_s_ = -1.0;   ///< < 0: never told
     double heartbeat_s_ = -1.0;  ///< < 0: never heard
     double streaming_s_ = -1.0;  ///< since when set-points go without a break
+    double disarmed_s_ = -1.0;   ///< since then; < 0: it is armed
     bool was_armed_ = false;
     bool was_engaged_ = false;
     bool handed_back_ = false;

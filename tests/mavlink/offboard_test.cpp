@@ -138,6 +138,33 @@ TEST(Offboard, DisarmsByForceAndStreamsAttitudeWithoutThrustMeanwhile) {
     EXPECT_GE(peer.wire.sent<SetAttitudeTarget>().size(), 24U);
 }
 
+/// PX4's position controller keeps its integral through a rest unless it is used while disarmed.
+TEST(Offboard, HasAPositionControllerForgetTheWindOnceItIsDisarmed) {
+    Peer peer;
+    peer.engage();
+    EXPECT_GT(peer.wire.sent<SetPositionTargetLocalNed>().size(), 50U);
+    peer.armed = true;
+    peer.run(1.1);
+    peer.setpoint.armed = false;
+    peer.armed = false;
+    peer.beat();
+    peer.forget();
+    peer.run(3.0);
+    const auto still = peer.wire.sent<SetPositionTargetLocalNed>();
+    EXPECT_NEAR(static_cast<double>(still.size()), 50.0, 2.0);
+    for (const auto& target : still) {
+        EXPECT_EQ(target.vx, 0.0F);
+        EXPECT_EQ(target.vy, 0.0F);
+        EXPECT_EQ(target.vz, 0.0F);
+    }
+    EXPECT_EQ(peer.wire.sent<SetAttitudeTarget>().size() + still.size(), 150U);
+    peer.forget();
+    peer.setpoint.armed = true;
+    peer.setpoint.motion = AttitudeSetpoint{};
+    peer.run(0.5);
+    EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty());
+}
+
 TEST(Offboard, RepeatsArmingUntilItIsSo) {
     Peer peer;
     peer.engage();
