@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 // Messages of ROS 2 (the structs that interfaces.py makes) as bytes on the wire and back: CDR as
@@ -117,8 +118,10 @@ public:
         }
     }
     [[nodiscard]] bool sound() const { return sound_; }
-    /// Nothing is left but what fills the last four bytes.
-    [[nodiscard]] bool at_end() const { return at_ + 4 > bytes_.size(); }
+    /// At most what fills the last four bytes is left: a field that does not fit was never sent.
+    [[nodiscard]] bool at_end() const { return sound_ && at_ + 4 > bytes_.size(); }
+    /// That field was not meant.
+    void end() { sound_ = true, at_ = bytes_.size(); }
 
 private:
     bool fits(std::size_t size) {
@@ -156,12 +159,14 @@ template <class Message>
 [[nodiscard]] std::optional<Message> decode(std::span<const std::uint8_t> bytes) {
     Message message;
     Decoder decoder(bytes);
-    bool any = false;
+    bool first = true;
     Message::visit(message, [&](auto& field) {
-        if (!(any && decoder.sound() && decoder.at_end())) {
-            decoder(field);
+        const bool may_lack = !std::exchange(first, false) && decoder.at_end();
+        decoder(field);
+        if (may_lack && !decoder.sound()) {
+            field = {};
+            decoder.end();
         }
-        any = true;
     });
     return decoder.sound() ? std::optional(message) : std::nullopt;
 }

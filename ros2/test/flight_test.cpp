@@ -89,7 +89,7 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
                                      "set:=simulation.time_limit_s=3600"});
     Process cup("suction_cup_node", {"as_vehicle:=true", "use_sim_time:=true"});
     Process guidance("perching_node",
-                     {"as_vehicle:=true", "use_sim_time:=true", "asks_for_mode:=true",
+                     {"as_vehicle:=true", "use_sim_time:=true", "mission:=perch", "asks_for_mode:=true",
                       "set:=limits.late_limit_s=0.9"});  // of simulated time, on a busy machine
     Peer peer(domain_);
     node_ = std::make_unique<Node>(read_settings("watch", {}));
