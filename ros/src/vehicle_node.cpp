@@ -46,11 +46,9 @@ void vehicle_node() {
         stop = !::ros::ok();
     };
     const std::unique_ptr<record::MessageSink> seen = recording_topics();
-    const simulation::FlightResult result = fly(model, recording, watch, 0,
-                                                {.outside = vehicle.outside(),
-                                                 .speed = speed,
-                                                 .stop = &stop,
-                                                 .beside = seen.get()});
+    const simulation::FlightResult result =
+        fly(model, recording, watch, 0,
+            {.outside = vehicle.outside(), .speed = speed, .stop = &stop, .beside = seen.get()});
     fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
                result.performance.simulated_s);
 }

@@ -11,8 +11,9 @@
 #include "ros2/dds/codec.hpp"
 #include "ros2/dds/entities.hpp"
 
-// What a participant tells of its nodes on the topic ros_discovery_info, laid out as rmw_dds_common's
-// ParticipantEntitiesInfo: by it the ros2 command line knows nodes, and whose a topic is.
+// What a participant tells of its nodes on the topic ros_discovery_info, laid out as
+// rmw_dds_common's ParticipantEntitiesInfo: by it the ros2 command line knows nodes, and whose a
+// topic is.
 namespace limpet::ros2 {
 
 inline constexpr const char* kDiscoveryTopic = "ros_discovery_info";

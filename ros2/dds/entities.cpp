@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros2/dds/entities.hpp"
 
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
@@ -15,14 +23,6 @@
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-
-#include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <set>
@@ -93,9 +93,10 @@ public:
 /// What readers and writers have in common.
 template <class Qos>
 void set(Qos& qos, const Profile& profile) {
-    qos.reliability().kind = profile.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
-    qos.durability().kind =
-        profile.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
+    qos.reliability().kind =
+        profile.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
+    qos.durability().kind = profile.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                    : fast::VOLATILE_DURABILITY_QOS;
     qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
     qos.history().depth = profile.depth;
     qos.resource_limits().max_samples = 0;  // none but the depth
@@ -228,7 +229,8 @@ public:
             auto& id = parameters.related_sample_identity();
             id.writer_guid(guid_from(related.guid));
             if (related.number != 0) {
-                id.sequence_number(rtps::SequenceNumber_t(static_cast<std::uint64_t>(related.number)));
+                id.sequence_number(
+                    rtps::SequenceNumber_t(static_cast<std::uint64_t>(related.number)));
             }
         }
         writer_->write(const_cast<Bytes*>(&bytes), parameters);

@@ -37,10 +37,11 @@ struct Node::Inside {
 
 private:
     void tell() {
-        discovery_->write(settings.gid_bytes == 24
-                              ? discovery_bytes<24>(settings, participant.guid(), readers_, writers_)
-                              : discovery_bytes<16>(settings, participant.guid(), readers_, writers_),
-                          {});
+        discovery_->write(
+            settings.gid_bytes == 24
+                ? discovery_bytes<24>(settings, participant.guid(), readers_, writers_)
+                : discovery_bytes<16>(settings, participant.guid(), readers_, writers_),
+            {});
     }
 
     std::mutex mutex_;
@@ -134,18 +135,19 @@ public:
         : way_(inside->settings.services),
           replies_(writer(inside, "rr" + service + "Reply", response_type, kServices)),
           serve_(std::move(serve)),
-          requests_(reader(inside, "rq" + service + "Request", request_type, kServices,
-                           [this](Bytes bytes, const dds::Sample& sample) {
-                               hear(std::move(bytes), sample);
-                           })) {}
+          requests_(reader(
+              inside, "rq" + service + "Request", request_type, kServices,
+              [this](Bytes bytes, const dds::Sample& sample) { hear(std::move(bytes), sample); })) {
+    }
 
 private:
     void hear(Bytes bytes, const dds::Sample& sample) {
         if (way_ == ServiceWay::cyclone) {
             if (const auto header = header_of(bytes)) {
-                serve_(std::move(bytes), [replies = replies_, header = *header](const Bytes& reply) {
-                    (*replies)->write(with_header(header, reply), {});
-                });
+                serve_(std::move(bytes),
+                       [replies = replies_, header = *header](const Bytes& reply) {
+                           (*replies)->write(with_header(header, reply), {});
+                       });
             }
             return;
         }
@@ -177,10 +179,9 @@ public:
                   const std::string& request_type, const std::string& response_type)
         : way_(inside->settings.services),
           requests_(writer(inside, "rq" + service + "Request", request_type, kServices)),
-          replies_(reader(inside, "rr" + service + "Reply", response_type, kServices,
-                          [this](Bytes bytes, const dds::Sample& sample) {
-                              hear(std::move(bytes), sample);
-                          })) {
+          replies_(reader(
+              inside, "rr" + service + "Reply", response_type, kServices,
+              [this](Bytes bytes, const dds::Sample& sample) { hear(std::move(bytes), sample); })) {
         const Guid guid = (*requests_)->guid();
         for (std::size_t i = 0; i < sizeof client_; ++i) {  // any number that is ours alone
             client_ = client_ * 256 + (guid[i + 8] ^ guid[i]);
@@ -249,10 +250,9 @@ std::unique_ptr<Writer> Node::advertise(const std::string& topic, const std::str
 
 Handle Node::subscribe(const std::string& topic, const std::string& type, const Profile& profile,
                        std::function<void(Bytes)> hear) {
-    return reader(inside_, "rt" + topic, type, profile,
-                  [hear = std::move(hear)](Bytes bytes, const dds::Sample&) {
-                      hear(std::move(bytes));
-                  });
+    return reader(
+        inside_, "rt" + topic, type, profile,
+        [hear = std::move(hear)](Bytes bytes, const dds::Sample&) { hear(std::move(bytes)); });
 }
 
 Handle Node::serve(const std::string& service, const std::string& request_type,

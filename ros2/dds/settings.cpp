@@ -41,7 +41,9 @@ Range range_of(const std::string& text) {
         return Range::subnet;
     }
     if (text != "OFF") {
-        throw InputError(fmt::format("ROS_AUTOMATIC_DISCOVERY_RANGE={}: must be LOCALHOST, SUBNET, OFF or SYSTEM_DEFAULT", text));
+        throw InputError(fmt::format(
+            "ROS_AUTOMATIC_DISCOVERY_RANGE={}: must be LOCALHOST, SUBNET, OFF or SYSTEM_DEFAULT",
+            text));
     }
     return Range::off;
 }
@@ -88,7 +90,8 @@ Assignment assignment(const std::string& option, const std::string& text) {
 
 void read_parameter(NodeSettings& settings, const std::string& text) {
     const auto [name, value] = assignment("-p", text);
-    YamlNode parameter = scenario::parse_yaml("value: " + value + "\n", "-p " + name).children.at(0);
+    YamlNode parameter =
+        scenario::parse_yaml("value: " + value + "\n", "-p " + name).children.at(0);
     parameter.key = name;
     parameter.place = "-p " + name;
     set_parameter(settings.parameters, std::move(parameter));
@@ -134,7 +137,9 @@ void read_arguments(NodeSettings& settings, const std::vector<std::string>& argu
         const bool known = option == "-p" || option == "--param" || option == "-r" ||
                            option == "--remap" || option == "--params-file";
         if (!ours || !known || i + 1 == arguments.size()) {
-            throw InputError(fmt::format("{}: must be --ros-args -p NAME:=VALUE, -r FROM:=TO or --params-file FILE", option));
+            throw InputError(fmt::format(
+                "{}: must be --ros-args -p NAME:=VALUE, -r FROM:=TO or --params-file FILE",
+                option));
         }
         const std::string& value = arguments[++i];
         if (option == "--params-file") {

@@ -26,7 +26,7 @@ enum class ServiceWay {
 /// What a ROS 2 node is told, by the environment and by its command line.
 struct NodeSettings {
     std::string name;
-    std::string space = "/";  ///< its namespace, absolute
+    std::string space = "/";                                      ///< its namespace, absolute
     std::map<std::string, std::string, std::less<>> remaps = {};  ///< of absolute names
     /// Its own parameters, a map; each once.
     scenario::YamlNode parameters = {};
@@ -43,8 +43,9 @@ struct NodeSettings {
     [[nodiscard]] std::string full_name() const;
 };
 
-/// ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_LOCALHOST_ONLY, ROS_STATIC_PEERS, RMW_IMPLEMENTATION,
-/// ROS_DISTRO; then --ros-args -p NAME:=VALUE, -r FROM:=TO (__node and __ns among them) and --params-file FILE.
+/// ROS_DOMAIN_ID, ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_LOCALHOST_ONLY, ROS_STATIC_PEERS,
+/// RMW_IMPLEMENTATION, ROS_DISTRO; then --ros-args -p NAME:=VALUE, -r FROM:=TO (__node and __ns
+/// among them) and --params-file FILE.
 /// @throws InputError one line: what it was given and what is allowed
 [[nodiscard]] NodeSettings read_settings(std::string_view default_name,
                                          const std::vector<std::string>& arguments);

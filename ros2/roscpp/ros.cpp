@@ -117,14 +117,14 @@ double idle_s(double now_s) {
 
 void hear_clock() {
     core->simulated = true;
-    core->clock = core->node.subscribe(
-        core->node.settings().resolve("/clock"), rosgraph_msgs::Clock::kType,
-        {.reliable = false, .depth = 1}, [](const ros2::Bytes& bytes) {
-            if (const auto heard = ros2::decode<rosgraph_msgs::Clock>(bytes)) {
-                core->clock_ns = std::llround(heard->clock.toSec() * 1e9);
-                core->queue.poke();
-            }
-        });
+    core->clock =
+        core->node.subscribe(core->node.settings().resolve("/clock"), rosgraph_msgs::Clock::kType,
+                             {.reliable = false, .depth = 1}, [](const ros2::Bytes& bytes) {
+                                 if (const auto heard = ros2::decode<rosgraph_msgs::Clock>(bytes)) {
+                                     core->clock_ns = std::llround(heard->clock.toSec() * 1e9);
+                                     core->queue.poke();
+                                 }
+                             });
 }
 
 }  // namespace

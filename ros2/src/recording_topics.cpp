@@ -17,8 +17,8 @@ namespace {
 std::string wire_type(std::string_view type) {
     const std::size_t package = type.find('/');
     const std::size_t name = type.rfind('/');
-    return std::string(type.substr(0, package)) + "::msg::dds_::" +
-           std::string(type.substr(name + 1)) + "_";
+    return std::string(type.substr(0, package)) +
+           "::msg::dds_::" + std::string(type.substr(name + 1)) + "_";
 }
 
 /// Time zero of a flight, on /clock.
@@ -35,8 +35,8 @@ public:
         if (channel.topic == record::kMarkersTopic) {
             return;  // arrows and beams: their stamps lie deep inside, and RViz has its own
         }
-        const bool stays = channel.topic == record::kDescriptionTopic ||
-                           channel.topic == record::kStandingTopic;
+        const bool stays =
+            channel.topic == record::kDescriptionTopic || channel.topic == record::kStandingTopic;
         // Of viewers, under the names that they look for.
         const std::string name =
             (is_of_scene(channel.topic) ? "" : "limpet") + std::string(channel.topic);
@@ -44,11 +44,9 @@ public:
         const std::string type = wire_type(channel.type);
         constexpr std::uint32_t kAsTf2 = 100;
         topics_[channel.id] = {
-            .writer = node.advertise(node.settings().resolve(
-                                         is_of_scene(channel.topic) ? name.substr(1) : name),
-                                     type,
-                                     stays ? ros2::kLatched
-                                           : ::ros::detail::profile_of(type, kAsTf2)),
+            .writer = node.advertise(
+                node.settings().resolve(is_of_scene(channel.topic) ? name.substr(1) : name), type,
+                stays ? ros2::kLatched : ::ros::detail::profile_of(type, kAsTf2)),
             .kind = channel.topic == record::kDescriptionTopic ? Kind::timeless
                     : is_of_scene(channel.topic)               ? Kind::transforms
                                                                : Kind::stamped};

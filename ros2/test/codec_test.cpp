@@ -28,12 +28,12 @@ TEST(Codec, WritesWhatWasReckonedByHand) {
     // RTPS 2.x 10.2 (CDR, little-endian): numbers at multiples of their size after the first four
     // bytes, a text as its length with the closing zero, its characters, a zero.
     const std::vector<int> wanted = {
-        0, 1, 0, 0,                              // CDR_LE
-        2, 0, 0, 0, 0x00, 0x65, 0xcd, 0x1d,      // 2 s, 500,000,000 ns
-        4, 0, 0, 0, 'm', 'a', 'p', 0,            // frame_id
-        1, 1, 0, 0,                              // connected, armed, guided, manual_input
-        9, 0, 0, 0, 'O', 'F', 'F', 'B', 'O', 'A', 'R', 'D', 0,  // mode
-        4};                                      // system_status
+        0, 1, 0, 0,                          // CDR_LE
+        2, 0, 0, 0, 0x00, 0x65, 0xcd, 0x1d,  // 2 s, 500,000,000 ns
+        4, 0, 0, 0, 'm',  'a',  'p',  0,     // frame_id
+        1, 1, 0, 0,                          // connected, armed, guided, manual_input
+        9, 0, 0, 0, 'O',  'F',  'F',  'B',  'O', 'A', 'R', 'D', 0,  // mode
+        4};                                                         // system_status
     EXPECT_THAT(encode(state()), ElementsAreArray(wanted));
 }
 
@@ -50,8 +50,9 @@ TEST(Codec, ReadsWhatItWrites) {
 }
 
 TEST(Codec, ReadsTheOtherByteOrder) {
-    const Bytes big = {0, 0, 0, 0, 0, 0, 0, 2, 0x1d, 0xcd, 0x65, 0x00, 0, 0, 0, 4, 'm', 'a', 'p', 0,
-                       1, 1, 0, 0, 0, 0, 0, 9, 'O', 'F', 'F', 'B', 'O', 'A', 'R', 'D', 0, 4};
+    const Bytes big = {0, 0, 0,   0,   0,   0,   0,   2,   0x1d, 0xcd, 0x65, 0x00, 0,
+                       0, 0, 4,   'm', 'a', 'p', 0,   1,   1,    0,    0,    0,    0,
+                       0, 9, 'O', 'F', 'F', 'B', 'O', 'A', 'R',  'D',  0,    4};
     const auto read = decode<limpet_ros::State>(big);
     ASSERT_TRUE(read);
     EXPECT_EQ(encode(*read), encode(state()));

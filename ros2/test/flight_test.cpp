@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched by
-// another DDS library.
+// Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched
+// by another DDS library.
 #include <gtest/gtest.h>
 #include <limpet_ros/PerchingStatus.h>
 #include <spawn.h>
@@ -59,7 +59,8 @@ class Ros2Flight : public testing::Test {
 protected:
     Ros2Flight() { setenv("ROS_DOMAIN_ID", std::to_string(domain_).c_str(), 1); }
 
-    bool status_is(double patience_s, const std::function<bool(const limpet_ros::PerchingStatus&)>& so) {
+    bool status_is(double patience_s,
+                   const std::function<bool(const limpet_ros::PerchingStatus&)>& so) {
         return soon(
             [&] {
                 const std::lock_guard lock(mutex_);
@@ -68,14 +69,15 @@ protected:
             patience_s);
     }
     std_srvs::TriggerResponse call(const std::string& service) {
-        const auto client =
-            node_->client(service, std_srvs::TriggerRequest::kType, std_srvs::TriggerResponse::kType);
+        const auto client = node_->client(service, std_srvs::TriggerRequest::kType,
+                                          std_srvs::TriggerResponse::kType);
         std::optional<Bytes> answer;
         EXPECT_TRUE(soon([&] {
             answer = client->call(encode(std_srvs::TriggerRequest()), 5.0);
             return answer.has_value();
         })) << service;
-        return decode<std_srvs::TriggerResponse>(answer.value_or(Bytes())).value_or(std_srvs::TriggerResponse());
+        return decode<std_srvs::TriggerResponse>(answer.value_or(Bytes()))
+            .value_or(std_srvs::TriggerResponse());
     }
 
     int domain_ = 1 + static_cast<int>(getpid() % 100);
@@ -88,24 +90,27 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
     Process vehicle("vehicle_node", {"scenario:=perch_concrete", "speed:=3.0",
                                      "set:=simulation.time_limit_s=3600"});
     Process cup("suction_cup_node", {"as_vehicle:=true", "use_sim_time:=true"});
-    Process guidance("perching_node",
-                     {"as_vehicle:=true", "use_sim_time:=true", "mission:=perch", "asks_for_mode:=true",
-                      "set:=limits.late_limit_s=0.9"});  // of simulated time, on a busy machine
+    Process guidance(
+        "perching_node",
+        {"as_vehicle:=true", "use_sim_time:=true", "mission:=perch", "asks_for_mode:=true",
+         "set:=limits.late_limit_s=0.9"});  // of simulated time, on a busy machine
     Peer peer(domain_);
     node_ = std::make_unique<Node>(read_settings("watch", {}));
-    const auto subscription = node_->subscribe(
-        "/perching_node/status", limpet_ros::PerchingStatus::kType, kLatched, [this](const Bytes& bytes) {
-            const std::lock_guard lock(mutex_);
-            status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
-        });
-    const dds_entity_t poses = peer.reader("rt/mavros/local_position/pose",
-                                           geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = false});
-    const dds_entity_t truths =
-        peer.reader("rt/limpet/truth/pose", geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = false});
+    const auto subscription =
+        node_->subscribe("/perching_node/status", limpet_ros::PerchingStatus::kType, kLatched,
+                         [this](const Bytes& bytes) {
+                             const std::lock_guard lock(mutex_);
+                             status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
+                         });
+    const dds_entity_t poses =
+        peer.reader("rt/mavros/local_position/pose", geometry_msgs_msg_dds__PoseStamped__desc,
+                    {.reliable = false});
+    const dds_entity_t truths = peer.reader(
+        "rt/limpet/truth/pose", geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = false});
     const dds_entity_t transforms =
         peer.reader("rt/tf", tf2_msgs_msg_dds__TFMessage__desc, {.reliable = true});
-    const dds_entity_t descriptions = peer.reader("rt/robot_description", std_msgs_msg_dds__String__desc,
-                                                  {.reliable = true, .stays = true});
+    const dds_entity_t descriptions = peer.reader(
+        "rt/robot_description", std_msgs_msg_dds__String__desc, {.reliable = true, .stays = true});
 
     ASSERT_TRUE(status_is(60, [](const auto& s) { return s.phase == "ready"; }));
     EXPECT_FALSE(call("/perching_node/take_off").success);

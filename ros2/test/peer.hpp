@@ -31,7 +31,8 @@ class Peer {
 public:
     explicit Peer(int domain)
         : domain_(dds_create_domain(static_cast<dds_domainid_t>(domain), kLoopbackAlone)),
-          participant_(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr)) {
+          participant_(
+              dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr)) {
         require(domain_ > 0 && participant_ > 0, "Cyclone DDS gives a participant");
     }
     ~Peer() {

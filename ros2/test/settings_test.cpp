@@ -50,8 +50,8 @@ TEST(Ros2Settings, NodeNamespaceAndTopicsAreRemapped) {
 
 TEST(Ros2Settings, ALaterParameterCounts) {
     const NodeSettings settings =
-        read_settings("vehicle_node", {"--ros-args", "-p", "speed:=2", "-p", "speed:=3.5", "-p",
-                                       "set:=a=1; b=2"});
+        read_settings("vehicle_node",
+                      {"--ros-args", "-p", "speed:=2", "-p", "speed:=3.5", "-p", "set:=a=1; b=2"});
     ASSERT_EQ(settings.parameters.children.size(), 2U);
     EXPECT_EQ(settings.parameters.find("speed")->text, "3.5");
     EXPECT_EQ(settings.parameters.find("set")->text, "a=1; b=2");
@@ -61,14 +61,16 @@ TEST(Ros2Settings, WhatIsWrongIsSaidInALine) {
     const auto of = [](std::vector<std::string> arguments) {
         return [arguments] { static_cast<void>(read_settings("node", arguments)); };
     };
-    EXPECT_THAT(of({"_speed:=2"}), ThrowsMessage<InputError>(HasSubstr("_speed:=2: must be --ros-args")));
+    EXPECT_THAT(of({"_speed:=2"}),
+                ThrowsMessage<InputError>(HasSubstr("_speed:=2: must be --ros-args")));
     EXPECT_THAT(of({"--ros-args", "-p", "speed=2"}),
                 ThrowsMessage<InputError>(HasSubstr("-p speed=2: must be NAME:=VALUE")));
     EXPECT_THAT(of({"--ros-args", "--params-file", "/nowhere.yaml"}),
                 ThrowsMessage<InputError>(HasSubstr("/nowhere.yaml")));
     {
         const Environment domain("ROS_DOMAIN_ID", "233");
-        EXPECT_THAT(of({}), ThrowsMessage<InputError>(HasSubstr("ROS_DOMAIN_ID=233: must be 0..232")));
+        EXPECT_THAT(of({}),
+                    ThrowsMessage<InputError>(HasSubstr("ROS_DOMAIN_ID=233: must be 0..232")));
     }
     const Environment range("ROS_AUTOMATIC_DISCOVERY_RANGE", "LAN");
     EXPECT_THAT(of({}), ThrowsMessage<InputError>(HasSubstr("must be LOCALHOST, SUBNET, OFF")));

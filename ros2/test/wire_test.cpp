@@ -81,12 +81,11 @@ TEST_F(Ros2Wire, ThePeersPoseIsRead) {
     Node node(settings("limpet"));
     std::mutex mutex;
     std::optional<geometry_msgs::PoseStamped> heard;
-    const auto subscription =
-        node.subscribe("/limpet/pose", geometry_msgs::PoseStamped::kType, kSensorData,
-                       [&](const Bytes& bytes) {
-                           const std::lock_guard lock(mutex);
-                           heard = decode<geometry_msgs::PoseStamped>(bytes);
-                       });
+    const auto subscription = node.subscribe("/limpet/pose", geometry_msgs::PoseStamped::kType,
+                                             kSensorData, [&](const Bytes& bytes) {
+                                                 const std::lock_guard lock(mutex);
+                                                 heard = decode<geometry_msgs::PoseStamped>(bytes);
+                                             });
     const dds_entity_t writer =
         peer_.writer(kPoseTopic, geometry_msgs_msg_dds__PoseStamped__desc, {.reliable = true});
     ASSERT_TRUE(soon([&] { return Peer::has_reader(writer); }));
@@ -115,7 +114,8 @@ TEST_F(Ros2Wire, WhatStaysIsToldToWhoComesLater) {
                                              {.reliable = true, .stays = true});
     std::size_t size = 0;
     EXPECT_TRUE(soon([&] {
-        Peer::take<PeerString>(reader, [&](const PeerString& read) { size = std::strlen(read.data); });
+        Peer::take<PeerString>(reader,
+                               [&](const PeerString& read) { size = std::strlen(read.data); });
         return size > 0;
     }));
     EXPECT_EQ(size, description.data.size());
@@ -136,8 +136,8 @@ TEST_F(Ros2Wire, WhatThePeerToldBeforeIsHeard) {
     Node node(settings("limpet"));
     std::mutex mutex;
     std::vector<limpet_ros::State> heard;
-    const auto subscription =
-        node.subscribe("/mavros/state", limpet_ros::State::kType, kLatched, [&](const Bytes& bytes) {
+    const auto subscription = node.subscribe(
+        "/mavros/state", limpet_ros::State::kType, kLatched, [&](const Bytes& bytes) {
             const std::lock_guard lock(mutex);
             heard.push_back(decode<limpet_ros::State>(bytes).value());
         });
@@ -180,19 +180,20 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
     NodeSettings of_node = settings("perching_node");
     of_node.space = "/uav1";
     Node node(of_node);
-    const auto writer = node.advertise("/uav1/limpet/pose", geometry_msgs::PoseStamped::kType, kSensorData);
-    const auto subscription =
-        node.subscribe("/uav1/mavros/state", limpet_ros::State::kType, kLatched, [](const Bytes&) {});
-    const auto service = node.serve("/uav1/perching_node/perch", std_srvs::TriggerRequest::kType,
-                                    std_srvs::TriggerResponse::kType,
-                                    [](const Bytes&, const Node::Reply&) {});
+    const auto writer =
+        node.advertise("/uav1/limpet/pose", geometry_msgs::PoseStamped::kType, kSensorData);
+    const auto subscription = node.subscribe("/uav1/mavros/state", limpet_ros::State::kType,
+                                             kLatched, [](const Bytes&) {});
+    const auto service =
+        node.serve("/uav1/perching_node/perch", std_srvs::TriggerRequest::kType,
+                   std_srvs::TriggerResponse::kType, [](const Bytes&, const Node::Reply&) {});
     const dds_entity_t infos =
         peer_.reader("ros_discovery_info", rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
                      {.reliable = true, .stays = true});
     const dds_entity_t publications =
         dds_create_reader(peer_.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
-    const dds_entity_t subscriptions =
-        dds_create_reader(peer_.participant(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr);
+    const dds_entity_t subscriptions = dds_create_reader(
+        peer_.participant(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr);
     std::map<std::array<std::uint8_t, 16>, Endpoint> writers, readers;
     std::set<std::pair<std::string, std::string>> written, read;
     std::string name, space;
@@ -225,10 +226,13 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
     EXPECT_EQ(name, "perching_node");
     EXPECT_EQ(space, "/uav1");
     using Known = std::pair<std::string, std::string>;
-    EXPECT_TRUE(written.contains(Known("rt/uav1/limpet/pose", "geometry_msgs::msg::dds_::PoseStamped_")));
-    EXPECT_TRUE(written.contains(Known("rr/uav1/perching_node/perchReply", "std_srvs::srv::dds_::Trigger_Response_")));
+    EXPECT_TRUE(
+        written.contains(Known("rt/uav1/limpet/pose", "geometry_msgs::msg::dds_::PoseStamped_")));
+    EXPECT_TRUE(written.contains(
+        Known("rr/uav1/perching_node/perchReply", "std_srvs::srv::dds_::Trigger_Response_")));
     EXPECT_TRUE(read.contains(Known("rt/uav1/mavros/state", "mavros_msgs::msg::dds_::State_")));
-    EXPECT_TRUE(read.contains(Known("rq/uav1/perching_node/perchRequest", "std_srvs::srv::dds_::Trigger_Request_")));
+    EXPECT_TRUE(read.contains(
+        Known("rq/uav1/perching_node/perchRequest", "std_srvs::srv::dds_::Trigger_Request_")));
 }
 
 /// Serves as std_srvs/Trigger, and says how often it was asked.
@@ -278,7 +282,8 @@ TEST_F(Ros2Wire, ThePeerCallsAServiceInCyclonesWay) {
     const dds_entity_t replies =
         peer_.reader("rr/limpet/perchReply", std_srvs_srv_dds__Trigger_Response__desc, {});
     ASSERT_TRUE(soon([&] { return Peer::has_reader(requests) && Peer::has_writer(replies); }));
-    const PeerRequest request{.client = 0x1122334455667788U, .number = 42, .structure_needs_at_least_one_member = 0};
+    const PeerRequest request{
+        .client = 0x1122334455667788U, .number = 42, .structure_needs_at_least_one_member = 0};
     bool heard = false;
     EXPECT_TRUE(soon([&] {
         if (asked == 0) {
@@ -310,11 +315,15 @@ TEST_F(Ros2Wire, ThePeersServiceIsCalledInCyclonesWay) {
         char text[] = "not ready";
         while (!over.stop_requested()) {
             Peer::take<PeerRequest>(requests, [&](const PeerRequest& request) {
-                const PeerResponse others{
-                    .client = request.client + 1, .number = request.number, .success = true, .message = text};
+                const PeerResponse others{.client = request.client + 1,
+                                          .number = request.number,
+                                          .success = true,
+                                          .message = text};
                 dds_write(replies, &others);  // somebody else's
-                const PeerResponse response{
-                    .client = request.client, .number = request.number, .success = false, .message = text};
+                const PeerResponse response{.client = request.client,
+                                            .number = request.number,
+                                            .success = false,
+                                            .message = text};
                 dds_write(replies, &response);
             });
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
