@@ -188,8 +188,11 @@ public:
         }
     }
 
+    bool is_served() const override {
+        return (*requests_)->readers() > 0 && (*replies_)->writers() > 0;
+    }
     std::optional<Bytes> call(const Bytes& request, double patience_s) override {
-        if ((*requests_)->readers() == 0 || (*replies_)->writers() == 0) {
+        if (!is_served()) {
             return std::nullopt;
         }
         std::unique_lock lock(mutex_);

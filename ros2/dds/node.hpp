@@ -34,6 +34,8 @@ public:
 class Client {
 public:
     virtual ~Client() = default;
+    /// Whether there is somebody to answer.
+    [[nodiscard]] virtual bool is_served() const = 0;
     /// Waits for the answer, `patience_s` at most; at once nothing when nobody serves.
     [[nodiscard]] virtual std::optional<Bytes> call(const Bytes& request, double patience_s) = 0;
 };

@@ -10,6 +10,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "ros2/dds/parameters.hpp"
 
 namespace ros {
 namespace {
@@ -27,10 +28,11 @@ void end(int /*signal*/) {
 /// A process is a node, as in ROS 1. Used by its main thread, but for what mutex guards.
 struct Core {
     explicit Core(const ros2::NodeSettings& settings)
-        : node(settings), name(settings.full_name()) {}
+        : node(settings), name(settings.full_name()), parameters(serve_parameters(node)) {}
 
     ros2::Node node;
     std::string name;
+    std::vector<ros2::Handle> parameters;
     CallbackQueue queue;
     std::vector<std::weak_ptr<detail::TimerState>> timers;
 
@@ -38,11 +40,12 @@ struct Core {
     std::atomic<std::int64_t> clock_ns{0};
     ros2::Handle clock;
 
-    std::map<std::string, std::unique_ptr<ros2::Writer>> told;  ///< by a parameter's name
-    std::map<std::string, ros2::Handle> asked;                  ///< by a parameter's name
-    std::mutex mutex;                                           ///< of what DDS's threads touch
-    std::map<std::string, std::string> heard;                   ///< of parameters
-    std::set<std::string> unsound;                              ///< topics
+    std::map<std::string, std::unique_ptr<ros2::Writer>> told;   ///< by a parameter's name
+    std::map<std::string, ros2::Handle> asked;                   ///< by a parameter's name
+    std::mutex mutex;                                            ///< of what DDS's threads touch
+    std::map<std::string, std::weak_ptr<ros2::Client>> clients;  ///< by their services
+    std::map<std::string, std::string> heard;                    ///< of parameters
+    std::set<std::string> unsound;                               ///< topics
 };
 std::unique_ptr<Core> core;
 
@@ -141,8 +144,6 @@ void init(int argc, char** argv, const std::string& name) {
     ros2::NodeSettings settings = ros2::read_settings(name, {argv + 1, argv + argc});
     bool simulated = false;
     limpet::scenario::read_given(settings.parameters, "use_sim_time", simulated);
-    std::erase_if(settings.parameters.children,
-                  [](const YamlNode& node) { return node.key == "use_sim_time"; });
     core = std::make_unique<Core>(settings);
     std::signal(SIGINT, end);
     std::signal(SIGTERM, end);
@@ -176,7 +177,9 @@ const std::string& this_node::getName() {
 
 bool param::get(const std::string& name, XmlRpcValue& value) {
     if (name == core->name) {
-        value = value_of(core->node.settings().parameters);
+        YamlNode own = core->node.settings().parameters;  // ROS's one is not the node's business
+        std::erase_if(own.children, [](const YamlNode& one) { return one.key == "use_sim_time"; });
+        value = value_of(own);
         return true;
     }
     if (!core->asked.contains(name)) {
@@ -220,6 +223,22 @@ ros2::Node& detail::node() {
 
 CallbackQueue& detail::global_queue() {
     return core->queue;
+}
+
+bool service::exists(const std::string& name, bool /*print_failure_reason*/) {
+    const std::lock_guard lock(core->mutex);
+    const auto found = core->clients.find(core->node.settings().resolve(name));
+    const auto client = found != core->clients.end() ? found->second.lock() : nullptr;
+    return client && client->is_served();
+}
+
+std::shared_ptr<ros2::Client> detail::client(const std::string& service,
+                                             const std::string& request_type,
+                                             const std::string& response_type) {
+    std::shared_ptr<ros2::Client> made = core->node.client(service, request_type, response_type);
+    const std::lock_guard lock(core->mutex);
+    core->clients[service] = made;
+    return made;
 }
 
 ros2::Profile detail::profile_of(const std::string& type, std::uint32_t queue) {

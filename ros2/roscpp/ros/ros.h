@@ -4,8 +4,8 @@
 // The part of roscpp's interface that Limpet's nodes use (ros/src), on ROS 2's wire
 // (ros2/dds/node.hpp): they are written once and compiled for both. What differs between the two:
 // names of interfaces are ROS 1's, bytes and names on the wire ROS 2's; a parameter of another node
-// is a topic of that name that stays (std_msgs/String); a connection's manners follow from its type,
-// profile_of().
+// is a topic of that name that stays (std_msgs/String); a connection's manners follow from its
+// type, profile_of().
 
 #include <ros/callback_queue.h>
 #include <ros/time.h>
@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <atomic>
 #include <boost/function.hpp>
-#include <boost/smart_ptr/make_shared.hpp>
-#include <boost/smart_ptr/shared_ptr.hpp>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -98,15 +96,27 @@ namespace this_node {
 }
 
 namespace param {
-/// @return whether there is such a one: of this node all its own (this_node::getName()), of others what they told
+/// @return whether there is such a one: of this node all its own (this_node::getName()), of others
+/// what they told
 [[nodiscard]] bool get(const std::string& name, XmlRpc::XmlRpcValue& value);
 void set(const std::string& name, const XmlRpc::XmlRpcValue& value);
 }  // namespace param
 
-using VoidConstPtr = boost::shared_ptr<const void>;
-struct TransportHints {
-    TransportHints& tcpNoDelay() { return *this; }
-};
+namespace service {
+/// Whether somebody serves it whom a client of this node has found.
+[[nodiscard]] bool exists(const std::string& name, bool print_failure_reason);
+}  // namespace service
+
+namespace service_traits {
+template <class Service>
+[[nodiscard]] const char* datatype(const Service&) {
+    return Service::Request::kType;
+}
+template <class Service>
+[[nodiscard]] const char* md5sum(const Service&) {
+    return "none, ROS 2 has no sums";
+}
+}  // namespace service_traits
 
 namespace detail {
 
@@ -114,6 +124,10 @@ namespace detail {
 [[nodiscard]] CallbackQueue& global_queue();
 /// As MAVROS has them: measurements, estimates and set-points are sent once, all else arrives.
 [[nodiscard]] limpet::ros2::Profile profile_of(const std::string& type, std::uint32_t queue);
+/// Its client, by which service::exists() knows.
+[[nodiscard]] std::shared_ptr<limpet::ros2::Client> client(const std::string& service,
+                                                           const std::string& request_type,
+                                                           const std::string& response_type);
 /// Says once for a topic that what came there is not what its type says.
 void tell_unsound(const std::string& topic, const std::string& type);
 
@@ -154,7 +168,7 @@ struct Timer {
 class ServiceClient {
 public:
     ServiceClient() = default;
-    explicit ServiceClient(std::unique_ptr<limpet::ros2::Client> client)
+    explicit ServiceClient(std::shared_ptr<limpet::ros2::Client> client)
         : client_(std::move(client)) {}
     /// @return whether an answer came, within two seconds
     template <class Service>
@@ -187,11 +201,10 @@ public:
             latch ? limpet::ros2::kLatched : detail::profile_of(Message::kType, queue)));
     }
 
-    template <class Message>
-    [[nodiscard]] Subscriber subscribe(
-        const std::string& topic, std::uint32_t queue,
-        boost::function<void(const boost::shared_ptr<const Message>&)> call,
-        const VoidConstPtr& = {}, const TransportHints& = {}) const {
+    /// @param call  takes a Message
+    template <class Message, class Call>
+    [[nodiscard]] Subscriber subscribe(const std::string& topic, std::uint32_t queue,
+                                       Call call) const {
         const std::string name = resolve(topic);
         const auto waiting = std::make_shared<std::atomic<std::uint32_t>>(0);
         return {detail::node().subscribe(
@@ -202,7 +215,7 @@ public:
                     detail::tell_unsound(name, Message::kType);
                 } else if (*waiting < queue) {
                     ++*waiting;
-                    calls->add([call, waiting, kept = boost::make_shared<const Message>(*message)] {
+                    calls->add([call, waiting, kept = *message] {
                         --*waiting;
                         call(kept);
                     });
@@ -214,45 +227,43 @@ public:
     [[nodiscard]] ServiceServer advertiseService(
         const std::string& service, boost::function<bool(Request&, Response&)> call) const {
         const std::string name = resolve(service);
-        return {detail::node().serve(
-            name, Request::kType, Response::kType,
-            [=, calls = queue()](const limpet::ros2::Bytes& bytes,
-                                 const limpet::ros2::Node::Reply& reply) {
-                const auto request = limpet::ros2::decode<Request>(bytes);
-                if (!request) {
-                    detail::tell_unsound(name, Request::kType);
-                    return;
-                }
-                calls->add([call, reply, asked = *request]() mutable {
-                    Response response;
-                    if (call(asked, response)) {
-                        reply(limpet::ros2::encode(response));
-                    }
-                });
-            })};
+        return {detail::node().serve(name, Request::kType, Response::kType,
+                                     [=, calls = queue()](const limpet::ros2::Bytes& bytes,
+                                                          const limpet::ros2::Node::Reply& reply) {
+                                         const auto request = limpet::ros2::decode<Request>(bytes);
+                                         if (!request) {
+                                             detail::tell_unsound(name, Request::kType);
+                                             return;
+                                         }
+                                         calls->add([call, reply, asked = *request]() mutable {
+                                             Response response;
+                                             if (call(asked, response)) {
+                                                 reply(limpet::ros2::encode(response));
+                                             }
+                                         });
+                                     })};
     }
     template <class Object, class Request, class Response>
     [[nodiscard]] ServiceServer advertiseService(const std::string& service,
                                                  bool (Object::*call)(Request&, Response&),
                                                  Object* object) const {
-        return advertiseService(
-            service, boost::function<bool(Request&, Response&)>(
-                         [object, call](Request& request, Response& response) {
-                             return (object->*call)(request, response);
-                         }));
+        return advertiseService(service, boost::function<bool(Request&, Response&)>(
+                                             [object, call](Request& request, Response& response) {
+                                                 return (object->*call)(request, response);
+                                             }));
     }
 
     template <class Service>
     [[nodiscard]] ServiceClient serviceClient(const std::string& service) const {
-        return ServiceClient(detail::node().client(resolve(service), Service::Request::kType,
-                                                   Service::Response::kType));
+        return ServiceClient(
+            detail::client(resolve(service), Service::Request::kType, Service::Response::kType));
     }
 
     /// In the time of the node, by spin().
     [[nodiscard]] Timer createTimer(const Duration& period,
                                     boost::function<void(const TimerEvent&)> call) const {
-        auto state = std::make_shared<detail::TimerState>(detail::TimerState{
-            .period_s = period.toSec(), .call = [call] { call(TimerEvent{}); }});
+        auto state = std::make_shared<detail::TimerState>(
+            detail::TimerState{.period_s = period.toSec(), .call = [call] { call(TimerEvent{}); }});
         detail::add_timer(state);
         return {std::move(state)};
     }
@@ -273,21 +284,22 @@ private:
 
 // As roscpp's, for its users' sake; to standard output and error.
 #define ROS_INFO(...) (std::printf(__VA_ARGS__), std::printf("\n"))
-#define ROS_INFO_ONCE(...)                                                \
-    do {                                                                  \
-        static const bool said = (ROS_INFO(__VA_ARGS__), true);           \
-        static_cast<void>(said);                                          \
+#define ROS_INFO_ONCE(...)                                      \
+    do {                                                        \
+        static const bool said = (ROS_INFO(__VA_ARGS__), true); \
+        static_cast<void>(said);                                \
     } while (false)
-#define ROS_WARN_THROTTLE(period_s, ...)                                  \
-    do {                                                                  \
-        static double said_s = -1e9;                                      \
-        const double wall_s =                                             \
-            std::chrono::duration<double>(                                \
-                std::chrono::steady_clock::now().time_since_epoch())      \
-                .count();                                                 \
-        if (wall_s - said_s > (period_s)) {                               \
-            said_s = wall_s;                                              \
-            std::fprintf(stderr, __VA_ARGS__);                            \
-            std::fprintf(stderr, "\n");                                   \
-        }                                                                 \
+#define ROS_WARN(...) (std::fprintf(stderr, __VA_ARGS__), std::fprintf(stderr, "\n"))
+#define ROS_ERROR(...) ROS_WARN(__VA_ARGS__)
+#define ROS_WARN_THROTTLE(period_s, ...)                                                       \
+    do {                                                                                       \
+        static double said_s = -1e9;                                                           \
+        const double wall_s =                                                                  \
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()) \
+                .count();                                                                      \
+        if (wall_s - said_s > (period_s)) {                                                    \
+            said_s = wall_s;                                                                   \
+            std::fprintf(stderr, __VA_ARGS__);                                                 \
+            std::fprintf(stderr, "\n");                                                        \
+        }                                                                                      \
     } while (false)

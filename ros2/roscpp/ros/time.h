@@ -8,6 +8,12 @@
 
 namespace ros {
 
+struct Duration {
+    explicit Duration(double duration_s) : seconds(duration_s) {}
+    [[nodiscard]] double toSec() const { return seconds; }
+    double seconds;
+};
+
 /// builtin_interfaces/Time of ROS 2, with the names that ROS 1 gives it.
 struct Time {
     std::int32_t sec = 0;
@@ -27,12 +33,10 @@ struct Time {
     [[nodiscard]] static Time now();
 
     friend bool operator==(const Time&, const Time&) = default;
-};
-
-struct Duration {
-    explicit Duration(double duration_s) : seconds(duration_s) {}
-    [[nodiscard]] double toSec() const { return seconds; }
-    double seconds;
+    friend Duration operator-(const Time& to, const Time& from) {
+        return Duration(to.sec - from.sec +
+                        1e-9 * (static_cast<double>(to.nsec) - static_cast<double>(from.nsec)));
+    }
 };
 
 struct WallDuration {
