@@ -36,7 +36,8 @@ Writer::Writer(std::filesystem::path path, const WriterOptions& options)
       file_(nullptr, &std::fclose),
       zstd_(ZSTD_createCCtx(), &ZSTD_freeCCtx) {
     std::error_code ignored;
-    if (!path_.empty() && (!path_.has_filename() || std::filesystem::is_directory(path_, ignored))) {
+    if (!path_.empty() &&
+        (!path_.has_filename() || std::filesystem::is_directory(path_, ignored))) {
         throw InputError(path_.string() + ": cannot write a recording: is a directory");
     }
     file_.reset(std::fopen(part_path_.c_str(), "wb"));
