@@ -19,7 +19,7 @@ extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 root_doc = "README"
 include_patterns = ["*.md", "docs/*.md", "docs/decisions/*.md", "docs/reference/*.md", "docs/site/*.md", "scenarios/README.md",
                     "campaigns/README.md", "python/README.md", "samples/README.md", "ros/README.md"]
-exclude_patterns = ["build", "out", ".git", "web", "tests", "limpet", "gazebo", "bench"]
+exclude_patterns = ["build", "out", ".git", "web", "tests", "limpet", "gazebo", "ros2", "bench"]
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]
@@ -40,7 +40,7 @@ pygments_style = "friendly"
 CHAPTERS = {
     "Begin": ["docs/tutorial", "docs/commands", "docs/reading_a_flight"],
     "Yours": ["docs/own_vehicle", "docs/own_controller", "scenarios/README", "campaigns/README", "python/README", "samples/README"],
-    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "ros/README", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
+    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "ros/README", "docs/ros2", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
     "Reference": ["docs/site/cpp", "docs/site/python"],

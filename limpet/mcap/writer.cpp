@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view kProfile = "ros2";
 constexpr std::string_view kLibrary = "limpet";
+constexpr const char* kNowhere = "/dev/null";
 constexpr std::size_t kIndexReserve_bytes = 1 << 20;
 /// Room behind a full chunk for the message that fills it, and for a chunk's message indexes.
 constexpr std::size_t kSlack_bytes = 64 * 1024;
@@ -30,12 +31,13 @@ void Writer::TimeRange::include(std::uint64_t time_ns) {
 
 Writer::Writer(std::filesystem::path path, const WriterOptions& options)
     : path_(std::move(path)),
-      part_path_(path_.string() + ".part"),
+      part_path_(path_.empty() ? kNowhere : path_.string() + ".part"),
       options_(options),
       file_(nullptr, &std::fclose),
       zstd_(ZSTD_createCCtx(), &ZSTD_freeCCtx) {
     std::error_code ignored;
-    if (!path_.has_filename() || std::filesystem::is_directory(path_, ignored)) {
+    if (!path_.empty() &&
+        (!path_.has_filename() || std::filesystem::is_directory(path_, ignored))) {
         throw InputError(path_.string() + ": cannot write a recording: is a directory");
     }
     file_.reset(std::fopen(part_path_.c_str(), "wb"));
@@ -217,7 +219,7 @@ void Writer::close() {
     if (std::fclose(file_.release()) != 0) {
         fail("cannot write");
     }
-    if (std::rename(part_path_.c_str(), path_.c_str()) != 0) {
+    if (!path_.empty() && std::rename(part_path_.c_str(), path_.c_str()) != 0) {
         fail("cannot be renamed to its final name");
     }
 }

@@ -27,6 +27,8 @@ struct WriterOptions {
 /// and all metadata, attachments, schemas and channels that were added. Schemas and channels stand
 /// outside the chunks, so that no lost chunk takes them along.
 ///
+/// An empty PATH is nowhere, for a recording that others take as it comes (record::MessageSink).
+///
 /// write() allocates nothing as long as messages are smaller than a chunk; the index for the
 /// summary grows by some 300 bytes a chunk, out of a reserve for 1 GB of messages.
 class Writer {

@@ -190,7 +190,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                                             .on_obstacle = conduct.on_obstacle}),
                                                   conduct.outside);
     std::optional<FlightLog> log;
-    if (!recording.empty()) {
+    if (!recording.empty() || conduct.beside != nullptr) {
         log.emplace(
             recording, *model,
             FlightLog::Options{

@@ -85,7 +85,7 @@ struct FlightConduct {
     std::function<void(const std::string& obstacle)> on_obstacle = {};
     bool brief = false;                     ///< a recording of what a picture needs, at 25 Hz
     bool compress = true;                   ///< the recording
-    record::MessageSink* beside = nullptr;  ///< takes what the recording takes, if there is one
+    record::MessageSink* beside = nullptr;  ///< takes what the recording takes, or would take
 };
 
 struct FlightPerformance {

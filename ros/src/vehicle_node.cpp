@@ -9,6 +9,7 @@
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
+#include "ros/src/recording_topics.hpp"
 #include "ros/src/ros_vehicle.hpp"
 #include "ros/src/setup.hpp"
 
@@ -31,7 +32,7 @@ void vehicle_node() {
     const SetupArguments arguments = setup_of(parameters);
     const NodeSetup setup = load_setup(arguments);
 
-    const auto model = build_model(setup.scenario);
+    const auto model = simulation::build_model(setup.scenario);
     tell_flight(arguments);
     RosVehicle vehicle(setup.scenario, options);
     std::atomic<bool> stop{false};
@@ -44,8 +45,10 @@ void vehicle_node() {
     watch.on_tick = [&stop](simulation::Flight&, const guidance::EventList&) {
         stop = !::ros::ok();
     };
-    const simulation::FlightResult result = fly(
-        model, recording, watch, 0, {.outside = vehicle.outside(), .speed = speed, .stop = &stop});
+    const std::unique_ptr<record::MessageSink> seen = recording_topics();
+    const simulation::FlightResult result =
+        fly(model, recording, watch, 0,
+            {.outside = vehicle.outside(), .speed = speed, .stop = &stop, .beside = seen.get()});
     fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
                result.performance.simulated_s);
 }

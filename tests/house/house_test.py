@@ -34,7 +34,7 @@ def below(room, seen=None):
 
 class House(unittest.TestCase):
     def test_every_room_opens_with_a_page(self):
-        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "gazebo", ROOT / "ros"]:
+        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "gazebo", ROOT / "ros", ROOT / "ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent.name == "limpet":
@@ -71,7 +71,7 @@ class House(unittest.TestCase):
                         self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
 
     def test_documents_name_sources_that_are_there(self):
-        tops = ("limpet", "apps", "gazebo", "ros", "tests", "bench", "examples")
+        tops = ("limpet", "apps", "gazebo", "ros", "ros2", "tests", "bench", "examples")
         there = [f"/{path.relative_to(ROOT)}" for top in tops for path in sources(ROOT / top)]
         pages = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md"),
                  ROOT / "ros/README.md"]
@@ -83,7 +83,7 @@ class House(unittest.TestCase):
 
     def test_the_models_page_names_tests_that_are_there(self):
         there = set()
-        for top in ("tests", "gazebo/tests", "ros/test"):
+        for top in ("tests", "gazebo/tests", "ros/test", "ros2/test"):
             for path in (ROOT / top).rglob("*.cpp"):
                 there |= set(re.findall(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", path.read_text(), re.M))
         suites = {suite for suite, _ in there}

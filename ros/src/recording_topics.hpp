@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "limpet/record/message_sink.hpp"
+
+namespace limpet::ros {
+
+/// Tells on topics what a recording holds: truth, /tf, the description of the vehicle. Its messages
+/// are ROS 2's: ROS 1 has none of these.
+/// @return null where there is nobody to tell
+[[nodiscard]] std::unique_ptr<record::MessageSink> recording_topics();
+
+}  // namespace limpet::ros

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Interfaces of ROS 2 as structs of C++: of every PACKAGE/{msg,srv}/NAME.{msg,srv} (or PACKAGE/NAME.msg) below the folders
+a header OUT/PACKAGE/NAME.h, named as ROS 1 names it, so that what is written for one is compiled for the other.
+
+    interfaces.py --out OUT [--as PACKAGE:OTHER:NAME,...] FOLDER... PACKAGE=FOLDER...
+
+PACKAGE=FOLDER is ROS 1's layout, FOLDER/{msg,srv}. --as: these of a package are OTHER's on the wire."""
+
+import argparse
+import pathlib
+import re
+import sys
+
+PRIMITIVES = {"bool": "std::uint8_t", "byte": "std::uint8_t", "char": "std::uint8_t", "float32": "float", "float64": "double",
+              "string": "std::string",
+              **{f"{sign}int{bits}": f"std::{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)}}
+STAMP = "builtin_interfaces/Time"
+FIELD = re.compile(r"^([\w/]+)(<=\d+)?(\[(<=)?(\d*)\])?\s+(\w+)\s*(?:=\s*(.+)|\s(.+))?$")
+
+
+class Interface:
+    """A struct to be: its fields as (type of C++, name), its constants as lines, what it includes."""
+
+    def __init__(self, package, name, wire, text, place):
+        self.package, self.name, self.wire = package, name, wire
+        self.fields, self.constants, self.includes = [], [], set()
+        for number, line in enumerate(text.splitlines(), 1):
+            line = line.split("#")[0].strip()
+            found = FIELD.match(line)
+            if line and not found:
+                sys.exit(f"{place}:{number}: {line}: must be TYPE NAME, with =VALUE or a default")
+            if line:
+                self.add(*found.groups())
+        if not self.fields:  # ROS 2 sends one byte for nothing
+            self.fields.append(("std::uint8_t", "structure_needs_at_least_one_member{}"))
+
+    def type_of(self, kind):
+        if kind in PRIMITIVES:
+            return PRIMITIVES[kind]
+        kind = "std_msgs/Header" if kind == "Header" else kind.replace("/msg/", "/")
+        kind = kind if "/" in kind else f"{self.package}/{kind}"
+        if kind == STAMP:
+            self.includes.add("ros/time.h")
+            return "::ros::Time"
+        self.includes.add(f"{kind}.h")
+        return "::" + kind.replace("/", "::")
+
+    def add(self, kind, _, array, bound, count, name, value, default):
+        of = self.type_of(kind)
+        if value is not None:
+            if of != "std::string":
+                self.constants.append(f"static constexpr {of} {name} = {value.strip()};")
+        elif not array:
+            self.fields.append((of, f"{name}{{{default or ''}}}"))
+        elif count and not bound:
+            self.fields.append((f"std::array<{of}, {count}>", f"{name}{{}}"))
+        else:
+            self.fields.append((f"std::vector<{of}>", f"{name}{{}}"))
+
+    def struct(self):
+        lines = [f"struct {self.name} {{", f'    static constexpr const char* kType = "{self.wire}";']
+        lines += [f"    {line}" for line in self.constants]
+        lines += [f"    {of} {name};" for of, name in self.fields]
+        lines += ["    template <class Self, class Visit>", "    static void visit(Self& self, Visit&& each) {"]
+        lines += [f"        each(self.{name.partition('{')[0]});" for _, name in self.fields]
+        return "\n".join(lines + ["    }", "};"])
+
+
+def header(structs, more=""):
+    package = structs[0].package
+    includes = sorted(set().union(*(one.includes for one in structs)))
+    return "\n".join(["#pragma once", "#include <array>", "#include <cstdint>", "#include <string>", "#include <vector>",
+                      *(f"#include <{name}>" for name in includes), f"namespace {package} {{",
+                      *(one.struct() for one in structs), more, "}", ""])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--out", required=True, type=pathlib.Path)
+    parser.add_argument("--as", dest="others", action="append", default=[])
+    parser.add_argument("folders", nargs="+")
+    given = parser.parse_args()
+    others = {(package, name): other for package, other, names in (one.split(":") for one in given.others)
+              for name in names.split(",")}
+    files = []
+    for folder in given.folders:
+        package, equals, path = folder.partition("=")
+        for file in sorted(pathlib.Path(path if equals else folder).rglob("*.*")):
+            of = package if equals else next(part for part in reversed(file.parent.parts) if part not in ("msg", "srv"))
+            files.append((of, file))
+    for package, file in files:
+        wire = f"{others.get((package, file.stem), package)}::{file.suffix[1:]}::dds_::{file.stem}"
+        text = file.read_text()
+        if file.suffix == ".msg":
+            out = header([Interface(package, file.stem, f"{wire}_", text, file)])
+        elif file.suffix == ".srv":
+            halves = re.split(r"^---$", text, flags=re.M)
+            out = header([Interface(package, f"{file.stem}{half}", f"{wire}_{half}_", part, file)
+                          for half, part in zip(("Request", "Response"), halves)],
+                         f"struct {file.stem} {{\n    using Request = {file.stem}Request;\n    using Response = "
+                         f"{file.stem}Response;\n    Request request{{}};\n    Response response{{}};\n}};")
+        else:
+            continue
+        to = given.out / package / f"{file.stem}.h"
+        to.parent.mkdir(parents=True, exist_ok=True)
+        if not to.exists() or to.read_text() != out:
+            to.write_text(out)
+
+
+if __name__ == "__main__":
+    main()
