@@ -2,6 +2,7 @@
 #include "gazebo/cup_joint.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "gazebo/frames.hpp"
 #include "limpet/core/errors.hpp"
@@ -11,21 +12,31 @@ namespace limpet::gazebo11 {
 using gazebo_frames::turn;
 using ignition::math::Vector3d;
 
-CupJoint::CupJoint(gazebo::physics::ModelPtr model, gazebo::physics::LinkPtr cup,
+CupJoint::CupJoint(gazebo::physics::ModelPtr model, gazebo::physics::LinkPtr cup, std::string name,
                    const ignition::math::Pose3d& X_LC, Attachment kind, double time_constant_s)
     : model_(model),
       cup_(cup),
       X_LC_(X_LC),
       kind_(kind),
       time_constant_s_(time_constant_s),
-      name_(cup->GetName() + "_suction") {}
+      name_(std::move(name)) {}
 
 CupJoint::~CupJoint() {
     release();
 }
 
+bool CupJoint::moved(const ignition::math::Pose3d& X_WT) const {
+    constexpr double kGives_m = 0.01;  // twice what a soft joint gave, /docs/decisions/0016
+    const Vector3d lip_T_m =
+        X_WT.Rot().RotateVectorReverse((cup_->WorldPose() * X_LC_).Pos() - X_WT.Pos());
+    return lip_T_m.Distance(lip_T_m_) > kGives_m;
+}
+
 void CupJoint::hold(const WallSpot& spot) {
     require(joint_ == nullptr, "a cup has one joint");
+    const auto X_WT = spot.pose(*model_->GetWorld());
+    require(X_WT.has_value(), "a spot that is held is there");
+    lip_T_m_ = X_WT->Rot().RotateVectorReverse((cup_->WorldPose() * X_LC_).Pos() - X_WT->Pos());
     const gazebo::physics::LinkPtr wall = spot.link.lock();
     joint_ =
         model_->CreateJoint(name_, kind_ == Attachment::fixed ? "fixed" : "universal", wall, cup_);

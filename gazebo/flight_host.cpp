@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/flight_host.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/coroutine2/protected_fixedsize_stack.hpp>
 #include <utility>
+
+#include "limpet/core/errors.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
@@ -12,10 +16,18 @@ constexpr std::size_t kStack_bytes = 1024 * 1024;
 
 }  // namespace
 
+std::filesystem::path flight_file(const std::filesystem::path& file, int flight) {
+    if (file.empty() || flight == 1) {
+        return file;
+    }
+    return file.parent_path() /
+           fmt::format("{}-{}{}", file.stem().string(), flight, file.extension().string());
+}
+
 FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     : flight_(std::move(flight)) {
     const auto plant = std::make_shared<const GazeboModel>(std::move(vehicle), flight_.scenario,
-                                                           [this] { wait_for_gazebo(); });
+                                                           [this] { return wait_for_gazebo(); });
     flight_.conduct.stop = &interrupted_;
     model_ = simulation::build_model(flight_.scenario, plant);
 }
@@ -41,13 +53,22 @@ void FlightHost::interrupt() {
     update();
 }
 
-void FlightHost::wait_for_gazebo() {
+bool FlightHost::wait_for_gazebo() {
     if (!interrupted_) {
         (*to_gazebo_)();
     }
+    return !interrupted_;
 }
 
 void FlightHost::restart() {
+    if (under_way()) {
+        try {
+            interrupt();
+        } catch (const Interrupted&) {  // it had not begun
+        }
+    }
+    interrupted_ = false;
+    flights_ += coroutine_ != nullptr ? 1 : 0;
     coroutine_.reset();
     result_.reset();
 }
@@ -55,7 +76,8 @@ void FlightHost::restart() {
 void FlightHost::run(Coroutine::push_type& to_gazebo) {
     to_gazebo_ = &to_gazebo;
     try {
-        result_ = fly(model_, flight_.recording, flight_.watch, 0, flight_.conduct);
+        result_ = fly(model_, flight_file(flight_.recording, flights_), flight_.watch, 0,
+                      flight_.conduct);
     } catch (const boost::context::detail::forced_unwind&) {
         throw;  // restart() or the end of the world, in the middle of a flight
     } catch (...) {

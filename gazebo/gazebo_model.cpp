@@ -3,6 +3,7 @@
 #include <gazebo/ode/error.h>
 
 #include <atomic>
+#include <boost/any.hpp>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -38,12 +39,12 @@ void hear_ode(int /*number*/, const char* text, std::va_list values) {
     std::fputs("\n", stderr);
 }
 
-void require_same(const char* what, double here, double expected, const char* unit) {
+/// @param change  what makes them the same
+void require_same(const char* what, double here, double expected, const char* unit,
+                  const std::string& change = "export the world anew") {
     if (!(std::abs(here - expected) <= kSame * std::max(1.0, std::abs(expected)))) {
-        throw InputError(
-            fmt::format("{} is {:.9g} {} in the world, {:.9g} {} in the scenario; export the world "
-                        "anew",
-                        what, here, unit, expected, unit));
+        throw InputError(fmt::format("{} is {:.9g} {} in the world, {:.9g} {} in the scenario; {}",
+                                     what, here, unit, expected, unit, change));
     }
 }
 
@@ -79,10 +80,16 @@ physics::JointPtr find_hinge(physics::Model& model, const std::string& name) {
     return hinge;
 }
 
+std::string solver_of(const physics::PhysicsEngine& engine) {
+    return boost::any_cast<std::string>(engine.GetParam("solver_type"));
+}
+
 void check_gravity_and_mass(const physics::Model& model, double expected_kg) {
     const Vector3 gravity_W = turn(model.GetWorld()->Gravity());
-    require_same("gravity", gravity_W.z(), kGravity_m_s2, "m/s^2 downwards");
-    require_same("gravity across", std::hypot(gravity_W.x(), gravity_W.y()), 0.0, "m/s^2");
+    const std::string change =
+        fmt::format("set the world's <gravity>0 0 {:.9g}</gravity>", -kGravity_m_s2);
+    require_same("gravity", gravity_W.z(), kGravity_m_s2, "m/s^2 downwards", change);
+    require_same("gravity across", std::hypot(gravity_W.x(), gravity_W.y()), 0.0, "m/s^2", change);
     double mass_kg = 0.0;
     for (const physics::LinkPtr& link : model.GetLinks()) {
         mass_kg += link->GetInertial()->Mass();
@@ -133,8 +140,16 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
       mechanism_(plant::make_mechanism(scenario.airframe)),
       next_(std::move(next)) {
     if (engine_->GetType() != "ode") {
-        throw InputError(fmt::format("physics engine \"{}\": only \"ode\" flies this vehicle",
-                                     engine_->GetType()));
+        throw InputError(fmt::format(
+            "physics engine \"{}\": only \"ode\" flies this vehicle; set the world's <physics "
+            "type=\"ode\">",
+            engine_->GetType()));
+    }
+    if (const std::string solver = solver_of(*engine_); solver != "world") {
+        throw InputError(
+            fmt::format("solver \"{}\" leaves the light cup's joints soft; set the world's "
+                        "<physics><ode><solver><type>world</type></solver></ode></physics>",
+                        solver));
     }
     dSetMessageHandler(&hear_ode);
     const vehicle::Airframe& airframe = scenario.airframe;

@@ -34,7 +34,12 @@ std::unique_ptr<plant::Plant> GazeboModel::make() const {
     return plant;
 }
 
-GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model) : model_(std::move(model)) {}
+GazeboPlant::GazeboPlant(std::shared_ptr<const GazeboModel> model)
+    : model_(std::move(model)), on_stepped_(gazebo::event::Events::ConnectWorldUpdateEnd([this] {
+          if (!last_) {
+              contacts_ = contacts_W();
+          }
+      })) {}
 
 const physics::LinkPtr& GazeboPlant::link(plant::Body body) const {
     const auto& found = model_->links_[static_cast<std::size_t>(body)];
@@ -43,6 +48,9 @@ const physics::LinkPtr& GazeboPlant::link(plant::Body body) const {
 }
 
 void GazeboPlant::apply(plant::Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
+    if (last_) {
+        return;
+    }
     const physics::LinkPtr& on = link(body);
     on->AddForceAtWorldPosition(turn(wrench_W.force_N), turn(p_W_m));
     on->AddTorque(turn(wrench_W.moment_N_m));
@@ -67,7 +75,7 @@ void GazeboPlant::start_twin() {
         state.joint_rate[k] = joints[k]->GetVelocity(0);
     }
     twin_.start(model_->mechanism_.numbers, state);
-    push(twin_, plant::Body::base, contacts_W(), base.p_WF_m);
+    push(twin_, plant::Body::base, contacts_, base.p_WF_m);
 }
 
 CupBearer* GazeboPlant::bear_cup(const plant::StepMode& mode) {
@@ -76,6 +84,9 @@ CupBearer* GazeboPlant::bear_cup(const plant::StepMode& mode) {
 }
 
 void GazeboPlant::step(const plant::StepMode& mode) {
+    if (last_) {
+        return;
+    }
     if (model_->engine_->GetMaxStepSize() != mode.step_s) {
         set_step(mode.step_s);
     }
@@ -87,9 +98,23 @@ void GazeboPlant::step(const plant::StepMode& mode) {
         slider_N_ = twin_.joint_force(0, twin_.change());
         model_->slider_->SetForce(0, slider_N_);
     }
-    model_->next_();
+    before_ = tell();
+    if (!model_->next_()) {
+        last_ = before_;
+        return;
+    }
     require_healthy();
     start_twin();
+}
+
+GazeboPlant::Told GazeboPlant::tell() const {
+    Told told{.bodies = {}, .slider = slider()};
+    for (std::size_t body = 0; body < told.bodies.size(); ++body) {
+        if (model_->links_[body] != nullptr) {
+            told.bodies[body] = kinematics(static_cast<plant::Body>(body));
+        }
+    }
+    return told;
 }
 
 void GazeboPlant::break_legs(const std::array<bool, 2>& lost) {
@@ -127,6 +152,9 @@ void GazeboPlant::require_healthy() const {
 }
 
 Kinematics GazeboPlant::kinematics(plant::Body body) const {
+    if (last_) {
+        return last_->bodies[static_cast<std::size_t>(body)];
+    }
     const physics::LinkPtr& of = link(body);
     const Pose3d pose = of->WorldPose();
     const Quaternion q_WF = turn(pose.Rot());
@@ -139,6 +167,9 @@ Kinematics GazeboPlant::kinematics(plant::Body body) const {
 
 plant::SliderMotion GazeboPlant::slider() const {
     const physics::JointPtr& slider = model_->slider_;
+    if (last_) {
+        return last_->slider;
+    }
     if (slider == nullptr) {
         return {};
     }
@@ -148,6 +179,9 @@ plant::SliderMotion GazeboPlant::slider() const {
 }
 
 std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3& dir_W) const {
+    if (last_) {
+        return std::nullopt;
+    }
     const Vector3d along = turn(dir_W);
     double passed_m = 0.0;
     for (int part = 0; part <= kOwnParts; ++part) {
@@ -171,7 +205,7 @@ std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3&
 }
 
 Vector3 GazeboPlant::contact_force_W() const {
-    return contacts_W().force_N;
+    return contacts_.force_N;
 }
 
 /// On the base, about B.

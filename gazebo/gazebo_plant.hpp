@@ -3,8 +3,10 @@
 
 #include <array>
 #include <functional>
+#include <gazebo/common/Events.hh>
 #include <gazebo/physics/physics.hh>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "limpet/plant/mechanism_step.hpp"
@@ -18,7 +20,8 @@ class GazeboModel final : public plant::PlantModel,
                           public std::enable_shared_from_this<GazeboModel> {
 public:
     /// Hands control to Gazebo and comes back at its next world update.
-    using NextUpdate = std::function<void()>;
+    /// @return false: Gazebo steps no more, and what stood in its world may be gone
+    using NextUpdate = std::function<bool()>;
 
     /// Takes the slider's own spring, damper and limits and ODE's auto-disable out of the model:
     /// the plant applies them, and a vehicle at rest must not fall asleep. From then on ODE's
@@ -56,7 +59,9 @@ private:
 [[nodiscard]] long long take_solver_complaints();
 
 /// The loop's plant in Gazebo: wrenches go to links, a step is a world update. The world's step
-/// length follows the loop's. Contacts are ODE's, always on.
+/// length follows the loop's. Contacts are ODE's, always on; they are read at the end of the step
+/// that made them, before anybody can take a model that touches out of the world. Once Gazebo steps
+/// no more the plant tells the last step and moves nothing: world and bodies are being taken apart.
 class GazeboPlant final : public plant::Plant {
 public:
     explicit GazeboPlant(std::shared_ptr<const GazeboModel> model);
@@ -80,8 +85,14 @@ public:
                   const Vector3& w_WB_B_rad_s) override;
 
 private:
+    /// What is told of a step.
+    struct Told {
+        std::array<Kinematics, 3> bodies;  ///< by Body
+        plant::SliderMotion slider;
+    };
     [[nodiscard]] const gazebo::physics::LinkPtr& link(plant::Body body) const;
     void start_twin();
+    [[nodiscard]] Told tell() const;
     [[nodiscard]] Wrench contacts_W() const;
     void set_step(double step_s);
     void break_legs(const std::array<bool, 2>& lost);
@@ -92,6 +103,10 @@ private:
     plant::MechanismBearer<double> bearer_{twin_};
     double slider_N_ = 0.0;
     std::array<bool, 2> legs_lost_{};
+    Wrench contacts_;           ///< of the last step, on the base about B, in W
+    Told before_;               ///< the step that is being taken
+    std::optional<Told> last_;  ///< Gazebo steps no more: from here on this is told
+    gazebo::event::ConnectionPtr on_stepped_;
 };
 
 }  // namespace limpet::gazebo11

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <gazebo/physics/World.hh>
 #include <locale>
 #include <sdf/Param.hh>
 #include <sstream>
@@ -138,14 +139,35 @@ void end_server(int exit_code, std::string_view line) {
     _exit(exit_code);
 }
 
-void load_or_end(const std::function<void()>& load) {
+void run_or_end(const std::function<void()>& part) {
     try {
-        load();
+        part();
     } catch (const InputError& error) {
         end_server(2, error.what());
+    } catch (const Interrupted& error) {
+        end_server(130, error.what());
     } catch (const std::exception& error) {
         end_server(70, error.what());
     }
+}
+
+bool load_or_end(const gazebo::physics::World& world, const std::function<void()>& load) {
+    // Plugins of the world's own models are loaded in its first step, paused or not.
+    const bool runs = world.Iterations() > 0 || world.PauseTime() > gazebo::common::Time::Zero;
+    bool loaded = false;
+    run_or_end([&] {
+        try {
+            load();
+            loaded = true;
+        } catch (const InputError& error) {
+            if (!runs) {
+                throw;
+            }
+            fmt::print(stderr, "limpet: {}; it is not loaded, the world runs on\n", error.what());
+            std::fflush(stderr);
+        }
+    });
+    return loaded;
 }
 
 }  // namespace limpet::gazebo11

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <gazebo/physics/PhysicsTypes.hh>
 #include <ignition/math/Pose3.hh>
 #include <sdf/Element.hh>
 #include <string>
@@ -41,7 +42,14 @@ struct SdfReading {
 /// threads of the server may wait for what will not come.
 [[noreturn]] void end_server(int exit_code, std::string_view line);
 
-/// Loads a plugin: InputError ends the server with 2, any other exception with 70.
-void load_or_end(const std::function<void()>& load);
+/// Runs a part of a plugin: InputError ends the server with 2, Interrupted with 130, any other
+/// exception with 70.
+void run_or_end(const std::function<void()>& part);
+
+/// Loads a plugin, as run_or_end() does while the server comes up. In a world that runs already the
+/// model was spawned, and the server is somebody's: what the plugin cannot use is said, and it is
+/// not loaded.
+/// @return whether it is
+bool load_or_end(const gazebo::physics::World& world, const std::function<void()>& load);
 
 }  // namespace limpet::gazebo11

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/physics.hh>
 
@@ -42,14 +43,34 @@ Kinematics lip_kinematics(const gazebo::physics::Link& link, const Pose3d& X_LC)
             .w_WF_F_rad_s = turn(X_WC.Rot().RotateVectorReverse(link.WorldAngularVel()))};
 }
 
+/// What the lip moves by, seen from a target that moves itself.
+void make_relative(Kinematics& lip, const gazebo::physics::Link& target, const Pose3d& X_WC) {
+    const auto arm_m =
+        target.WorldPose().Rot().RotateVectorReverse(X_WC.Pos() - target.WorldPose().Pos());
+    lip.v_WF_W_m_s -= turn(target.WorldLinearVel(arm_m));
+    lip.w_WF_F_rad_s -= turn(X_WC.Rot().RotateVectorReverse(target.WorldAngularVel()));
+}
+
+/// On a link, about a point of the world.
+void push(gazebo::physics::Link& link, const Wrench& wrench_W,
+          const ignition::math::Vector3d& about_W_m) {
+    link.AddForceAtWorldPosition(turn(wrench_W.force_N), about_W_m);
+    link.AddTorque(turn(wrench_W.moment_N_m));
+}
+
 }  // namespace
 
 void SuctionCupPlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
-    load_or_end([&] { configure(model, sdf); });
+    const gazebo::physics::WorldPtr world = model->GetWorld();
+    if (!load_or_end(*world, [&] { configure(model, sdf); })) {
+        topics_.reset();
+        joint_.reset();
+    }
 }
 
 void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf) {
-    place_ = "model " + model->GetName() + ": LimpetSuctionCupPlugin";
+    place_ = "model " + model->GetScopedName() + ": LimpetSuctionCupPlugin";
+    const std::string name = sdf->Get<std::string>("name");
     settings_ = suction_cup_settings(sdf_tree(sdf, {.place = place_, .lists = {"target"}}));
     model_ = model;
     link_ = find_link(*model, settings_.link, place_);
@@ -61,26 +82,36 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
                             "does not hold in {}, allowed compliant, or ode",
                             place_, engine));
         }
-        joint_ = std::make_unique<CupJoint>(model, link_, settings_.X_LC, settings_.attachment,
-                                            settings_.load_time_constant_s);
+        joint_ =
+            std::make_unique<CupJoint>(model, link_, link_->GetName() + "_" + name, settings_.X_LC,
+                                       settings_.attachment, settings_.load_time_constant_s);
     }
+    walls_ = std::make_unique<WallFinder>(model_, settings_, place_);
     // A cup at rest on a wall must not fall asleep: it would hang there without pressure.
     for (const gazebo::physics::LinkPtr& link : model->GetLinks()) {
         link->SetAutoDisable(false);
     }
-    topics_ = std::make_unique<SuctionCupTopics>(
-        model->GetWorld(), model->GetName(),
-        CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
-        settings_.cup.valve_fitted, settings_.publish_rate_Hz);
+    try {
+        topics_ = std::make_unique<SuctionCupTopics>(
+            model->GetWorld(),
+            boost::replace_all_copy(model->GetScopedName(), "::", "/") + "/" + name,
+            CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
+            settings_.cup.valve_fitted, settings_.publish_rate_Hz);
+    } catch (const InputError& error) {
+        throw InputError(place_ + ": " + error.what());
+    }
     cup_.parameters = settings_.cup;
     Reset();
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
         [this](const gazebo::common::UpdateInfo& info) {
-            load_or_end([this, &info] { update(info); });
+            run_or_end([this, &info] { update(info); });
         });
 }
 
 void SuctionCupPlugin::Reset() {
+    if (!topics_) {
+        return;  // spawned, and not loaded
+    }
     if (joint_) {
         joint_->release();
     }
@@ -98,7 +129,7 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
         spot_.reset();  // slid off its edge
     }
     const auto X_WT = spot_ ? spot_->pose(*model_->GetWorld()) : std::nullopt;
-    if (!X_WT) {
+    if (!X_WT || (joint_ && joint_->holds() && joint_->moved(*X_WT))) {
         spot_.reset();
         cup_.wall = WallGeometry{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
         return;
@@ -107,8 +138,13 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
 }
 
 void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
-    if (!walls_) {
-        walls_ = std::make_unique<WallFinder>(model_, settings_, place_);
+    if (!looked_) {  // by the first update all models of the world's own are there
+        looked_ = true;
+        for (const std::string& target : walls_->absent()) {
+            gzwarn << fmt::format(
+                "limpet: {}: target: model \"{}\" is not in the world; it is held once it is\n",
+                place_, target);
+        }
     }
     const double dt_s = model_->GetWorld()->Physics()->GetMaxStepSize();
     const Pose3d X_WC = link_->WorldPose() * settings_.X_LC;
@@ -122,17 +158,26 @@ void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
     if (held && spot_) {
         input.held_T = joint_->load_T(cup_.wall.R_WT.transpose(), dt_s);
     }
-    const suction::CupOutput output = step(cup_, state_, spot_ ? spot_->surface : settings_.surface,
-                                           lip_kinematics(*link_, settings_.X_LC), input, dt_s);
+    const gazebo::physics::LinkPtr target = spot_ ? spot_->movable() : nullptr;
+    Kinematics lip = lip_kinematics(*link_, settings_.X_LC);
+    if (target) {
+        make_relative(lip, *target, X_WC);
+    }
+    const suction::CupOutput output =
+        step(cup_, state_, spot_ ? spot_->surface : settings_.surface, lip, input, dt_s);
     const CupPhase phase = state_.status.phase;
     if (joint_ && !held && phase == CupPhase::attached) {
         joint_->hold(*spot_);
     } else if (held && (phase == CupPhase::free || phase == CupPhase::touching)) {
         joint_->release();
+        // Air rushes in below a lip that a load tore off: it has to be pumped out again.
+        state_.mean_pressure_Pa = kAtmosphere_Pa;
     }
     if (!joint_ || !joint_->holds()) {
-        link_->AddForceAtWorldPosition(turn(output.wrench_W.force_N), X_WC.Pos());
-        link_->AddTorque(turn(output.wrench_W.moment_N_m));
+        push(*link_, output.wrench_W, X_WC.Pos());
+        if (target) {
+            push(*target, {-output.wrench_W.force_N, -output.wrench_W.moment_N_m}, X_WC.Pos());
+        }
     }
     report(output);
     topics_->publish(state_.status, input.time_s);
@@ -142,6 +187,7 @@ void SuctionCupPlugin::report(const suction::CupOutput& output) const {
     if (!output.event) {
         return;
     }
+    topics_->publish(*output.event);
     gzmsg << fmt::format("limpet: {:.3f} s {}: {} {}: {}\n", output.event->time_s,
                          model_->GetName(), to_string(output.event->name),
                          spot_ ? (spot_->of_world() ? "the world" : spot_->collision) : "no wall",

@@ -28,8 +28,9 @@ namespace limpet::gazebo11 {
 ///   surface     name in surfaces.yaml, or a section as in a scenario:
 ///               base, and rows of `limpet params wall.surface`                    porous concrete
 ///   target      model="NAME" collision="NAME"? surface="NAME"?: what may be held, and what it
-///               is made of; or plane="x y z roll pitch yaw" surface="NAME"?: a plane of the
-///               world itself, x into it. May stand more than once. None: every static model
+///               is made of, a wall or a box that moves; or plane="x y z roll pitch yaw"
+///               surface="NAME"?: a plane of the world itself, x into it. May stand more than
+///               once. None: every static model
 ///   attachment  compliant: the lip's force law. fixed: a fixed joint from `attached` until the
 ///               cup lets go, the paper's. universal: one that leaves pitch
 ///               and yaw free                                                      compliant
@@ -42,25 +43,34 @@ namespace limpet::gazebo11 {
 ///   load_time_constant_s  low-pass over a joint's load [s], 1e-4..1               0.005
 ///
 /// What cannot be used stops the server with one line and exit code 2: an unknown element, a value
-/// out of range, a link, target or surface that is not there, a target that is not static.
+/// out of range, a link or surface that is not there, a name that another cup has. In a world that
+/// runs already the line is said and the model stays without its cup. A target that is not in the
+/// world is warned of, and held once it is.
+///
+/// A target that moves is lifted, dragged and turned: the lip's force acts on both. It must be
+/// named: what stands around loose is not held by the way.
 ///
 /// The lip is its force law's, in every mode, until a joint takes over: collisions of the cup must
 /// end behind the lip's plane, by more than it is pressed in (some 6 mm), or the engine's contact
 /// carries what should press the lip. The force that presses is the lip's own. A joint's load is
 /// held against the same limits as the law's: pull, shear, peel; beyond one the joint is taken out.
 ///
-/// Topics, Gazebo transport, of a model NAME:
-///   ~/NAME/suction_cup/pressure  gazebo.msgs.Any, a double [Pa], out
-///   ~/NAME/suction_cup/state     gazebo.msgs.GzString: free, touching, sealing, attached,
-///                                unsealing; out, also at once when it changes
-///   ~/NAME/suction_cup/pump      gazebo.msgs.Int, 0 or 1, in
-///   ~/NAME/suction_cup/valve     gazebo.msgs.Int, 0 or 1, in
+/// Topics, Gazebo transport. CUP is MODEL/PLUGIN: the model's name, of a nested one OUTER/INNER,
+/// and the name in <plugin name="...">. So each of several cups has its own:
+///   ~/CUP/pressure  gazebo.msgs.Any, a double [Pa], out
+///   ~/CUP/state     gazebo.msgs.GzString: free, touching, sealing, attached, unsealing; out, also
+///                   at once when it changes
+///   ~/CUP/event     gazebo.msgs.GzString: "TIME attached: WHY", contact_lost, detached; out
+///   ~/CUP/pump      gazebo.msgs.Int, 0 or 1, in
+///   ~/CUP/valve     gazebo.msgs.Int, 0 or 1, in
 /// Services, by requests on ~/request, answered on ~/response with "success" or "error":
-///   NAME/suction_cup/pressure, NAME/suction_cup/state   the same messages in the answer
-///   NAME/suction_cup/pump, NAME/suction_cup/valve       data "on" or "off"
+///   CUP/pressure, CUP/state   the same messages in the answer
+///   CUP/pump, CUP/valve       data "on" or "off"
 ///
 /// A world reset opens the joint and begins anew, with pump and valve as at the start. A pause
-/// stops everything but topics' commands, which wait. A target that is deleted lets go.
+/// stops everything but topics' commands, which wait. A target that is deleted, or put elsewhere,
+/// lets go. A joint that a load opened lets the air in: the cup is attached again when it has been
+/// pumped out.
 class SuctionCupPlugin : public gazebo::ModelPlugin {
 public:
     void Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) override;
@@ -80,8 +90,9 @@ private:
     SuctionCupSettings settings_;
     gazebo::physics::ModelPtr model_;
     gazebo::physics::LinkPtr link_;
-    std::unique_ptr<WallFinder> walls_;  ///< from the first update on: by then all models are there
-    std::unique_ptr<CupJoint> joint_;    ///< null: compliant
+    std::unique_ptr<WallFinder> walls_;
+    bool looked_ = false;              ///< for the targets that are named
+    std::unique_ptr<CupJoint> joint_;  ///< null: compliant
     std::unique_ptr<SuctionCupTopics> topics_;
     std::optional<WallSpot> spot_;
     suction::CupModel cup_;

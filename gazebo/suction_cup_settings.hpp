@@ -21,7 +21,7 @@ enum class Attachment {
 
 /// What a cup may hold.
 struct CupTarget {
-    std::string model = {};      ///< a static model; empty: `plane`
+    std::string model = {};      ///< fixed or movable; empty: `plane`
     std::string collision = {};  ///< one of its collisions; empty: all
     /// In Gazebo's world: a plane of the world itself that has no model, x into it.
     std::optional<ignition::math::Pose3d> plane = {};

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/suction_cup_topics.hpp"
 
+#include <fmt/format.h>
+
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/World.hh>
 #include <optional>
+#include <set>
 #include <string_view>
+
+#include "limpet/core/errors.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
@@ -32,13 +37,26 @@ std::optional<bool> switch_of(const std::string& text) {
     return std::nullopt;
 }
 
+/// Names of the cups of this server; plugins of spawned models come and go.
+std::mutex names_mutex;
+std::set<std::string> names;
+
+std::string take_name(const std::string& name) {
+    const std::lock_guard lock(names_mutex);
+    if (!names.insert(name).second) {
+        throw InputError(fmt::format(
+            "<plugin name>: another cup is {} already, allowed a name of its own", name));
+    }
+    return name + "/";
+}
+
 }  // namespace
 
-SuctionCupTopics::SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& model,
+SuctionCupTopics::SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& name,
                                    const CupCommands& start, bool valve_fitted, double rate_Hz)
     : start_(start),
       valve_fitted_(valve_fitted),
-      prefix_(model + "/suction_cup/"),
+      prefix_(take_name(name)),
       period_s_(1.0 / rate_Hz),
       commands_(start),
       node_(new gazebo::transport::Node()) {
@@ -46,6 +64,7 @@ SuctionCupTopics::SuctionCupTopics(gazebo::physics::WorldPtr world, const std::s
     const std::string topic = "~/" + prefix_;
     pressure_ = node_->Advertise<gazebo::msgs::Any>(topic + "pressure");
     state_ = node_->Advertise<gazebo::msgs::GzString>(topic + "state");
+    event_ = node_->Advertise<gazebo::msgs::GzString>(topic + "event");
     response_ = node_->Advertise<gazebo::msgs::Response>("~/response");
     pump_ = node_->Subscribe(topic + "pump", &SuctionCupTopics::on_pump, this);
     valve_ = node_->Subscribe(topic + "valve", &SuctionCupTopics::on_valve, this);
@@ -54,6 +73,8 @@ SuctionCupTopics::SuctionCupTopics(gazebo::physics::WorldPtr world, const std::s
 
 SuctionCupTopics::~SuctionCupTopics() {
     node_->Fini();  // no message comes in from here on
+    const std::lock_guard lock(names_mutex);
+    names.erase(prefix_.substr(0, prefix_.size() - 1));
 }
 
 CupCommands SuctionCupTopics::commands() const {
@@ -84,6 +105,13 @@ void SuctionCupTopics::publish(const CupStatus& status, double time_s) {
         pressure_->Publish(pressure_message(status));
         state_->Publish(state_message(status));
     }
+}
+
+void SuctionCupTopics::publish(const Event& event) {
+    gazebo::msgs::GzString message;
+    message.set_data(fmt::format("{:.3f} {}: {}", event.time_s, to_string(event.name),
+                                 std::string_view(event.reason)));
+    event_->Publish(message);
 }
 
 bool SuctionCupTopics::turn(const std::string& what, bool on) {

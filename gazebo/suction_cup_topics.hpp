@@ -8,6 +8,7 @@
 #include <string>
 
 #include "limpet/core/signals/cup_status.hpp"
+#include "limpet/core/signals/event.hpp"
 
 namespace limpet::gazebo11 {
 
@@ -21,10 +22,13 @@ struct CupCommands {
 /// transport's; commands wait here for the next world update.
 class SuctionCupTopics {
 public:
-    /// @param model         as it is called on topics
+    /// @param name          of the cup on topics: MODEL/PLUGIN; one cup has it
     /// @param valve_fitted  else it is refused to open one
-    SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& model,
+    /// @throws InputError when another cup has the name
+    SuctionCupTopics(gazebo::physics::WorldPtr world, const std::string& name,
                      const CupCommands& start, bool valve_fitted, double rate_Hz);
+    SuctionCupTopics(const SuctionCupTopics&) = delete;
+    SuctionCupTopics& operator=(const SuctionCupTopics&) = delete;
 
     ~SuctionCupTopics();
 
@@ -34,6 +38,7 @@ public:
     void reset();
     /// Once a world update: a change of phase at once, pressure and phase at their rate.
     void publish(const CupStatus& status, double time_s);
+    void publish(const Event& event);
 
 private:
     using IntPtr = boost::shared_ptr<const gazebo::msgs::Int>;
@@ -49,14 +54,14 @@ private:
 
     const CupCommands start_;
     const bool valve_fitted_;
-    const std::string prefix_;  ///< of requests: MODEL/suction_cup/
+    const std::string prefix_;  ///< of requests: MODEL/PLUGIN/
     const double period_s_;
     double next_s_ = 0.0;
     mutable std::mutex mutex_;
     CupCommands commands_;
     CupStatus status_;
     gazebo::transport::NodePtr node_;
-    gazebo::transport::PublisherPtr pressure_, state_, response_;
+    gazebo::transport::PublisherPtr pressure_, state_, event_, response_;
     gazebo::transport::SubscriberPtr pump_, valve_, request_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -35,6 +37,9 @@ void write_result(const std::filesystem::path& path, const simulation::FlightRes
     }
 }
 
+/// Each sets the world's step, and hears ODE: two would fly at each other's.
+std::atomic<const VehiclePlugin*> the_one{nullptr};
+
 void quit() {
     gazebo::transport::NodePtr node(new gazebo::transport::Node());
     node->Init();
@@ -48,23 +53,45 @@ void quit() {
 
 VehiclePlugin::~VehiclePlugin() {
     end_flight();
+    const VehiclePlugin* self = this;
+    the_one.compare_exchange_strong(self, nullptr);
 }
 
 void VehiclePlugin::end_flight() noexcept {
     on_update_.reset();
+    watched_ = true;
+    if (watching_.joinable()) {
+        watching_.join();
+    }
     if (host_ == nullptr || !host_->under_way()) {
         return;
     }
     try {
         host_->interrupt();
         say("interrupted; the recording is whole up to here");
+        write_result(flight_file(options_.result, host_->flights()), *host_->result());
+    } catch (const Interrupted& error) {  // before it began: there is nothing to record
+        say(error.what());
     } catch (const std::exception& error) {  // a full disk, say: destructors must not throw
         fmt::print(stderr, "limpet: the flight was not ended well: {}\n", error.what());
     }
 }
 
 void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
-    load_or_end([&] { configure(std::move(model), sdf); });
+    const gazebo::physics::WorldPtr world = model->GetWorld();
+    load_or_end(*world, [&] { configure(std::move(model), sdf); });
+}
+
+/// Whoever waits for a PX4 hears that the world is to stop: its destructor comes after that wait.
+void VehiclePlugin::watch_world() {
+    constexpr std::chrono::milliseconds kEvery(50);
+    while (!watched_) {
+        if (!world_->Running()) {
+            stop_ = true;
+            return;
+        }
+        std::this_thread::sleep_for(kEvery);
+    }
 }
 
 void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf) {
@@ -77,7 +104,13 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
               .from_environment = elements});
     options_ = read_vehicle_options(parameters, elements);
     world_ = model->GetWorld();
-    world_->Physics()->SetRealTimeUpdateRate(0.0);
+    if (the_one != nullptr) {
+        throw InputError(
+            fmt::format("model {}: a vehicle flies in this world already, allowed one a gzserver: "
+                        "start another "
+                        "one, with a GAZEBO_MASTER_URI of its own",
+                        model->GetName()));
+    }
     HostedFlight flight;
     flight.scenario = options_.scenario;
     flight.recording = options_.recording;
@@ -88,20 +121,23 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
     flight.watch.on_event = [](const Event& event) { say(simulation::event_line(event)); };
     prepare(parameters, flight);
     if (options_.autopilot == VehicleOptions::Autopilot::px4) {
+        watching_ = std::thread([this] { watch_world(); });
         const px4::Px4WireWatch watch{
             .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },
             .on_text = [](const std::string& text) { say("          PX4: " + text); },
             .wait_key = "wait_s"};
         px4_ = std::make_unique<px4::Px4Wires>(
-            options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch);
+            options_.px4, std::round(options_.scenario.sensors.imu_rate_Hz), true, watch, &stop_);
         flight.conduct.outside.autopilot = &px4_->autopilot();
     }
     host_ = std::make_unique<FlightHost>(std::move(model), std::move(flight));
+    the_one = this;
+    world_->Physics()->SetRealTimeUpdateRate(0.0);
     say(fmt::format("{}, seed {}: {}", options_.scenario.name, options_.scenario.seed,
                     options_.scenario.description));
     say(simulation::event_head());
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
-        [this](const gazebo::common::UpdateInfo&) { load_or_end([this] { update(); }); });
+        [this](const gazebo::common::UpdateInfo&) { run_or_end([this] { update(); }); });
 }
 
 void VehiclePlugin::update() {
@@ -126,7 +162,7 @@ void VehiclePlugin::end() {
     if (const long long complaints = take_solver_complaints(); complaints > 0) {
         say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
     }
-    write_result(options_.result, result);
+    write_result(flight_file(options_.result, host_->flights()), result);
     world_->SetPaused(true);
     if (options_.when_over == VehicleOptions::WhenOver::quit) {
         quit();
@@ -140,7 +176,11 @@ void VehiclePlugin::Reset() {
         told_ = true;  // from now on the world stands still
         return;
     }
-    load_or_end([this] { host_->restart(); });
+    if (host_ == nullptr) {
+        return;  // spawned, and not loaded
+    }
+    run_or_end([this] { host_->restart(); });
+    say(fmt::format("flight {}", host_->flights()));
     told_ = false;
 }
 

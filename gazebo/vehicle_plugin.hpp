@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <gazebo/common/Events.hh>
 #include <gazebo/common/Plugin.hh>
 #include <memory>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "gazebo/flight_host.hpp"
@@ -35,7 +37,8 @@ namespace limpet::gazebo11 {
 ///
 /// The environment overrides each: LIMPET_SCENARIO, LIMPET_SET (parts between semicolons),
 /// LIMPET_SPEED, ... What cannot be used stops the server with one line and exit code 2. The
-/// world's own real_time_update_rate is set aside. A world reset begins the flight anew.
+/// world's own real_time_update_rate is set aside. A world reset begins the flight anew. One
+/// vehicle flies in a gzserver.
 class VehiclePlugin : public gazebo::ModelPlugin {
 public:
     ~VehiclePlugin() override;
@@ -59,9 +62,13 @@ private:
     void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);
     void update();
     void end();
+    void watch_world();
 
     VehicleOptions options_;
     gazebo::physics::WorldPtr world_;
+    std::atomic<bool> stop_{false};  ///< the world is to stop: waits for a PX4 are over
+    std::atomic<bool> watched_{false};
+    std::thread watching_;  ///< of a flight with a PX4
     std::unique_ptr<px4::Px4Wires> px4_;
     std::unique_ptr<FlightHost> host_;
     bool told_ = false;  ///< how it ended

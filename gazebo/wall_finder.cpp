@@ -56,6 +56,11 @@ std::optional<Pose3d> WallSpot::pose(const gazebo::physics::World& world) const 
     return here->WorldPose() * X_LT;
 }
 
+gazebo::physics::LinkPtr WallSpot::movable() const {
+    const gazebo::physics::LinkPtr here = link.lock();
+    return !here || here->IsStatic() || here->GetKinematic() ? nullptr : here;
+}
+
 WallFinder::WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& settings,
                        const std::string& place)
     : own_(own->GetLinks().at(0)->GetParentModel()),
@@ -66,14 +71,16 @@ WallFinder::WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& 
     if (!ray_) {
         throw InputError(place + ": the world's physics engine has no rays, allowed ode");
     }
+}
+
+std::vector<std::string> WallFinder::absent() const {
+    std::vector<std::string> names;
     for (const CupTarget& target : settings_.targets) {
-        const auto model = target.plane ? nullptr : world_->ModelByName(target.model);
-        if (!target.plane && !(model && model->IsStatic())) {
-            throw InputError(fmt::format("{}: target: model \"{}\" is not {}", place,
-                                         scenario::shown(target.model),
-                                         model ? "static, allowed static models" : "in the world"));
+        if (!target.plane && !world_->ModelByName(target.model)) {
+            names.push_back(target.model);
         }
     }
+    return names;
 }
 
 std::optional<WallFinder::Hit> WallFinder::cast(const Vector3d& from_W_m, const Vector3d& axis_W,
@@ -107,11 +114,8 @@ gazebo::physics::CollisionPtr WallFinder::collision_of(const std::string& name) 
 
 const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision& collision) const {
     const gazebo::physics::ModelPtr model = collision.GetModel();
-    if (!model->IsStatic()) {
-        return nullptr;
-    }
     if (settings_.targets.empty()) {
-        return &settings_.surface;
+        return model->IsStatic() ? &settings_.surface : nullptr;
     }
     for (const CupTarget& target : settings_.targets) {
         if (!target.plane && target.model == model->GetScopedName() &&

@@ -6,14 +6,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gazebo/suction_cup_settings.hpp"
 
 namespace limpet::gazebo11 {
 
 /// A spot of wall below a lip. Its frame has x into the wall and the lip's own roll; it is kept in
-/// the frame of the link that it is on, so that a static model that is put elsewhere takes it
-/// along.
+/// the frame of the link that it is on, so that a model that moves takes it along.
 struct WallSpot {
     boost::weak_ptr<gazebo::physics::Link> link = {};
     std::string model = {};       ///< as its world knows it; empty: a plane of the world itself
@@ -22,6 +22,8 @@ struct WallSpot {
     suction::Surface surface;
 
     [[nodiscard]] bool of_world() const { return model.empty(); }
+    /// @return the link, where it is one that moves by forces; else nullptr
+    [[nodiscard]] gazebo::physics::LinkPtr movable() const;
     /// @return in the world; nothing when its model is no longer there
     [[nodiscard]] std::optional<ignition::math::Pose3d> pose(
         const gazebo::physics::World& world) const;
@@ -34,13 +36,16 @@ public:
     /// @param own       a model with a link
     /// @param settings  targets, surface, radius, flatness; they outlive it
     /// @param place     in messages
-    /// @throws InputError when a target is not in the world or not static
+    /// @throws InputError when the world's engine has no rays
     WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& settings,
                const std::string& place);
 
     /// @param X_WC  lip in the world, forward-left-up
     /// @return the nearest thing before the lip, when it can be held and is flat below all of it
     [[nodiscard]] std::optional<WallSpot> find(const ignition::math::Pose3d& X_WC) const;
+
+    /// @return of the targets that are named, those that are not in the world (yet)
+    [[nodiscard]] std::vector<std::string> absent() const;
 
     /// Whether the lip's centre is still over the same wall.
     [[nodiscard]] bool is_over(const WallSpot& spot, const ignition::math::Pose3d& X_WC) const;

@@ -51,13 +51,20 @@ TEST_F(FlightHostTest, ARestartFliesTheSameAgain) {
     ASSERT_EQ(host->result(), nullptr);
     world->Reset();
     host->restart();  // in the middle
+    EXPECT_EQ(host->flights(), 3);
     const simulation::FlightResult* again = fly_to_the_end();
     ASSERT_NE(again, nullptr);
     EXPECT_EQ(again->outcome, Outcome::released) << again->reason;
     EXPECT_EQ(again->performance.simulated_s, lasted_s);
     // Gazebo puts links back to rounding, not to the bit
     EXPECT_NEAR(again->metrics.energy_flying_Wh, energy_Wh, 1e-6 * energy_Wh);
-    std::filesystem::remove(flight.recording);
+    // Beside the first, each of them whole.
+    for (const int number : {1, 2, 3}) {
+        const std::filesystem::path file = flight_file(flight.recording, number);
+        EXPECT_EQ(record::read_recording(file).damage, "") << file;
+        std::filesystem::remove(file);
+    }
+    EXPECT_EQ(flight_file("a/flight.mcap", 3), "a/flight-3.mcap");
 }
 
 TEST_F(FlightHostTest, AnInterruptedFlightLeavesAWholeRecording) {
@@ -72,6 +79,43 @@ TEST_F(FlightHostTest, AnInterruptedFlightLeavesAWholeRecording) {
     EXPECT_EQ(host->result()->reason, "interrupted");
     EXPECT_EQ(record::read_recording(flight.recording).damage, "");
     std::filesystem::remove(flight.recording);
+}
+
+/// perch_concrete until it rests on its legs, at the wall.
+class AtRest : public FlightHostTest {
+protected:
+    void SetUp() override {
+        open("perch_concrete");
+        flight.recording = std::filesystem::path(::testing::TempDir()) / "gazebo_at_rest.mcap";
+        flight.watch.on_event = [this](const Event& event) {
+            rests = rests || event.name == EventName::motors_off;
+        };
+        host_it();
+        for (int k = 0; k < 60 && !rests; ++k) {
+            gazebo::runWorld(world, 1000);
+        }
+        ASSERT_TRUE(rests);
+    }
+    void TearDown() override { std::filesystem::remove(flight.recording); }
+    bool rests = false;
+};
+
+TEST_F(AtRest, AFlightWhoseWorldIsTakenApartEndsWhole) {
+    on_update.reset();
+    world.reset();
+    server.reset();  // as gzserver does on SIGINT: the models go before the plugin does
+    host->interrupt();
+    ASSERT_NE(host->result(), nullptr);
+    EXPECT_EQ(host->result()->reason, "interrupted");
+    EXPECT_EQ(record::read_recording(flight.recording).damage, "");
+}
+
+TEST_F(AtRest, AWallThatIsDeletedEndsNoServer) {
+    world->RemoveModel("wall");
+    ASSERT_EQ(world->ModelByName("wall"), nullptr);
+    gazebo::runWorld(world, 300);
+    EXPECT_TRUE(host->under_way());
+    EXPECT_TRUE(vehicle->WorldPose().IsFinite());
 }
 
 TEST_F(FlightHostTest, WhatFlyThrowsComesOutOfTheUpdate) {

@@ -26,8 +26,10 @@ protected:
         world = server->world();
         vehicle = world->ModelByName(scenario.airframe.name);
         ASSERT_NE(vehicle, nullptr);
-        model = std::make_shared<const GazeboModel>(vehicle, scenario,
-                                                    [this] { gazebo::runWorld(world, 1); });
+        model = std::make_shared<const GazeboModel>(vehicle, scenario, [this] {
+            gazebo::runWorld(world, 1);
+            return true;
+        });
         plant = model->make();
     }
 

@@ -37,13 +37,12 @@ std::string bench_world(const std::string& gravity, const std::string& more,
            in_body + "</model>" + more + "</world></sdf>";
 }
 
-sdf::ElementPtr plugin_element(const std::string& inside) {
+sdf::ElementPtr plugin_element(const std::string& inside, const std::string& name) {
     sdf::SDFPtr text(new sdf::SDF());
     sdf::init(text);
-    sdf::readString(
-        "<sdf version='1.6'><model name='m'><link name='l'/><plugin name='p' filename='f'>" +
-            inside + "</plugin></model></sdf>",
-        text);
+    sdf::readString("<sdf version='1.6'><model name='m'><link name='l'/><plugin name='" + name +
+                        "' filename='f'>" + inside + "</plugin></model></sdf>",
+                    text);
     // The copy outlives the document.
     return text->Root()->GetElement("model")->GetElement("plugin")->Clone();
 }
@@ -56,7 +55,7 @@ PressBench::PressBench(const std::string& plugin, const std::string& gravity,
         gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) {
             const double speed_m_s = body->WorldLinearVel().X();
             body->GetLinks().at(0)->AddForce(
-                push_N - ignition::math::Vector3d(kHand_N_s_m * speed_m_s, 0.0, 0.0));
+                push_N - ignition::math::Vector3d(hand_N_s_m * speed_m_s, 0.0, 0.0));
         });
 }
 

@@ -35,6 +35,7 @@ struct PressBench {
     GazeboServer server;
     gazebo::physics::ModelPtr body;
     ignition::math::Vector3d push_N;  ///< on the centre of mass, in the world
+    double hand_N_s_m = 200.0;        ///< damping along x: 40 N come with 0.2 m/s, nothing bounces
     SuctionCupPlugin cup;
     gazebo::event::ConnectionPtr on_update;
 };
@@ -46,11 +47,10 @@ inline constexpr double kWall_m = 1.0;
 /// Its mass, of 1 kg, lies this far behind the link's origin.
 inline constexpr double kBehind_m = 0.02;
 inline constexpr double kInertia_kg_m2 = 0.004;
-/// The hand's damping along x: 40 N come with 0.2 m/s, and nothing bounces.
-inline constexpr double kHand_N_s_m = 200.0;
 
 /// The <plugin> element of a model, as gzserver hands it to a plugin.
-[[nodiscard]] sdf::ElementPtr plugin_element(const std::string& inside);
+[[nodiscard]] sdf::ElementPtr plugin_element(const std::string& inside,
+                                             const std::string& name = "suction_cup");
 
 /// Walls, bodies and settings as text.
 [[nodiscard]] std::string box_model(const std::string& name, const std::string& pose,

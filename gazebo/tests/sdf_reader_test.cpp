@@ -75,9 +75,9 @@ TEST(SdfReader, TheEnvironmentOverridesWhatIsNamed) {
 }
 
 TEST(SdfReader, ABrokenPluginEndsTheProcessWithALineAndItsCode) {
-    EXPECT_EXIT(load_or_end([] { throw InputError("m: P: key: wrong"); }),
+    EXPECT_EXIT(run_or_end([] { throw InputError("m: P: key: wrong"); }),
                 ::testing::ExitedWithCode(2), "^limpet: m: P: key: wrong\n$");
-    EXPECT_EXIT(load_or_end([] { require(false, "never"); }), ::testing::ExitedWithCode(70),
+    EXPECT_EXIT(run_or_end([] { require(false, "never"); }), ::testing::ExitedWithCode(70),
                 "never");
 }
 

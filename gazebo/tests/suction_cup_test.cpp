@@ -235,6 +235,125 @@ TEST(SuctionCup, OverAnEdgeThereIsNoWall) {
     EXPECT_GE(bench.run_until(CupPhase::attached, 2000), 0);
 }
 
+TEST(SuctionCup, TwoOnOneLinkHoldEachWithItsOwnName) {
+    PressBench bench(settings("fixed"));
+    SuctionCupPlugin other;
+    const std::string inside = "<link>hull</link><lip_pose>0.06 0 0 0 0 0</lip_pose>";
+    other.Load(bench.body, plugin_element(inside + settings("fixed"), "second"));
+    ASSERT_TRUE(bench.attaches(80.0));
+    ASSERT_GE(bench.run_until([&] { return other.status().phase == CupPhase::attached; }, 3000), 0);
+    EXPECT_EQ(bench.body->GetJointCount(), 2U);
+    // A command is for one of them.
+    EXPECT_EQ(gazebo::transport::request("bench", "body/second/pump", "off")->response(),
+              "success");
+    bench.run(1);
+    EXPECT_EQ(other.status().phase, CupPhase::unsealing);
+    EXPECT_EQ(bench.phase(), CupPhase::attached);
+}
+
+TEST(SuctionCup, WhatIsPutElsewhereIsLetGo) {
+    PressBench bench(settings("fixed"));
+    ASSERT_TRUE(bench.attaches());
+    bench.push_N.X(0.0);
+    bench.run(100);
+    EXPECT_EQ(bench.phase(), CupPhase::attached);
+    bench.server.world()->ModelByName("wall")->SetWorldPose({1.15, 0.0, 0.0, 0.0, 0.0, 0.0});
+    bench.run(5);
+    EXPECT_EQ(bench.phase(), CupPhase::free);
+    EXPECT_EQ(bench.body->GetJointCount(), 0U);
+}
+
+TEST(SuctionCup, AnOverloadedJointIsPumpedOutBeforeItHoldsAgain) {
+    PressBench bench(settings("fixed"));
+    ASSERT_TRUE(bench.attaches());
+    bench.run(3000);
+    int attached = 0;
+    bool before = true;
+    // Pressed on, and dragged along the wall by more than friction bears.
+    bench.push_N = {40.0, 0.0, 400.0};
+    bench.body->SetAngularVel({0.0, 0.0, 0.0});
+    for (int step = 0; step < 180; ++step) {
+        bench.run(1);
+        const bool now = bench.phase() == CupPhase::attached;
+        attached += now && !before ? 1 : 0;
+        before = now;
+    }
+    EXPECT_LE(attached, 2);
+}
+
+/// A crate of 1 kg that lies loose before a wall.
+std::string crate(const std::string& pose) {
+    return "<model name='crate'><pose>" + pose +
+           "</pose><link "
+           "name='link'><inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy>"
+           "<izz>0.01</izz></inertia></inertial><collision name='face'><geometry><box>"
+           "<size>0.1 0.4 0.4</size></box></geometry></collision></link></model>";
+}
+
+class OfALooseCrate : public ::testing::TestWithParam<std::string> {
+protected:
+    PressBench bench{settings(GetParam(), "<target model='crate'/>"), "0 0 0",
+                     crate("1.05 0 0 0 0 0")};
+    [[nodiscard]] ignition::math::Vector3d crate_m() const {
+        return bench.server.world()->ModelByName("crate")->WorldPose().Pos();
+    }
+    OfALooseCrate() {  // the crate stands where the wall stood, the wall behind it
+        bench.server.world()->ModelByName("wall")->SetWorldPose({1.15, 0.0, 0.0, 0.0, 0.0, 0.0});
+    }
+};
+
+TEST_P(OfALooseCrate, DragsItAlong) {
+    ASSERT_TRUE(bench.attaches());
+    bench.run(500);
+    const double x_m = crate_m().X();
+    bench.push_N.X(-10.0);
+    bench.run(4000);
+    EXPECT_EQ(bench.phase(), CupPhase::attached);
+    EXPECT_GT(x_m - crate_m().X(), 0.04);
+    EXPECT_NEAR(crate_m().X() - bench.body->WorldPose().Pos().X(), 0.05 + kLip_m, 0.004);
+}
+
+TEST_P(OfALooseCrate, PullsAsHardAsItIsHeavy) {
+    ASSERT_TRUE(bench.attaches());
+    bench.run(500);
+    // Both are pulled by 1 m/s^2: what passes through the cup is the crate's 1 kg.
+    bench.hand_N_s_m = 0.0;
+    bench.push_N.X(-2.0);
+    bench.run(300);
+    EXPECT_EQ(bench.phase(), CupPhase::attached);
+    const double before_m_s = bench.server.world()->ModelByName("crate")->WorldLinearVel().X();
+    bench.run(200);
+    const double after_m_s = bench.server.world()->ModelByName("crate")->WorldLinearVel().X();
+    EXPECT_NEAR((after_m_s - before_m_s) / 0.2, -1.0, 0.05);
+    EXPECT_NEAR(bench.cup.status().pull_N, 1.0, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OfALooseCrate, ::testing::Values("compliant", "fixed", "universal"),
+                         [](const auto& info) { return info.param; });
+
+TEST(SuctionCup, ATargetThatComesLaterIsHeld) {
+    PressBench bench(settings("compliant", "<target model='crate'/>"));
+    bench.server.world()->ModelByName("wall")->SetWorldPose({1.15, 0.0, 0.0, 0.0, 0.0, 0.0});
+    bench.run(50);
+    bench.server.world()->InsertModelString("<sdf version='1.6'>" + crate("1.05 0 0 0 0 0") +
+                                            "</sdf>");
+    ASSERT_GE(bench.run_until([&] { return bench.server.world()->ModelByName("crate") != nullptr; },
+                              2000),
+              0);
+    EXPECT_TRUE(bench.attaches());
+}
+
+TEST(SuctionCup, ASpawnedModelsTypoEndsNoServer) {
+    PressBench bench(settings("compliant"));
+    bench.run(10);
+    SuctionCupPlugin spawned;
+    spawned.Load(bench.body, plugin_element("<link>hul</link>", "spawned"));
+    SuctionCupPlugin again;  // a name that is another's
+    again.Load(bench.body, plugin_element("<link>hull</link>"));
+    bench.run(10);
+    EXPECT_TRUE(bench.attaches()) << "the world runs on, and its own cup with it";
+}
+
 TEST_F(ACompliantCup, TopicsSwitchThePumpAndTellPressureAndState) {
     gazebo::transport::NodePtr node(new gazebo::transport::Node());
     node->Init("bench");

@@ -21,6 +21,8 @@ namespace limpet::ros {
 ///   ends_with_mission  the flight is over when perching_node's mission is        false
 ///   offboard_loss_s    without set-points for so long it holds [s]               0.5
 ///   hold_speed_m_s     before that it brakes down to this [m/s]                  0.1
+///   patience_s         real time for which it waits for a perching_node that is
+///                      behind [s]; 0: never                                      2
 ///   time_limit_s       of the flight [s]                                         the scenario's
 ///
 /// What it flies it tells the nodes by the parameter /limpet/flight.
@@ -30,8 +32,8 @@ public:
 
 protected:
     [[nodiscard]] std::vector<std::string_view> more_elements() const override {
-        return {"cup_by_node", "ends_with_mission", "offboard_loss_s", "hold_speed_m_s",
-                "time_limit_s"};
+        return {"cup_by_node",    "ends_with_mission", "offboard_loss_s",
+                "hold_speed_m_s", "time_limit_s",      "patience_s"};
     }
 
     void prepare(const scenario::YamlNode& parameters, gazebo11::HostedFlight& flight) override {

@@ -26,6 +26,8 @@ public:
 
 private:
     void work(const std::stop_token& over);
+    /// Says so when nobody takes the call.
+    static void ask(::ros::ServiceClient& client, auto& call, const char* name);
     void call(const std::string& mode, std::optional<bool> armed);
 
     double retry_s_;

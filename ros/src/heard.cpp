@@ -2,7 +2,6 @@
 #include "ros/src/heard.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "limpet/core/enum_names.hpp"
 #include "limpet/simulation/outside.hpp"
@@ -17,13 +16,42 @@ constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not
 bool Heard::tick(double time_s) {
     const bool anew = clock_ >= 0 && time_s < flight_s_;
     if (anew) {
-        Heard fresh(manners_, ends_with_mission_);
-        fresh.texts_ = std::move(texts_);
-        *this = std::move(fresh);
+        begin_anew();
     }
     flight_s_ = time_s;
     ++clock_;
     return anew;
+}
+
+/// All but the texts: events of the flight before point to them.
+void Heard::begin_anew() {
+    clock_ = -1;
+    mode_ = VehicleMode(manners_);
+    command_ = {};
+    status_.reset();
+    status_every_s_ = 0.0;
+    events_.clear();
+    answer_.reset();
+    state_since_s_ = 0.0;
+    shown_ = guidance::PerchingState::hovering;
+}
+
+void Heard::hear(const limpet_ros::PerchingStatus& message) {
+    if (!of_this_flight(message)) {
+        return;
+    }
+    if (status_) {
+        status_every_s_ = (message.header.stamp - status_->header.stamp).toSec();
+    }
+    status_ = message;
+}
+
+bool Heard::guidance_is_behind() const {
+    // Timers of a node fire at the first /clock after they are due.
+    constexpr double kShortest_s = 0.03;
+    constexpr double kLongest_s = 0.2;
+    return status_ && clock_s() - status_->header.stamp.toSec() >
+                          std::clamp(1.5 * status_every_s_, kShortest_s, kLongest_s);
 }
 
 void Heard::hear(const limpet_ros::PerchingEvent& message) {

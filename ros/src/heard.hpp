@@ -39,7 +39,7 @@ public:
 
     void hear(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
     void hear(const limpet_ros::MechanismCommand& message) { store(message, command_); }
-    void hear(const limpet_ros::PerchingStatus& message) { store(message, status_); }
+    void hear(const limpet_ros::PerchingStatus& message);
     /// @param message  sound, see phase_from()
     void hear(const limpet_ros::CupState& message) { store(message, answer_); }
     void hear(const limpet_ros::PerchingEvent& message);
@@ -53,6 +53,9 @@ public:
     [[nodiscard]] const std::optional<limpet_ros::CupState>& answer() const { return answer_; }
     [[nodiscard]] const VehicleMode& mode() const { return mode_; }
     [[nodiscard]] bool guidance_heard() const { return status_.has_value(); }
+    /// Whether a guidance that was heard should have said something by now, going by the time
+    /// between what it said last.
+    [[nodiscard]] bool guidance_is_behind() const;
 
 private:
     /// The nodes' time is /clock: none of this flight is ahead of it.
@@ -66,6 +69,7 @@ private:
             kept = message;
         }
     }
+    void begin_anew();
     void take_status(guidance::PerchingMemory& guidance);
     void take_events(guidance::EventList& events);
     [[nodiscard]] std::string_view keep(std::string_view text);
@@ -85,6 +89,7 @@ private:
     std::optional<limpet_ros::PerchingStatus> status_;
     std::vector<limpet_ros::PerchingEvent> events_;
     std::optional<limpet_ros::CupState> answer_;
+    double status_every_s_ = 0.0;  ///< on /clock
     double state_since_s_ = 0.0;
     guidance::PerchingState shown_ = guidance::PerchingState::hovering;
 };

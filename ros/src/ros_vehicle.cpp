@@ -4,6 +4,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
@@ -25,6 +26,10 @@ std::vector<BoundParameter> RosVehicleOptions::rows() {
                     "seal and pressure come from suction_cup_node", "the paper's Figs. 5 and 6"});
     rows.push_back({"ends_with_mission", "-", 0.0, 1.0, &ends_with_mission,
                     "the flight is over when perching_node's mission is", "assumed: it goes on"});
+    rows.push_back({"patience_s", "s", 0.0, 60.0, &patience_s,
+                    "of real time: so long the simulation waits for a perching_node that is "
+                    "behind; 0: never",
+                    "assumed: a busy machine's longest pause"});
     return rows;
 }
 
@@ -69,6 +74,7 @@ void RosVehicle::subscribe() {
     const auto hear = [this](const auto& heard) {
         const std::lock_guard lock(mutex_);
         heard_.hear(heard);
+        news_.notify_all();
     };
     const auto target = [hear](const auto& message) {
         if (const auto motion = motion_from(message)) {
@@ -88,8 +94,17 @@ void RosVehicle::subscribe() {
         listen<limpet_ros::PerchingStatus>(node_, "perching_node/status", hear),
         listen<limpet_ros::PerchingEvent>(node_, "perching_node/event", hear),
         listen<limpet_ros::CupState>(node_, "cup/state", cup)};
-    services_ = {node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this),
+    services_ = {node_.advertiseService("mavros/cmd/arming", &RosVehicle::arm, this),
+                 node_.advertiseService("mavros/cmd/command", &RosVehicle::command, this),
                  node_.advertiseService("mavros/set_mode", &RosVehicle::set_mode, this)};
+}
+
+bool RosVehicle::arm(limpet_ros::CommandBool::Request& request,
+                     limpet_ros::CommandBool::Response& response) {
+    response.success = 1;  // and result 0: MAV_RESULT_ACCEPTED
+    const std::lock_guard lock(mutex_);
+    heard_.arm(request.value != 0);
+    return true;
 }
 
 bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
@@ -183,6 +198,17 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
         state.connected = state.guided = 1;
         state.system_status = kActive;
         send(state_, state, now);
+    }
+    keep_step();
+}
+
+void RosVehicle::keep_step() {
+    std::unique_lock lock(mutex_);
+    const auto in_step = [this] { return !heard_.guidance_is_behind(); };
+    if (in_step()) {
+        waits_ = true;
+    } else if (waits_) {
+        waits_ = news_.wait_for(lock, std::chrono::duration<double>(options_.patience_s), in_step);
     }
 }
 

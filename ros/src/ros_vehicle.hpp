@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limpet_ros/CommandBool.h>
 #include <limpet_ros/CommandLong.h>
 #include <limpet_ros/CupState.h>
 #include <limpet_ros/MechanismCommand.h>
@@ -10,6 +11,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -32,6 +34,8 @@ struct RosVehicleOptions {
     bool cup_by_node = true;
     /// The flight is over when perching_node's mission is; else when its time is.
     bool ends_with_mission = false;
+    /// Real time for which the simulation waits for a perching_node that is behind.
+    double patience_s = 2.0;
 
     /// As parameters of vehicle_node and of its plugin.
     [[nodiscard]] std::vector<BoundParameter> rows();
@@ -40,7 +44,9 @@ struct RosVehicleOptions {
 /// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
 /// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
 /// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
-/// of its own and never waited for.
+/// of its own. Simulated time keeps step with guidance: where perching_node was heard and is late,
+/// exchange() waits for it, so that a busy machine makes a flight slower and not another one. One
+/// that does not come within patience_s is gone: it is waited for again once it is heard.
 class RosVehicle final : public simulation::ExternalGuidance, public simulation::ExternalCup {
 public:
     /// ros::init() has been called.
@@ -58,6 +64,7 @@ public:
                             const suction::CupInput& input, double dt_s) override;
 
 private:
+    void keep_step();
     void advertise();
     void subscribe();
     [[nodiscard]] ::ros::Time on_clock(double time_s) const;
@@ -67,6 +74,8 @@ private:
     void send_readings(const Readings& readings);
     bool command(limpet_ros::CommandLong::Request& request,
                  limpet_ros::CommandLong::Response& response);
+    bool arm(limpet_ros::CommandBool::Request& request,
+             limpet_ros::CommandBool::Response& response);
     bool set_mode(limpet_ros::SetMode::Request& request, limpet_ros::SetMode::Response& response);
 
     RosVehicleOptions options_;
@@ -86,7 +95,9 @@ private:
     ApartLip lip_;
 
     mutable std::mutex mutex_;
-    Heard heard_;  ///< shared; by mutex_
+    std::condition_variable news_;
+    Heard heard_;        ///< shared; by mutex_
+    bool waits_ = true;  ///< for a guidance that is behind
 
     std::unique_ptr<::ros::AsyncSpinner> spinner_;  ///< last: stops before what it calls goes
 };

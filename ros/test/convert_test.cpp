@@ -2,6 +2,7 @@
 #include "ros/src/convert.hpp"
 
 #include <gtest/gtest.h>
+#include <limpet_ros/CommandBool.h>
 #include <limpet_ros/CommandLong.h>
 #include <limpet_ros/SetMode.h>
 #include <limpet_ros/State.h>
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "ros/src/topics.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -157,11 +160,28 @@ TEST(RosConvert, AContactComesBackWhole) {
     EXPECT_FALSE(lip_contact(broken));
 }
 
-// What roscpp compares when two ends meet. Source: mavros_msgs of MAVROS 1.x as it connects in the
-// field (its State is quoted in many bug reports).
-TEST(RosConvert, MavrosUnderstandsTheState) {
-    EXPECT_STREQ(::ros::message_traits::MD5Sum<limpet_ros::State>::value(),
-                 "ce783f756cab1193cb71ba9e90fece50");
+// What roscpp compares when two ends meet. Source: genmsg's sums of mavros_msgs at the tags of
+// MAVROS, 1.5.0 to 1.21.0, which are one; State's was another before, without constants.
+TEST(RosConvert, MavrosAndWeMeanTheSame) {
+    using ::ros::message_traits::MD5Sum;
+    namespace services = ::ros::service_traits;
+    EXPECT_STREQ(MD5Sum<limpet_ros::State>::value(), "65cd0a9fff993b062b91e354554ec7e9");
+    EXPECT_STREQ(MD5Sum<limpet_ros::PositionTarget>::value(), "dedb0081aaf8cb20209737746bb49117");
+    EXPECT_STREQ(MD5Sum<limpet_ros::AttitudeTarget>::value(), "456f3af666b22ccd0222ea053a86b548");
+    EXPECT_STREQ(services::MD5Sum<limpet_ros::CommandBool>::value(),
+                 "e09abbb4e5bae6b558e5010966eb6e9e");
+    EXPECT_STREQ(services::MD5Sum<limpet_ros::CommandLong>::value(),
+                 "eb9034afc87577c0a235d45b8f3437d2");
+    EXPECT_STREQ(services::MD5Sum<limpet_ros::SetMode>::value(),
+                 "e4f18fa93379f9ff1780d270ce110203");
+}
+
+TEST(RosConvert, AStateOfAnOlderMavrosIsUnderstood) {
+    EXPECT_TRUE(understands<limpet_ros::State>("65cd0a9fff993b062b91e354554ec7e9"));
+    EXPECT_TRUE(understands<limpet_ros::State>("ce783f756cab1193cb71ba9e90fece50"));
+    EXPECT_FALSE(understands<limpet_ros::State>("63d9a29b6abd9e0beeba06109556d062"))
+        << "of MAVROS 0.29, which has no system_status";
+    EXPECT_FALSE(understands<limpet_ros::PositionTarget>("ce783f756cab1193cb71ba9e90fece50"));
 }
 
 }  // namespace

@@ -124,5 +124,36 @@ TEST_F(AWorldReset, KeepsTheWordsOfTheFlightBefore) {
     EXPECT_EQ(reason, "rests");
 }
 
+TEST(GuidanceHeard, IsBehindWhenItsNextWordIsLate) {
+    Heard heard{OffboardManners{}, false};
+    Tick tick = 0;
+    const auto fly_to = [&](double end_s) {
+        for (; seconds(tick) <= end_s; ++tick) {
+            (void)heard.tick(seconds(tick));
+        }
+    };
+    const auto say = [&] {
+        limpet_ros::PerchingStatus status;
+        status.header.stamp = ros_time(heard.clock_s());
+        heard.hear(status);
+    };
+    fly_to(10.0);
+    EXPECT_FALSE(heard.guidance_is_behind()) << "nobody was heard";
+    say();
+    fly_to(10.02);
+    say();
+    EXPECT_FALSE(heard.guidance_is_behind());
+    fly_to(10.045);
+    EXPECT_FALSE(heard.guidance_is_behind()) << "a clock's tick late";
+    fly_to(10.06);
+    EXPECT_TRUE(heard.guidance_is_behind());
+    say();
+    EXPECT_FALSE(heard.guidance_is_behind());
+    fly_to(10.16);  // a slower one, once it has been heard twice
+    say();
+    fly_to(10.26);
+    EXPECT_FALSE(heard.guidance_is_behind());
+}
+
 }  // namespace
 }  // namespace limpet::ros
