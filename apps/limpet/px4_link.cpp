@@ -15,7 +15,8 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
     return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}),
             .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp}),
             .wait_s = options.wait_s,
-            .sets_origin = scenario.autopilot.EKF2_GPS_CTRL == 0};
+            .sets_origin = scenario.autopilot.EKF2_GPS_CTRL == 0,
+            .only_px4 = options.only_px4};
 }
 
 /// How to start what is waited for, to be copied.
@@ -49,6 +50,8 @@ OptionList options_of(Px4LinkOptions& options, bool flies) {
         list.push_back({"--offboard ADDRESS", &options.offboard,
                         "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
                         "serial all goes over the one wire)"});
+        list.push_back({"--only-px4", &options.only_px4,
+                        "no flight when the stand-in answers instead of a PX4"});
     }
     list.push_back({"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
                     range(0.1, 86400.0, false)});

@@ -22,6 +22,7 @@ struct Px4LinkOptions {
     std::string offboard = "udp:127.0.0.1:14540";
     double wait_s = 60.0;
     bool record_wire = false;
+    bool only_px4 = false;
     std::string speed;  ///< "" as suits the wire, "max", or a factor
 
     [[nodiscard]] bool serial() const { return hil.starts_with("serial:"); }

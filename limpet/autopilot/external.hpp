@@ -12,6 +12,15 @@
 
 namespace limpet::autopilot {
 
+/// Who flies behind a wire, as it told.
+struct AutopilotIdentity {
+    std::string name;             ///< "PX4", "stand-in"
+    std::string version;          ///< "1.15.1"
+    std::string git_hash;         ///< the first 16 digits; empty: it told none
+    std::optional<int> airframe;  ///< PX4's SYS_AUTOSTART
+    int system = 0;               ///< MAVLink's system number
+};
+
 /// An autopilot outside of the simulation's state, behind a wire. The loop calls it where it calls
 /// the built-in one, at the same rate; a run with one can neither be saved nor branched.
 class ExternalAutopilot {
@@ -30,6 +39,8 @@ public:
     [[nodiscard]] virtual double waited_s() const = 0;
     /// What keeps it from flying, for people; empty when nothing does.
     [[nodiscard]] virtual std::string obstacle() const = 0;
+    /// Nothing as long as it has not told.
+    [[nodiscard]] virtual std::optional<AutopilotIdentity> identity() const { return {}; }
 };
 
 }  // namespace limpet::autopilot

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstring>
 #include <variant>
 
 #include "limpet/core/errors.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 /// Room in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
+constexpr std::string_view kAirframe = "SYS_AUTOSTART";
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;
 
 /// Whether it is time again, and then remembers.
@@ -67,6 +69,14 @@ void Offboard::hear(const Frame& frame, double time_s) {
             report_.text = std::move(*whole);
             ++report_.texts;
         }
+    } else if (const auto version = decode<AutopilotVersion>(frame)) {
+        report_.version = *version;
+    } else if (const auto value = decode<ParamValue>(frame)) {
+        if (text_of(value->param_id) == kAirframe && value->param_type == MavParamType::int32) {
+            std::int32_t number = 0;  // PX4 puts an integer's bytes into the float
+            std::memcpy(&number, &value->param_value, sizeof(number));
+            report_.airframe = number;
+        }
     } else if (const auto ack = decode<CommandAck>(frame)) {
         if (addressed_to(self_, *ack)) {  // a ground station's commands are answered too
             hear_command_ack(*ack);
@@ -83,7 +93,7 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
             report_.armed = asked_armed_;
         }
         hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == kCommandSetMode);
-    } else if (ack.command != kCommandMessageInterval) {
+    } else if (ack.command != kCommandMessageInterval && ack.command != kCommandRequestMessage) {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
     }
@@ -182,6 +192,25 @@ void Offboard::request_rate(Link& link) {
     }
 }
 
+/// For the record: a flight does not wait for it.
+void Offboard::ask_who(Link& link) {
+    constexpr int kTimes = 5;
+    if (who_requests_ >= kTimes || (report_.version && report_.airframe)) {
+        return;
+    }
+    ++who_requests_;
+    if (!report_.version) {
+        send_command(link, kCommandRequestMessage, static_cast<float>(AutopilotVersion::kId));
+    }
+    if (!report_.airframe) {
+        ParamRequestRead request{.target_system = options_.target_system,
+                                 .target_component = kAutopilotComponent,
+                                 .param_index = -1};
+        set_text(request.param_id, kAirframe);
+        (void)link.send(request, kPatience);
+    }
+}
+
 void Offboard::attend(Link& link, double time_s) {
     streaming_s_ = -1.0;
     speak_up(link, time_s);
@@ -206,6 +235,7 @@ void Offboard::speak_up(Link& link, double time_s) {
             (void)link.send(origin, kPatience);
         }
         request_rate(link);
+        ask_who(link);
     }
 }
 

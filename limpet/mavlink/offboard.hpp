@@ -11,6 +11,7 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/mavlink/link.hpp"
+#include "limpet/mavlink/messages.hpp"
 #include "limpet/mavlink/text_joiner.hpp"
 
 namespace limpet::mavlink {
@@ -62,6 +63,8 @@ struct AutopilotReport {
     std::uint16_t refused_command = 0;  ///< MAV_CMD that it denied last, 0: none
     std::uint8_t refused_result = 0;    ///< MAV_RESULT of it
     std::uint64_t texts = 0;            ///< so many so far
+    std::optional<AutopilotVersion> version;
+    std::optional<int> airframe;  ///< SYS_AUTOSTART
 };
 
 /// The companion's end of offboard control: keeps set-points streaming, asks for mode and arming
@@ -103,6 +106,7 @@ private:
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
     void request(Link& link, const Setpoint& setpoint, double time_s);
     void request_rate(Link& link);
+    void ask_who(Link& link);
     void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
                       float param3 = 0.0F);
 
@@ -124,6 +128,7 @@ private:
     double sent_command_s_ = -1e9;
     double sent_request_s_ = -1e9;  ///< of rates and origin
     int rate_requests_ = 0;
+    int who_requests_ = 0;
     bool asked_armed_ = false;  ///< by the last command to arm or disarm
 };
 

@@ -16,7 +16,6 @@ namespace {
 constexpr int kFramesAnUpdate = 100;  // a peer that floods must not stop the flight
 
 // MAV_CMD
-constexpr std::uint16_t kRequestMessage = 512;
 constexpr std::uint16_t kRequestAutopilotCapabilities = 520;
 
 Severity severity_of(EventName name) {
@@ -144,7 +143,7 @@ void Telemetry::handle(const Frame& frame, const VehicleView& vehicle) {
 
 void Telemetry::answer(const CommandLong& command, const Frame& frame, const VehicleView& vehicle) {
     std::uint8_t result = MavResult::unsupported;
-    if (command.command == kRequestMessage) {
+    if (command.command == kCommandRequestMessage) {
         result = request_message(command.param1, vehicle);
     } else if (command.command == kRequestAutopilotCapabilities) {
         result = request_message(AutopilotVersion::kId, vehicle);

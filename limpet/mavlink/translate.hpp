@@ -31,6 +31,7 @@ inline constexpr std::uint8_t kArmedFlag = 128;  ///< of a heartbeat's base_mode
 inline constexpr std::uint16_t kCommandSetMode = 176;
 inline constexpr std::uint16_t kCommandArm = 400;
 inline constexpr std::uint16_t kCommandMessageInterval = 511;
+inline constexpr std::uint16_t kCommandRequestMessage = 512;
 inline constexpr float kForce = 21196.0F;  ///< second parameter of arming: without asking
 
 /// Where on earth the origin of W is: PX4's home in simulation, near Zurich. A flight on motion

@@ -1,14 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/px4/autopilot.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <utility>
+
+#include "limpet/px4/stand_in.hpp"
 
 namespace limpet::px4 {
 
 using mavlink::HilStatus;
 using mavlink::OffboardState;
+
+namespace {
+
+bool is_stand_in(const mavlink::AutopilotVersion& version) {
+    return std::equal(kStandInMark.begin(), kStandInMark.end(),
+                      version.flight_custom_version.begin());
+}
+
+/// PX4 has major, minor, patch and the kind of release, a byte each from the top.
+std::string version_text(std::uint32_t version) {
+    constexpr std::uint32_t kByte = 0xFF;
+    const std::uint32_t kind = version & kByte;
+    const char* suffix = kind == kByte ? ""
+                         : kind >= 192 ? "-rc"
+                         : kind >= 128 ? "-beta"
+                         : kind >= 64  ? "-alpha"
+                                       : "-dev";
+    return fmt::format("{}.{}.{}{}", version >> 24U, version >> 16U & kByte, version >> 8U & kByte,
+                       suffix);
+}
+
+}  // namespace
 
 Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Options options)
     : hil_link_(hil),
@@ -88,12 +116,46 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
         case mavlink::HilStatus::gone: failure_ = "the autopilot closed the link"; break;
         case mavlink::HilStatus::interrupted: break;  // who set the stop ends the flight
     }
+    if (options_.only_px4 && !failure_) {
+        look_who();
+    }
     if (options_.flies && !failure_) {
         if (offboard_.state(clock_s()) == mavlink::OffboardState::taken_away) {
             failure_ = "the autopilot left the mode OFFBOARD";
         }
     }
     return hil_.command();
+}
+
+/// Before it flies: it is armed two seconds after its estimate is heard, at the soonest.
+void Px4Autopilot::look_who() {
+    constexpr double kPatience_s = 1.5;
+    const auto& version = offboard_.report().version;
+    heard_s_ = heard_s_ < 0.0 && told_usec_ > 0 ? clock_s() : heard_s_;
+    if (version && is_stand_in(*version)) {
+        failure_ = "the stand-in answered, and a PX4 is asked for";
+    } else if (!version && heard_s_ >= 0.0 && clock_s() - heard_s_ > kPatience_s) {
+        failure_ = "it does not tell what it is (AUTOPILOT_VERSION), and a PX4 is asked for";
+    }
+}
+
+std::optional<autopilot::AutopilotIdentity> Px4Autopilot::identity() const {
+    const mavlink::AutopilotReport& report = offboard_.report();
+    if (!report.version) {
+        return std::nullopt;
+    }
+    autopilot::AutopilotIdentity told{.name = "stand-in",
+                                      .version = version_text(report.version->flight_sw_version),
+                                      .git_hash = {},
+                                      .airframe = report.airframe,
+                                      .system = options_.offboard.target_system};
+    if (!is_stand_in(*report.version)) {
+        std::uint64_t digits = 0;
+        std::memcpy(&digits, report.version->flight_custom_version.data(), sizeof(digits));
+        told.name = "PX4";
+        told.git_hash = digits == 0 ? "" : fmt::format("{:016x}", digits);
+    }
+    return told;
 }
 
 std::string Px4Autopilot::obstacle() const {

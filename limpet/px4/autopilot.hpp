@@ -17,6 +17,7 @@ struct Px4Options {
     double control_rate_Hz = 250.0;  ///< of HIL_SENSOR
     /// Guidance is ours and flies it by offboard set-points; false: it is somebody else's.
     bool flies = true;
+    bool only_px4 = false;  ///< fails where it is the stand-in, or does not tell what it is
     std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
 };
 
@@ -35,12 +36,14 @@ public:
     [[nodiscard]] std::optional<std::string_view> failure() const override { return failure_; }
     [[nodiscard]] double waited_s() const override { return hil_.count().waited_s + listening_s_; }
     [[nodiscard]] std::string obstacle() const override;
+    [[nodiscard]] std::optional<autopilot::AutopilotIdentity> identity() const override;
 
     [[nodiscard]] const mavlink::HilCount& count() const { return hil_.count(); }
 
 private:
     void hear(const mavlink::Frame& frame);
     void listen();
+    void look_who();
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 
     mavlink::Link& hil_link_;
@@ -51,6 +54,7 @@ private:
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
     double listened_s_ = -1.0;
+    double heard_s_ = -1.0;        ///< since when its estimate is heard
     double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time
     std::uint64_t told_usec_ = 0;  ///< of the last estimate, by the autopilot's clock
     std::uint64_t texts_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "limpet/mavlink/telemetry_messages.hpp"
 #include "limpet/wire/transport.hpp"
 
 namespace limpet::px4 {
@@ -29,6 +30,14 @@ std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& 
                               .int32 = row.value.is_whole()});
     }
     return parameters;
+}
+
+mavlink::AutopilotVersion version_of_stand_in() {
+    constexpr std::uint32_t kBehavesAs = 0x010F01FF;  // PX4 1.15.1, released
+    mavlink::AutopilotVersion version = mavlink::autopilot_version(kBehavesAs);
+    static_assert(kStandInMark.size() == sizeof(version.flight_custom_version));
+    std::copy(kStandInMark.begin(), kStandInMark.end(), version.flight_custom_version.begin());
+    return version;
 }
 
 std::chrono::nanoseconds left_until(Clock::time_point end) {
@@ -180,6 +189,10 @@ void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::F
     if (command.command == mavlink::kCommandMessageInterval) {
         result = set_interval(streams_, command.param1, command.param2) ? CommandResult::accepted
                                                                         : CommandResult::failed;
+    } else if (command.command == mavlink::kCommandRequestMessage &&
+               command.param1 == static_cast<float>(mavlink::AutopilotVersion::kId)) {
+        (void)link.send(version_of_stand_in());
+        result = CommandResult::accepted;
     } else if (const auto obeyed = obey(options_.parameters, flight_, command)) {
         result = *obeyed;
     }

@@ -30,6 +30,9 @@ struct StandInOptions {
     StandInParameters parameters;
 };
 
+/// In AUTOPILOT_VERSION where PX4 has the hash of its sources.
+inline constexpr std::string_view kStandInMark = "stand-in";
+
 struct StandInCount {
     std::uint64_t sensors = 0;  ///< HIL_SENSORs used
     std::uint64_t refused = 0;  ///< HIL_SENSORs whose time did not rise

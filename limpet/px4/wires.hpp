@@ -22,6 +22,8 @@ struct Px4Addresses {
     bool sets_origin = true;  ///< gives it a place on earth: where it has no GPS
 
     [[nodiscard]] bool serial() const { return hil.medium == wire::Medium::serial; }
+
+    bool only_px4 = false;  ///< the stand-in will not do
 };
 
 /// What whoever opens the wires has to do with them; empty members do nothing.

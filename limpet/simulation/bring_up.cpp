@@ -33,9 +33,17 @@ void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, plant::Pl
     }
 }
 
-bool stands_still(const scenario::Start& start, const Truth& truth) {
-    return (truth.base.p_WF_m - start.p_WB_m).norm() < kNear_m &&
-           truth.base.v_WF_W_m_s.norm() < kSlow_m_s;
+/// The start as the autopilot believes it, told by where it believes the stand to be: GPS has
+/// another origin and is off by metres, motion capture by millimetres.
+Estimate believed_start(Estimate on_stand, double stand_below_m) {
+    on_stand.p_WB_m.z() -= stand_below_m;
+    return on_stand;
+}
+
+/// By its own account: all that it can steer by.
+bool stands_still(const Estimate& estimate, const Vector3& start_W_m) {
+    return estimate.valid && (estimate.p_WB_m - start_W_m).norm() < kNear_m &&
+           estimate.v_WB_m_s.norm() < kSlow_m_s;
 }
 
 /// A flight's first state with the vehicle, rotors and autopilot as they are.
@@ -88,6 +96,7 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
     TickReport report;
     Pace pace(options.speed);
     bool on_stand = true;
+    Vector3 start_W_m = model.start.p_WB_m;  ///< as the autopilot believes it
     Tick still_since = -1;
     std::string obstacle;
     while (seconds(state.tick) < options.limit_s) {
@@ -95,6 +104,12 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
         on_stand = on_stand && state.truth.thrust_N < weight_N;
         if (on_stand) {
             rest_on_stand(model, stand_W_m, plant, state.truth);
+            if (state.autopilot.estimate.valid) {
+                const Estimate start =
+                    believed_start(state.autopilot.estimate, options.stand_below_m);
+                start_W_m = start.p_WB_m;
+                state.guidance = start_perching(waiting.task, start, seconds(state.tick));
+            }
         }
         if (due(state.tick, model.control_rate_Hz)) {
             std::string now = obstacle_of(autopilot, outside.guidance, on_stand);
@@ -116,8 +131,7 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
         if (outside.guidance != nullptr && !on_stand) {
             return first_state(model, state, plant, options.run);
         }
-        const bool still =
-            !on_stand && stands_still(model.start, state.truth) && state.autopilot.estimate.valid;
+        const bool still = !on_stand && stands_still(state.autopilot.estimate, start_W_m);
         still_since = !still ? -1 : still_since < 0 ? state.tick : still_since;
         if (still_since >= 0 && seconds(state.tick - still_since) >= options.steady_s) {
             return first_state(model, state, plant, options.run);

@@ -26,7 +26,8 @@ struct BringUp {
 
 /// Scenarios begin in the air; an autopilot behind a wire boots, aligns its estimator, arms and
 /// takes off first. The vehicle rests on a stand, which holds its attitude and lets go for good
-/// once the rotors carry the weight; then it flies to the scenario's start. Nothing of this is
+/// once the rotors carry the weight; then it flies to the scenario's start, by its own estimate,
+/// which is set right by where it stands: with GPS it is where that settles. Nothing of this is
 /// recorded, and the flight's clock, sensors, battery and guidance begin when it is done. With
 /// guidance elsewhere that is when it leaves the stand: where it hovers then is not ours to say.
 /// @param outside  has an autopilot

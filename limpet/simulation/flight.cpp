@@ -230,6 +230,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
     result.recording = recording;
     if (autopilot != nullptr) {
         result.performance.waited_s = autopilot->waited_s() - waited_s;
+        result.autopilot = autopilot->identity();
     }
     if (log) {
         log->finish(summary_json(result));

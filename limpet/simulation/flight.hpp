@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "limpet/autopilot/external.hpp"
 #include "limpet/record/message_sink.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
@@ -108,7 +110,8 @@ struct FlightResult {
     std::vector<std::string> faults_not_begun;  ///< of the scenario's table, as YAML
     Metrics metrics;
     FlightPerformance performance;
-    std::filesystem::path recording;  ///< empty: none
+    std::optional<autopilot::AutopilotIdentity> autopilot;  ///< one behind a wire that told
+    std::filesystem::path recording;                        ///< empty: none
     std::uint64_t state_hash = 0;
 };
 

@@ -122,6 +122,13 @@ void add_loads(std::vector<std::string>& lines, const Emphasis& bold, const Metr
     }
 }
 
+std::string who_text(const autopilot::AutopilotIdentity& who) {
+    std::string text = who.name == "stand-in" ? "the stand-in, as PX4 " : who.name + " ";
+    text += who.version + (who.git_hash.empty() ? "" : " of " + who.git_hash);
+    text += who.airframe ? fmt::format(", airframe {}", *who.airframe) : "";
+    return text + fmt::format(", system {}", who.system);
+}
+
 }  // namespace
 
 std::string event_head() {
@@ -165,6 +172,9 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
         fmt::format("{:.1f} s in {:.2f} s, {:.0f} times real time, {} physics steps",
                     result.performance.simulated_s, result.performance.wall_s,
                     result.performance.real_time_factor(), result.performance.physics_steps));
+    if (result.autopilot) {
+        add(lines, bold, "autopilot", who_text(*result.autopilot));
+    }
     add(lines, bold, "hash", fmt::format("{:016x}", result.state_hash));
     return lines;
 }

@@ -49,15 +49,27 @@ Json loads_of(const Metrics& m) {
     return loads;
 }
 
+Json json_of(const autopilot::AutopilotIdentity& who) {
+    return {{"name", who.name},
+            {"version", who.version},
+            {"git_hash", who.git_hash.empty() ? Json(nullptr) : Json(who.git_hash)},
+            {"airframe", who.airframe ? Json(*who.airframe) : Json(nullptr)},
+            {"system", who.system}};
+}
+
 Json common(const FlightResult& result) {
     Json events = Json::array();
     for (const Event& event : result.events) {
         events.push_back(json_of(event));
     }
-    return {{"scenario", result.scenario},          {"seed", result.seed},
-            {"outcome", to_string(result.outcome)}, {"reason", result.reason},
-            {"attempts", result.attempts},          {"events", events},
-            {"metrics", json_of(result.metrics)},   {"loads", loads_of(result.metrics)}};
+    Json json = {{"scenario", result.scenario},          {"seed", result.seed},
+                 {"outcome", to_string(result.outcome)}, {"reason", result.reason},
+                 {"attempts", result.attempts},          {"events", events},
+                 {"metrics", json_of(result.metrics)},   {"loads", loads_of(result.metrics)}};
+    if (result.autopilot) {
+        json["autopilot"] = json_of(*result.autopilot);
+    }
+    return json;
 }
 
 std::string hex(std::uint64_t value) {

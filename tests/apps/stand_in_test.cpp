@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 
 #include "free_port.hpp"
 #include "program.hpp"
@@ -28,6 +29,36 @@ TEST(StandInVerb, FliesWhatAPx4Would) {
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_THAT(end.out, HasSubstr("a simulator is there"));
     EXPECT_THAT(end.out, HasSubstr("answers"));
+}
+
+TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
+    for (const bool only_px4 : {false, true}) {
+        const Bench bench;
+        const std::string hil = "tcp:" + free_port(SOCK_STREAM);
+        const std::string offboard = "udp:" + free_port(SOCK_DGRAM);
+        Started stand_in(bench.folder(), "stand_in",
+                         {"stand-in", "hover", "--hil", hil, "--onboard",
+                          "udp:" + free_port(SOCK_DGRAM), "--peer", offboard});
+        std::vector<std::string> words = {"fly",    "hover",       "--autopilot", "px4",
+                                          "--hil",  hil,           "--offboard",  offboard,
+                                          "--json", "--no-record", "--wait",      "30"};
+        if (only_px4) {
+            words.emplace_back("--only-px4");
+        }
+        const Finished flight = bench.run(words);
+        EXPECT_EQ(flight.exit_code, only_px4 ? 2 : 0) << flight.err;
+        if (only_px4) {
+            EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is asked for"));
+            continue;
+        }
+        EXPECT_THAT(flight.err, HasSubstr("the stand-in, as PX4 1.15.1, system 1"));
+        const auto who = nlohmann::json::parse(flight.out).at("autopilot");
+        EXPECT_EQ(who.at("name"), "stand-in");
+        EXPECT_EQ(who.at("version"), "1.15.1");
+        EXPECT_TRUE(who.at("git_hash").is_null());
+        EXPECT_TRUE(who.at("airframe").is_null());
+        EXPECT_EQ(who.at("system"), 1);
+    }
 }
 
 TEST(StandInVerb, WithoutItThereIsNoFlightAndNothingIsWritten) {

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
+
 #include "limpet/mavlink/translate.hpp"
 #include "scripted_wire.hpp"
 
@@ -358,6 +360,29 @@ TEST(Offboard, FramesOfOthersAreLeftAlone) {
     peer.wire.autopilot.component = kGroundStationComponent;
     peer.run(2.0);
     EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::silent);
+}
+
+TEST(Offboard, AsksWhoItIsUntilItTellsAndNotForEver) {
+    Peer silent;
+    silent.run(20.0);
+    EXPECT_THAT(silent.commands(kCommandRequestMessage), SizeIs(5));
+    EXPECT_FALSE(silent.offboard.report().version);
+    Peer peer;
+    peer.run(0.5);
+    peer.wire.say(AutopilotVersion{.flight_sw_version = 0x010F01FF});
+    ParamValue airframe{.param_type = MavParamType::int32};
+    const std::int32_t number = 22001;
+    std::memcpy(&airframe.param_value, &number, sizeof(number));
+    set_text(airframe.param_id, "SYS_AUTOSTART");
+    peer.wire.say(airframe);
+    peer.run(20.0);
+    EXPECT_THAT(peer.commands(kCommandRequestMessage), SizeIs(1));
+    ASSERT_TRUE(peer.offboard.report().version);
+    EXPECT_EQ(peer.offboard.report().version->flight_sw_version, 0x010F01FFU);
+    EXPECT_EQ(peer.offboard.report().airframe, 22001);
+    peer.wire.say(CommandAck{.command = kCommandRequestMessage, .result = MavResult::denied});
+    peer.run(0.1);
+    EXPECT_EQ(peer.offboard.report().refused_command, 0) << "is not in the way of a flight";
 }
 
 TEST(Offboard, AsksForThePoseAndGivesTheOriginAltitudeZero) {

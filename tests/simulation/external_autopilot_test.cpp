@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 
 #include "flown.hpp"
@@ -27,8 +28,12 @@ public:
     /// Fails that long after the vehicle has been armed.
     void fail_after(double armed_s) { fail_after_s_ = armed_s; }
 
+    /// Its position is off by so much, and by half a metre more that wanders in a minute: as GPS.
+    void misplace(const Vector3& off_m) { off_m_ = off_m; }
+
     Estimate estimate(double time_s) override {
         Estimate estimate = state_.estimate;
+        estimate.p_WB_m += off_now_m();
         estimate.time_s = time_s;
         estimate.valid = started_ && estimate.valid;
         return estimate;
@@ -50,7 +55,11 @@ public:
             started_ = true;
         }
         limpet::autopilot::estimate(model_, state_, mine);
-        const RotorCommand command = limpet::autopilot::control(model_, state_, setpoint, clock_s_);
+        Setpoint mine_too = setpoint;
+        if (auto* position = std::get_if<PositionSetpoint>(&mine_too.motion)) {
+            position->p_W_m -= off_now_m();
+        }
+        const RotorCommand command = limpet::autopilot::control(model_, state_, mine_too, clock_s_);
         armed_s_ += command.armed ? 0.004 : 0.0;
         return command;
     }
@@ -61,6 +70,11 @@ public:
     std::string obstacle() const override { return started_ ? "" : "it boots"; }
 
 private:
+    [[nodiscard]] Vector3 off_now_m() const {
+        return off_m_.isZero()
+                   ? off_m_
+                   : Vector3(off_m_ + Vector3(0.5 * std::sin(2.0 * kPi * clock_s_ / 60.0), 0, 0));
+    }
     /// Stamps of a clock of its own, which goes on when the flight's begins.
     void shift(Readings& readings) const {
         const double ahead_s = clock_s_ - readings.imu.time_s;
@@ -74,6 +88,7 @@ private:
     double clock_s_ = 0.0;
     double armed_s_ = 0.0;
     double fail_after_s_ = 1e9;
+    Vector3 off_m_ = Vector3::Zero();
     bool started_ = false;
 };
 
@@ -92,6 +107,19 @@ TEST(BringUp, BeginsTheFlightInHoverAtTheStartWithAllClocksAtZero) {
     EXPECT_FALSE(first.state.sensors.readings.imu.ever());
     EXPECT_EQ(first.state.truth.battery.energy_used_J, 0.0);
     EXPECT_THAT(obstacles, testing::ElementsAre("it boots", ""));
+}
+
+/// With GPS: what it believes has another origin, and wanders; it begins where that settles.
+TEST(BringUp, BeginsWhereItsEstimateSettles) {
+    const auto model = model_of("perch_concrete");
+    const Vector3 off_m(3.0, -2.0, 1.0);
+    Outsider outsider(*model);
+    outsider.misplace(off_m);
+    const Snapshot first = bring_up(*model, {.autopilot = &outsider}, {});
+    const Vector3 start_m = model->scenario->start.p_WB_m;
+    EXPECT_LT((first.state.truth.base.p_WF_m - start_m).norm(), 1.2);  // wandered by 1 m at most
+    EXPECT_LT((first.state.autopilot.estimate.p_WB_m - start_m - off_m).norm(), 0.7);
+    EXPECT_EQ(first.state.guidance.line_W_m, first.state.autopilot.estimate.p_WB_m);
 }
 
 TEST(BringUp, GivesUpWithWhatItWaitedFor) {
