@@ -65,7 +65,9 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside, {.compress = info.compress}), range_sensor_(info.range_sensor), rotors_(info.rotors) {
+    : writer_(path, info.beside, {.compress = info.compress}),
+      range_sensor_(info.range_sensor),
+      rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;
     about["scenario"] = info.scenario;
     if (info.seed) {
