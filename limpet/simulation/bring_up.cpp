@@ -35,9 +35,8 @@ void rest_on_stand(const FlightModel& model, const Vector3& stand_W_m, plant::Pl
 
 /// The start as the autopilot believes it, told by where it believes the stand to be: GPS has
 /// another origin and is off by metres, motion capture by millimetres.
-Estimate believed_start(Estimate on_stand, double stand_below_m) {
-    on_stand.p_WB_m.z() -= stand_below_m;
-    return on_stand;
+Vector3 believed_start(const Estimate& on_stand, double stand_below_m) {
+    return on_stand.p_WB_m - Vector3(0.0, 0.0, stand_below_m);
 }
 
 /// By its own account: all that it can steer by.
@@ -105,10 +104,8 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
         if (on_stand) {
             rest_on_stand(model, stand_W_m, plant, state.truth);
             if (state.autopilot.estimate.valid) {
-                const Estimate start =
-                    believed_start(state.autopilot.estimate, options.stand_below_m);
-                start_W_m = start.p_WB_m;
-                state.guidance = start_perching(waiting.task, start, seconds(state.tick));
+                start_W_m = believed_start(state.autopilot.estimate, options.stand_below_m);
+                state.guidance.line_W_m = state.guidance.entry_p_W_m = start_W_m;
             }
         }
         if (due(state.tick, model.control_rate_Hz)) {
