@@ -16,7 +16,7 @@ namespace limpet::autopilot {
 struct AutopilotIdentity {
     std::string name;             ///< "PX4", "stand-in"
     std::string version;          ///< "1.15.1"
-    std::string git_hash;         ///< the first 16 digits; empty: it told none
+    std::string git_hash;         ///< the first 10 digits; empty: it told none
     std::optional<int> airframe;  ///< PX4's SYS_AUTOSTART
     int system = 0;               ///< MAVLink's system number
 };

@@ -153,7 +153,8 @@ std::optional<autopilot::AutopilotIdentity> Px4Autopilot::identity() const {
         std::uint64_t digits = 0;
         std::memcpy(&digits, report.version->flight_custom_version.data(), sizeof(digits));
         told.name = "PX4";
-        told.git_hash = digits == 0 ? "" : fmt::format("{:016x}", digits);
+        digits >>= 24U;  // below it, PX4 has its vendor's version
+        told.git_hash = digits == 0 ? "" : fmt::format("{:010x}", digits);
     }
     return told;
 }
