@@ -84,6 +84,22 @@ std::string solver_of(const physics::PhysicsEngine& engine) {
     return boost::any_cast<std::string>(engine.GetParam("solver_type"));
 }
 
+/// ODE alone flies the vehicle, with the solver that keeps a light cup's joints stiff.
+void check_engine(const physics::PhysicsEngine& engine) {
+    if (engine.GetType() != "ode") {
+        throw InputError(fmt::format(
+            "physics engine \"{}\": only \"ode\" flies this vehicle; set the world's <physics "
+            "type=\"ode\">",
+            engine.GetType()));
+    }
+    if (const std::string solver = solver_of(engine); solver != "world") {
+        throw InputError(
+            fmt::format("solver \"{}\" leaves the light cup's joints soft; set the world's "
+                        "<physics><ode><solver><type>world</type></solver></ode></physics>",
+                        solver));
+    }
+}
+
 void check_gravity_and_mass(const physics::Model& model, double expected_kg) {
     const Vector3 gravity_W = turn(model.GetWorld()->Gravity());
     const std::string change =
@@ -139,25 +155,14 @@ GazeboModel::GazeboModel(physics::ModelPtr vehicle, const scenario::Scenario& sc
       engine_(world_->Physics()),
       mechanism_(plant::make_mechanism(scenario.airframe)),
       next_(std::move(next)) {
-    if (engine_->GetType() != "ode") {
-        throw InputError(fmt::format(
-            "physics engine \"{}\": only \"ode\" flies this vehicle; set the world's <physics "
-            "type=\"ode\">",
-            engine_->GetType()));
-    }
-    if (const std::string solver = solver_of(*engine_); solver != "world") {
-        throw InputError(
-            fmt::format("solver \"{}\" leaves the light cup's joints soft; set the world's "
-                        "<physics><ode><solver><type>world</type></solver></ode></physics>",
-                        solver));
-    }
-    dSetMessageHandler(&hear_ode);
     const vehicle::Airframe& airframe = scenario.airframe;
     const auto link = [&](const char* part) {
         const std::string name = models::called(airframe, part);
         return require_there(*vehicle_, "link", name, vehicle_->GetLink(name));
     };
     links_[0] = link("base");
+    check_engine(*engine_);
+    dSetMessageHandler(&hear_ode);
     if (airframe.has_cup) {
         links_[1] = link("carriage");
         links_[2] = link("cup");
