@@ -257,6 +257,11 @@ wire::TransportAddress address_of(const std::string& option, const std::string& 
     }
     throw InputError(fmt::format("{} '{}': must be {}", option, text, fmt::join(forms, " or ")));
 }
+wire::TransportAddress address_of(const std::string& option, const std::optional<std::string>& text,
+                                  std::initializer_list<wire::Medium> media,
+                                  const wire::TransportAddress& by_default) {
+    return text ? address_of(option, *text, media) : by_default;
+}
 
 void only_with(const Given& given, bool used, std::initializer_list<const char*> options,
                const std::string& with) {

@@ -35,7 +35,8 @@ enum class ExitCode {
 /// function that is called with the text.
 using OptionTarget =
     std::variant<bool*, int*, std::uint32_t*, double*, std::optional<double>*, std::string*,
-                 std::vector<std::string>*, std::function<void(const std::string&)>>;
+                 std::optional<std::string>*, std::vector<std::string>*,
+                 std::function<void(const std::string&)>>;
 
 /// What an option takes, beyond its type.
 using OptionRule = std::function<void(CLI::App& verb, CLI::Option& option)>;
@@ -79,6 +80,11 @@ using OptionList = std::vector<Option>;
 /// @throws InputError naming the option and what it may be
 [[nodiscard]] wire::TransportAddress address_of(const std::string& option, const std::string& text,
                                                 std::initializer_list<wire::Medium> media);
+/// @param by_default  where the option is not given
+[[nodiscard]] wire::TransportAddress address_of(const std::string& option,
+                                                const std::optional<std::string>& text,
+                                                std::initializer_list<wire::Medium> media,
+                                                const wire::TransportAddress& by_default);
 
 /// Whether an option stands on the command line: given("--out").
 using Given = std::function<bool(const char* option)>;

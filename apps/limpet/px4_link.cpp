@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <limits>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -12,11 +13,18 @@ namespace limpet::app {
 namespace {
 
 px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
-    return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}),
-            .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp}),
+    const bool gps = scenario.autopilot.EKF2_GPS_CTRL != 0;
+    const px4::Px4Instance& instance = options.instance;
+    return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial},
+                              instance.hil()),
+            .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp},
+                                   instance.offboard()),
+            .system = instance.system(),
             .wait_s = options.wait_s,
-            .sets_origin = scenario.autopilot.EKF2_GPS_CTRL == 0,
-            .only_px4 = options.only_px4};
+            .sets_origin = !gps,
+            .only_px4 = options.only_px4,
+            .aiding_limit_s = gps ? std::numeric_limits<double>::infinity()
+                                  : 1e-6 * scenario.autopilot.EKF2_NOAID_TOUT};
 }
 
 /// How to start what is waited for, to be copied.
@@ -26,30 +34,36 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
                       " --target hitl`");
         return;
     }
-    const Px4LinkOptions by_default;
-    const auto unless_default = [](const char* option, const std::string& text,
-                                   const std::string& usual) {
-        return text == usual ? std::string() : fmt::format(" {} {}", option, text);
+    const auto if_given = [](const char* option, const std::optional<std::string>& text) {
+        return text ? fmt::format(" {} {}", option, *text) : std::string();
     };
+    const auto number = options.instance.number == 0
+                            ? std::nullopt
+                            : std::optional(std::to_string(options.instance.number));
     terminal.line(
-        "PX4, in its tree:      PX4_SYS_AUTOSTART=22001 build/px4_sitl_default/bin/px4 -d");
+        "PX4, in its tree:      PX4_SYS_AUTOSTART=22001 build/px4_sitl_default/bin/px4 -d" +
+        if_given("-i", number));
     terminal.line("                       (its airframe: limpet px4-params " + scenario +
                   "; docs/px4.md)");
     terminal.line("without a PX4 at hand: limpet stand-in " + scenario +
-                  unless_default("--hil", options.hil, by_default.hil) +
-                  unless_default("--peer", options.offboard, by_default.offboard));
+                  if_given("--instance", number) + if_given("--hil", options.hil) +
+                  if_given("--peer", options.offboard));
 }
 
 }  // namespace
 
 OptionList options_of(Px4LinkOptions& options, bool flies) {
-    OptionList list = {{"--hil ADDRESS", &options.hil,
-                        "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
-                        "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (a board, real time)"}};
+    OptionList list = {
+        {"--instance N", &options.instance.number,
+         "PX4's, as in `px4 -i N` (default 0): system N + 1, ports 4560 + N and\n14540 + N",
+         range(0, px4::Px4Instance::kMost, false)},
+        {"--hil ADDRESS", &options.hil,
+         "PX4's simulator link: tcp:HOST:PORT (we listen, lockstep; default\n"
+         "tcp:127.0.0.1:4560 + N) or serial:DEVICE:BAUD (a board, real time)"}};
     if (flies) {
         list.push_back({"--offboard ADDRESS", &options.offboard,
-                        "where PX4's onboard link comes in (default udp:127.0.0.1:14540; over\n"
-                        "serial all goes over the one wire)"});
+                        "where PX4's onboard link comes in (default udp:127.0.0.1:14540 + N;\n"
+                        "over serial all goes over the one wire)"});
         list.push_back({"--only-px4", &options.only_px4,
                         "no flight when the stand-in answers instead of a PX4"});
     }

@@ -18,14 +18,15 @@ namespace limpet::app {
 
 /// Options of the verbs that fly a PX4.
 struct Px4LinkOptions {
-    std::string hil = "tcp:127.0.0.1:4560";
-    std::string offboard = "udp:127.0.0.1:14540";
+    px4::Px4Instance instance;
+    std::optional<std::string> hil;       ///< none: the instance's
+    std::optional<std::string> offboard;  ///< likewise
     double wait_s = 60.0;
     bool record_wire = false;
     bool only_px4 = false;
     std::string speed;  ///< "" as suits the wire, "max", or a factor
 
-    [[nodiscard]] bool serial() const { return hil.starts_with("serial:"); }
+    [[nodiscard]] bool serial() const { return hil && hil->starts_with("serial:"); }
 };
 /// Before any work, and whether or not a wire is there.
 /// @throws InputError naming the option that cannot be, alone or beside the others

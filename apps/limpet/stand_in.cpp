@@ -21,9 +21,10 @@ namespace {
 
 struct StandInOptions {
     std::string what;
-    std::string hil = "tcp:127.0.0.1:4560";
-    std::string onboard = "udp:127.0.0.1:14580";
-    std::string peer = "udp:127.0.0.1:14540";
+    px4::Px4Instance instance;
+    std::optional<std::string> hil;
+    std::optional<std::string> onboard;
+    std::optional<std::string> peer;
     std::vector<std::string> parameters;
 };
 
@@ -56,9 +57,14 @@ void set(const std::vector<BoundParameter>& rows, const std::string& text) {
 void serve(const StandInOptions& options) {
     autopilot::AutopilotModel model = simulation::autopilot_model(scenario_of(options.what));
     px4::StandInOptions stand_in;
-    stand_in.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial});
-    stand_in.onboard = address_of("--onboard", options.onboard, {wire::Medium::udp});
-    stand_in.onboard_peer = address_of("--peer", options.peer, {wire::Medium::udp});
+    const px4::Px4Instance& instance = options.instance;
+    stand_in.hil =
+        address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}, instance.hil());
+    stand_in.onboard =
+        address_of("--onboard", options.onboard, {wire::Medium::udp}, instance.onboard());
+    stand_in.onboard_peer =
+        address_of("--peer", options.peer, {wire::Medium::udp}, instance.offboard());
+    stand_in.system = instance.system();
     // as `limpet px4-params` has them: else a perched vehicle may not arm
     stand_in.parameters.FD_FAIL_P = stand_in.parameters.FD_FAIL_R = 0;
     for (const std::string& text : options.parameters) {
@@ -85,13 +91,16 @@ void serve(const StandInOptions& options) {
 
 OptionList options_of(StandInOptions& options) {
     return {{"what SCENARIO", &options.what, "scenario (name or file) or vehicle (name) to fly"},
+            {"--instance N", &options.instance.number,
+             "as `px4 -i N` (default 0): system N + 1, ports 4560 + N, 14580 + N,\n14540 + N",
+             range(0, px4::Px4Instance::kMost, false)},
             {"--hil ADDRESS", &options.hil,
              "the simulator: tcp:HOST:PORT (connects, lockstep; default\n"
-             "tcp:127.0.0.1:4560) or serial:DEVICE:BAUD (as a board, real time)"},
+             "tcp:127.0.0.1:4560 + N) or serial:DEVICE:BAUD (as a board, real time)"},
             {"--onboard ADDRESS", &options.onboard,
-             "where its onboard link listens (default udp:127.0.0.1:14580)"},
+             "where its onboard link listens (default udp:127.0.0.1:14580 + N)"},
             {"--peer ADDRESS", &options.peer,
-             "whom the onboard link speaks to at first (default udp:127.0.0.1:14540)"},
+             "whom the onboard link speaks to at first (default\nudp:127.0.0.1:14540 + N)"},
             {"--param NAME=VALUE", &options.parameters,
              "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given"}};
 }

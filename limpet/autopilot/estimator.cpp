@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "limpet/core/signals/pose_watch.hpp"
+
 namespace limpet::autopilot {
 namespace {
 
@@ -127,18 +129,7 @@ void take(const AutopilotParameters& p, EstimatorState& state, double& seen_s,
 bool repeats_itself(const EstimatorState& state, const PoseReading& pose) {
     const PoseReading& last = state.motion_capture;
     const bool turns = state.turned_rad.norm() > radians(0.1);
-    return (turns || state.motion_capture_frozen) && pose.p_WB_m == last.p_WB_m &&
-           pose.q_WB.coeffs() == last.q_WB.coeffs();
-}
-
-/// A body that lies quite otherwise than the gyros say is another one, for as long as they can
-/// tell.
-bool is_another_body(const EstimatorState& state, const Instant& at, const Quaternion& q_WB,
-                     double stamp_s) {
-    constexpr double kAngle_rad = 0.5;
-    constexpr double kGyrosTell_s = 30.0;
-    return stamp_s - state.motion_capture_attitude.fused_s < kGyrosTell_s &&
-           at.then.q_WB.angularDistance(q_WB.normalized()) > kAngle_rad;
+    return (turns || state.motion_capture_frozen) && same_pose(pose, last);
 }
 
 void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
@@ -152,7 +143,8 @@ void take_motion_capture(const AutopilotParameters& p, EstimatorState& state,
         pose.p_WB_m.allFinite() && pose.q_WB.coeffs().allFinite() && !state.motion_capture_frozen;
     take(p, state, state.motion_capture_s, sample, stamp_s, usable,
          [&](Fusion& fusion, const Instant& at) {
-             if (is_another_body(state, at, pose.q_WB, stamp_s)) {
+             if (is_another_body(at.then.q_WB, pose.q_WB.normalized(),
+                                 stamp_s - state.motion_capture_attitude.fused_s)) {
                  return;
              }
              if (has(p.EKF2_EV_CTRL, kHorizontal | kHeight)) {

@@ -115,23 +115,26 @@ void Companion::poll(double time_s) {
         wires_.motion_capture->update(time_s);
     }
     inputs_.poll(wires_, offboard_, time_s);
-    carried_.update(inputs_.readings().motion_capture);
+    pose_ = pose_watch_.trusted(inputs_.readings().motion_capture,
+                                offboard_.report().armed ? offboard_.estimate(time_s) : Estimate{});
+    carried_.update(pose_);
     forward_pose(time_s);
 }
 
 void Companion::forward_pose(double time_s) {
-    const Sample<PoseReading>& pose = inputs_.readings().motion_capture;
     const double period_s = 1.0 / config_.limits.pose_rate_Hz;
-    if (dry_run_ || pose.time_s <= forwarded_pose_s_ ||
+    if (dry_run_ || pose_.time_s <= forwarded_pose_s_ ||
         time_s < forwarded_s_ + period_s - kRounding_s) {
         return;
     }
     // On the grid of the rate while poses keep up with it, so that 120 Hz in give 50 Hz out.
     forwarded_s_ = std::max(forwarded_s_ + period_s, time_s - period_s);
-    forwarded_pose_s_ = pose.time_s;
-    const auto time_us = static_cast<std::uint64_t>(std::llround(std::max(pose.time_s, 0.0) * 1e6));
-    (void)wires_.autopilot->send(mavlink::odometry(pose.value, std::max<std::uint64_t>(time_us, 1)),
-                                 std::chrono::milliseconds(5));
+    forwarded_pose_s_ = pose_.time_s;
+    const auto time_us =
+        static_cast<std::uint64_t>(std::llround(std::max(pose_.time_s, 0.0) * 1e6));
+    (void)wires_.autopilot->send(
+        mavlink::odometry(pose_.value, std::max<std::uint64_t>(time_us, 1)),
+        std::chrono::milliseconds(5));
 }
 
 std::string Companion::mechanism_obstacle(double time_s) const {
@@ -147,6 +150,7 @@ void Companion::feed(double time_s) {
     const bool flies = phase() == SessionPhase::flying;
     SessionInputs& in = session_.inputs();
     in.readings = inputs_.readings();
+    in.readings.motion_capture = pose_;
     const Estimate estimate = dry_run_ ? carried_.estimate() : offboard_.estimate(time_s);
     if (estimate.valid) {
         in.pose = {estimate.time_s, {.p_WB_m = estimate.p_WB_m, .q_WB = estimate.q_WB}};

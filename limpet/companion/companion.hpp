@@ -14,6 +14,7 @@
 #include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
 #include "limpet/companion/wires.hpp"
+#include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/mavlink/offboard.hpp"
 #include "limpet/record/recorder.hpp"
 
@@ -96,6 +97,8 @@ private:
     CompanionWatch watch_;
     mavlink::Offboard offboard_;
     Inputs inputs_;
+    PoseWatch pose_watch_;
+    Sample<PoseReading> pose_;  ///< that the watch trusts
     MechanismPace mechanism_;
     RefusalWatch autopilot_refusals_;
     RefusalWatch sensors_refusals_;

@@ -281,6 +281,12 @@ bool not_level_in_time(const Scene& s) {
 bool rest_over_blind(const Scene& s) {
     return rest_over(s) && estimate_lost(s);
 }
+bool rest_over_still(const Scene& s) {
+    constexpr double kStill_s = 3.0;
+    constexpr double kLongest_s = 30.0;
+    return rest_over(s) && (s.time_s - s.memory.rest.moved_s >= kStill_s ||
+                            s.elapsed_s() >= s.parameters.rest_s + kLongest_s);
+}
 bool rest_over_turned(const Scene& s) {
     constexpr double kTurned_deg = 25.0;
     // About the vertical alone: on the cup the vehicle also turns about the wall's normal.
@@ -289,7 +295,7 @@ bool rest_over_turned(const Scene& s) {
         quaternion_from_euler({.pitch_rad = s.pitch_rad(), .yaw_rad = s.memory.wall.heading_rad})
             .conjugate();
     const double about_z_rad = wrap_pi(2.0 * std::atan2(turned.z(), turned.w()));
-    return rest_over(s) && std::abs(about_z_rad) > radians(kTurned_deg);
+    return rest_over_still(s) && std::abs(about_z_rad) > radians(kTurned_deg);
 }
 bool battery_low_flies(const Scene& s) {
     return s.task.take_off && battery_low(s);

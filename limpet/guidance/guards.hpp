@@ -92,6 +92,8 @@ struct Scene {
 [[nodiscard]] bool rest_over_blind(const Scene& s);
 /// A heading that is not the wall's any more: rotors would push it along or off the wall.
 [[nodiscard]] bool rest_over_turned(const Scene& s);
+/// The estimate has not moved for a while, or is waited for no longer.
+[[nodiscard]] bool rest_over_still(const Scene& s);
 [[nodiscard]] bool battery_low_flies(const Scene& s);
 [[nodiscard]] bool battery_low_stays(const Scene& s);
 [[nodiscard]] bool back_unperched(const Scene& s);

@@ -104,7 +104,7 @@ constexpr std::array kTable = {
     ends(S::resting, rest_over_turned, "heading is not the wall's: rests on the wall",
          Outcome::release_aborted),
     Transition{S::resting, battery_low_flies, S::spinning_up, "battery low", E::motors_on},
-    Transition{S::resting, rest_over, S::spinning_up, "rest over", E::motors_on},
+    Transition{S::resting, rest_over_still, S::spinning_up, "rest over", E::motors_on},
 
     Transition{S::spinning_up, came_off, S::backing_off, "came off the wall", E::aborted},
     Transition{S::spinning_up, spun_up, S::pitching_down, "rotors carry their share"},
@@ -201,6 +201,7 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     }
     memory.since_s = s.time_s;
     memory.settled_since_s = -1.0;
+    memory.rest.q_WB = estimate.q_WB;
     memory.entry_pressure_Pa = s.pressure_Pa();
     memory.entry_p_W_m = estimate.p_WB_m;
     memory.entry_pitch_rad = attitude.pitch_rad;
@@ -231,6 +232,17 @@ void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
             std::clamp(memory.wind.side_m_s2 -
                            dt_s * parameters.side_integral_1_s3 * side_error_m(memory, estimate),
                        -kMost_m_s2, kMost_m_s2);
+    }
+}
+
+/// On its legs nothing turns it any more: an attitude that moves there is the estimate's, which is
+/// still finding it, as after a gyro's bias has changed.
+void watch_rest(PerchingMemory& memory, const Estimate& estimate, double time_s) {
+    constexpr double kMoved_rad = radians(0.3);
+    if (memory.state == S::resting &&
+        memory.rest.q_WB.angularDistance(estimate.q_WB) > kMoved_rad) {
+        memory.rest.q_WB = estimate.q_WB;
+        memory.rest.moved_s = time_s;
     }
 }
 
@@ -288,6 +300,7 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
         see_wall(parameters, memory.wall, readings, estimate);
     }
     feel_wind(parameters, memory, estimate, time_s);
+    watch_rest(memory, estimate, time_s);
     const Scene scene{parameters, task, memory, readings, estimate, time_s};
     const auto since = [time_s](double& since_s, bool holds) {
         since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;

@@ -103,6 +103,12 @@ struct CupBelief {
     bool pressure_doubted = false;  ///< the cup held when the sensor said that it could not
 };
 
+/// Of the estimate while it rests.
+struct RestSeen {
+    Quaternion q_WB = Quaternion::Identity();  ///< the attitude that it has kept to, some tenths
+    double moved_s = -1e9;                     ///< when it last was another
+};
+
 /// Everything that guidance remembers; copyable.
 struct PerchingMemory {
     PerchingState state = PerchingState::pre_positioning;
@@ -123,6 +129,7 @@ struct PerchingMemory {
     double entry_pitch_rad = 0.0;
     double entry_pressure_Pa = 0.0;
     double entry_yaw_rad = 0.0;
+    RestSeen rest;
     Setpoint setpoint;
     std::optional<Ending> ending;
 };

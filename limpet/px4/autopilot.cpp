@@ -91,15 +91,26 @@ Estimate Px4Autopilot::estimate(double time_s) {
     listen();
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s = time_s;
+    estimate.valid = estimate.valid && !tracker_silent(time_s);
     return estimate;
 }
 
+/// Whether a tracker aided it and does so no more.
+bool Px4Autopilot::tracker_silent(double time_s) const {
+    return readings_.motion_capture.ever() &&
+           !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
+}
+
 RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint, double) {
+    readings_ = readings;
+    readings_.motion_capture =
+        watch_.trusted(readings.motion_capture,
+                       offboard_.report().armed ? offboard_.estimate(clock_s()) : Estimate{});
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
     if (options_.flies) {
         offboard_.update(offboard_link_, setpoint, clock_s());
     }
-    status_ = hil_.exchange(readings, clock_usec_, [this](const mavlink::Frame& frame) {
+    status_ = hil_.exchange(readings_, clock_usec_, [this](const mavlink::Frame& frame) {
         // Until the clocks are in step, when something is heard is a matter of the machine: its
         // greetings are left alone.
         if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "limpet/autopilot/external.hpp"
+#include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/mavlink/hil.hpp"
 #include "limpet/mavlink/offboard.hpp"
 
@@ -17,6 +18,10 @@ struct Px4Options {
     double control_rate_Hz = 250.0;  ///< of HIL_SENSOR
     /// Guidance is ours and flies it by offboard set-points; false: it is somebody else's.
     bool flies = true;
+    /// A tracker that is silent for longer leaves the estimate without a position, though PX4 goes
+    /// on without one for seconds more (its EKF2_NOAID_TOUT) and then descends blindly. Infinite
+    /// where it has GPS.
+    double aiding_limit_s = 0.5;
     bool only_px4 = false;  ///< fails where it is the stand-in, or does not tell what it is
     std::function<void(const std::string& text)> on_text;  ///< each STATUSTEXT
 };
@@ -44,6 +49,7 @@ private:
     void hear(const mavlink::Frame& frame);
     void listen();
     void look_who();
+    [[nodiscard]] bool tracker_silent(double time_s) const;
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 
     mavlink::Link& hil_link_;
@@ -53,6 +59,8 @@ private:
     mavlink::Offboard offboard_;
     mavlink::HilStatus status_ = mavlink::HilStatus::waiting;
     std::uint64_t clock_usec_ = 0;
+    Readings readings_;  ///< as told to it
+    PoseWatch watch_;
     double listened_s_ = -1.0;
     double heard_s_ = -1.0;        ///< since when its estimate is heard
     double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time

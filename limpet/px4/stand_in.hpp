@@ -8,6 +8,7 @@
 
 #include "limpet/mavlink/link.hpp"
 #include "limpet/mavlink/parameter_server.hpp"
+#include "limpet/px4/instance.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 #include "limpet/px4/stand_in_streams.hpp"
 
@@ -16,11 +17,11 @@ namespace limpet::px4 {
 struct StandInOptions {
     /// tcp: PX4 in simulation, which connects to the simulator, in lockstep. serial: a board in
     /// HIL, all over the one wire, in real time.
-    wire::TransportAddress hil = {.medium = wire::Medium::tcp, .port = 4560};
+    wire::TransportAddress hil = Px4Instance().hil();
     /// The onboard link of a simulation; port 0: the kernel chooses.
-    wire::TransportAddress onboard = {.medium = wire::Medium::udp, .port = 14580};
+    wire::TransportAddress onboard = Px4Instance().onboard();
     /// Whom it speaks to until somebody speaks to it.
-    wire::TransportAddress onboard_peer = {.medium = wire::Medium::udp, .port = 14540};
+    wire::TransportAddress onboard_peer = Px4Instance().offboard();
     std::uint8_t system = 1;
     /// HIL_SENSORs that go unanswered while it boots. Source: px4.md, 22 to 34
     int boot_sensors = 25;

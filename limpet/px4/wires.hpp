@@ -8,6 +8,7 @@
 
 #include "limpet/mavlink/link.hpp"
 #include "limpet/px4/autopilot.hpp"
+#include "limpet/px4/instance.hpp"
 #include "limpet/wire/address.hpp"
 
 namespace limpet::px4 {
@@ -15,15 +16,17 @@ namespace limpet::px4 {
 /// Where a PX4 is met. Source: px4.md
 struct Px4Addresses {
     /// tcp: PX4 in simulation, which connects to us, in lockstep; serial: a board, in real time.
-    wire::TransportAddress hil = {.medium = wire::Medium::tcp, .port = 4560};
+    wire::TransportAddress hil = Px4Instance().hil();
     /// Where its onboard link comes in; over serial all goes over the one wire.
-    wire::TransportAddress offboard = {.medium = wire::Medium::udp, .port = 14540};
+    wire::TransportAddress offboard = Px4Instance().offboard();
+    std::uint8_t system = 1;
     double wait_s = 60.0;     ///< longest wait for it, wall time
     bool sets_origin = true;  ///< gives it a place on earth: where it has no GPS
 
     [[nodiscard]] bool serial() const { return hil.medium == wire::Medium::serial; }
 
-    bool only_px4 = false;  ///< the stand-in will not do
+    bool only_px4 = false;        ///< the stand-in will not do
+    double aiding_limit_s = 0.5;  ///< Px4Options'
 };
 
 /// What whoever opens the wires has to do with them; empty members do nothing.

@@ -141,8 +141,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     ++state.tick;
     see_truth(model, state, plant);
     if (!state.ending) {
-        state.ending =
-            state.guidance.ending ? state.guidance.ending : collision(model, state.truth);
+        const std::optional<guidance::Ending> hit = collision(model, state.truth);
+        state.ending = hit ? hit : state.guidance.ending;
     }
 }
 

@@ -126,6 +126,7 @@ TEST(BadInput, AddressesOfTheWireNameTheirOption) {
     expect_refused(bench, with("--hil", "udp:127.0.0.1:4560"), {"--hil", "tcp:HOST:PORT"});
     expect_refused(bench, with("--hil", "tcp:127.0.0.1:0"), {"--hil", "'0'", "1 to 65535"});
     expect_refused(bench, with("--offboard", "tcp:127.0.0.1:1"), {"--offboard", "udp:HOST:PORT"});
+    expect_refused(bench, with("--instance", "10"), {"--instance", "10", "0", "9"});
     expect_refused(bench, {"stand-in", "hover", "--peer", "tcp:1"}, {"--peer", "udp:HOST:PORT"});
     expect_refused(bench, {"sim-io", "hover", "--sensors", "tcp:1"},
                    {"--sensors", "udp:HOST:PORT"});
@@ -145,7 +146,7 @@ TEST(BadInput, NoWaitOrSpeedIsNaN) {
 
 TEST(BadInput, OptionsThatWouldDoNothing) {
     const Bench bench;
-    for (const char* option : {"--hil", "--offboard", "--wait"}) {
+    for (const char* option : {"--instance", "--hil", "--offboard", "--wait"}) {
         expect_refused(bench, {"fly", "hover", option, "1"}, {option, "--autopilot px4"});
     }
     expect_refused(bench, {"fly", "hover", "--record-wire"}, {"--record-wire", "--autopilot px4"});

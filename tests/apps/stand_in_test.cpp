@@ -37,11 +37,11 @@ TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
         const std::string hil = "tcp:" + free_port(SOCK_STREAM);
         const std::string offboard = "udp:" + free_port(SOCK_DGRAM);
         Started stand_in(bench.folder(), "stand_in",
-                         {"stand-in", "hover", "--hil", hil, "--onboard",
+                         {"stand-in", "hover", "--instance", "3", "--hil", hil, "--onboard",
                           "udp:" + free_port(SOCK_DGRAM), "--peer", offboard});
-        std::vector<std::string> words = {"fly",    "hover",       "--autopilot", "px4",
-                                          "--hil",  hil,           "--offboard",  offboard,
-                                          "--json", "--no-record", "--wait",      "30"};
+        std::vector<std::string> words = {
+            "fly",    "hover",  "--autopilot", "px4",    "--hil", hil,          "--offboard",
+            offboard, "--json", "--no-record", "--wait", "30",    "--instance", "3"};
         if (only_px4) {
             words.emplace_back("--only-px4");
         }
@@ -51,13 +51,13 @@ TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
             EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is asked for"));
             continue;
         }
-        EXPECT_THAT(flight.err, HasSubstr("the stand-in, as PX4 1.15.1, system 1"));
+        EXPECT_THAT(flight.err, HasSubstr("the stand-in, as PX4 1.15.1, system 4"));
         const auto who = nlohmann::json::parse(flight.out).at("autopilot");
         EXPECT_EQ(who.at("name"), "stand-in");
         EXPECT_EQ(who.at("version"), "1.15.1");
         EXPECT_TRUE(who.at("git_hash").is_null());
         EXPECT_TRUE(who.at("airframe").is_null());
-        EXPECT_EQ(who.at("system"), 1);
+        EXPECT_EQ(who.at("system"), 4);
     }
 }
 

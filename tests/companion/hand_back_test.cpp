@@ -56,6 +56,9 @@ TEST(HandBack, InTheAirAsksForHold) {
     using enum CompanionEnd;
     expect_hold_in_the_approach([](Rehearsal& r) { r.stage.motion_capture_works = false; }, 0.35,
                                 handed_back, "motion-capture pose stale");
+    expect_hold_in_the_approach(  // another body
+        [](Rehearsal& r) { r.stage.motion_capture_turned_rad = 1.0; }, 0.35, handed_back,
+        "motion-capture pose stale");
     expect_hold_in_the_approach([](Rehearsal& r) { r.stage.tells_pose = false; }, 0.35, handed_back,
                                 "autopilot's pose stale");
     expect_hold_in_the_approach([](Rehearsal& r) { r.stage.beats = false; }, 3.1, handed_back,

@@ -70,6 +70,7 @@ public:
     bool obeys_mode = true;
     bool obeys_arming = true;
     Vector3 motion_capture_off_m = Vector3::Zero();
+    double motion_capture_turned_rad = 0.0;
 
     /// Puppet::kDt_s of the world: hears, moves, tells.
     void step() {
@@ -191,7 +192,8 @@ private:
         if (motion_capture_works) {
             (void)sensors_.send(mavlink::odometry(
                 PoseReading{.p_WB_m = puppet.estimate.p_WB_m + motion_capture_off_m,
-                            .q_WB = puppet.estimate.q_WB},
+                            .q_WB = quaternion_from_euler({.yaw_rad = motion_capture_turned_rad}) *
+                                    puppet.estimate.q_WB},
                 usec));
         }
         tell_readings(boot_ms);

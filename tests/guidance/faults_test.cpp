@@ -93,6 +93,26 @@ TEST(Faults, OneThatRestsDoesNotArmByAHeadingThatIsNotTheWalls) {
     }
 }
 
+/// As an estimator does whose gyro has changed: its attitude goes off at rest, and comes back.
+TEST(Faults, TheRestGoesOnWhileTheEstimateMoves) {
+    for (const double finds_itself_s : {0.0, 10.0, 100.0}) {
+        Puppet puppet;
+        ASSERT_TRUE(puppet.run_to(PerchingState::resting));
+        const double begin_s = puppet.time_s;
+        const double rest_s = puppet.parameters.rest_s;
+        while (puppet.memory.state == PerchingState::resting && puppet.time_s < begin_s + 60.0) {
+            const double moves_s = std::min(puppet.time_s - begin_s, finds_itself_s);
+            puppet.misled_rad = radians(0.5 * std::abs(std::remainder(moves_s, 20.0)));
+            puppet.run(0.1);
+        }
+        EXPECT_EQ(puppet.memory.state, PerchingState::spinning_up);
+        const double expected_s = finds_itself_s == 0.0    ? rest_s
+                                  : finds_itself_s == 10.0 ? 10.0 + 3.0
+                                                           : rest_s + 30.0;
+        EXPECT_NEAR(puppet.time_s - begin_s, expected_s, 0.7) << finds_itself_s;
+    }
+}
+
 TEST(Faults, VacuumLostWhileLandingRetreats) {
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::pitching_up));

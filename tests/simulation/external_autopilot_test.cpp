@@ -122,6 +122,15 @@ TEST(BringUp, BeginsWhereItsEstimateSettles) {
     EXPECT_EQ(first.state.guidance.line_W_m, first.state.autopilot.estimate.p_WB_m);
 }
 
+TEST(BringUp, IsDoneInTheMeanWindForInGustsNothingStandsStill) {
+    const auto model = model_of("perch_concrete",
+                                {"environment.wind_speed_m_s=2", "environment.gust_sigma_m_s=1.5"});
+    Outsider outsider(*model);
+    const Snapshot first = bring_up(*model, {.autopilot = &outsider}, {});
+    EXPECT_LT(first.state.truth.base.v_WF_W_m_s.norm(), 0.1);
+    EXPECT_GT(std::abs(first.state.wind.along.first) + std::abs(first.state.wind.down.first), 0.0);
+}
+
 TEST(BringUp, GivesUpWithWhatItWaitedFor) {
     const auto model = model_of("hover");
     Outsider outsider(*model, 1e9);

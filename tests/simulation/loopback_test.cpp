@@ -76,6 +76,16 @@ TEST(Loopback, FliesEightRotorsBehindTheWire) {
     EXPECT_EQ(behind.outcome, Outcome::released) << behind.reason;
 }
 
+/// PX4 flies on without poses for five seconds, by its own account well.
+TEST(Loopback, ATrackerThatFallsSilentIsNotWaitedForAsLongAsPx4Would) {
+    const auto patient = model_of("perch_concrete", {"autopilot.EKF2_NOAID_TOUT=5000000"});
+    Loopback loopback(*patient);
+    const FlightResult result = fly_behind_wire(
+        model_of("perch_concrete", {"faults={fault: mocap_lost, phase: approaching}"}), loopback);
+    EXPECT_EQ(result.outcome, Outcome::aborted);
+    EXPECT_EQ(result.reason, "stands before the wall, position estimate lost");
+}
+
 TEST_F(LoopbackFile, TheSameFlightIsTheSameBytes) {
     const auto model = model_of("perch_concrete");
     for (const char* name : {"one.mcap", "two.mcap"}) {

@@ -249,6 +249,21 @@ TEST(Crashes, AnArmShorterThanThePropellersPutsThemIntoTheWall) {
     EXPECT_EQ(trace.result.reason, "a propeller hit the wall");
 }
 
+TEST(Crashes, InTheTickInWhichGuidanceEndsAreCrashesToo) {
+    Flight flight(model_of("perch_concrete", {"vehicle.rotor.speed_max_rad_s=540"}));
+    Snapshot before = flight.save();
+    while (!flight.ended()) {
+        before = flight.save();
+        (void)flight.tick();
+    }
+    ASSERT_EQ(flight.state().ending->outcome, Outcome::crashed);
+    before.state.guidance.ending =
+        guidance::Ending{.outcome = Outcome::aborted, .reason = "position estimate lost"};
+    flight.restore(before);
+    (void)flight.tick();
+    EXPECT_EQ(flight.state().ending->outcome, Outcome::crashed);
+}
+
 /// A sensor that fails at some moment of the manoeuvre; the vehicle must not come down with it.
 struct FaultAt {
     const char* fault;
