@@ -29,6 +29,16 @@ FlightHost::FlightHost(gazebo::physics::ModelPtr vehicle, HostedFlight flight)
     const auto plant = std::make_shared<const GazeboModel>(std::move(vehicle), flight_.scenario,
                                                            [this] { return wait_for_gazebo(); });
     flight_.conduct.stop = &interrupted_;
+    if (flight_.live != nullptr) {
+        flight_.conduct.beside = &flight_.live->live();
+        flight_.watch.on_tick = [this, more = std::move(flight_.watch.on_tick)](
+                                    simulation::Flight& flown, const guidance::EventList& events) {
+            if (more) {
+                more(flown, events);
+            }
+            flight_.live->tick(flown);
+        };
+    }
     model_ = simulation::build_model(flight_.scenario, plant);
 }
 
@@ -78,6 +88,9 @@ void FlightHost::run(Coroutine::push_type& to_gazebo) {
     try {
         result_ = fly(model_, flight_file(flight_.recording, flights_), flight_.watch, 0,
                       flight_.conduct);
+        if (flight_.live != nullptr) {
+            flight_.live->end(*result_);
+        }
     } catch (const boost::context::detail::forced_unwind&) {
         throw;  // restart() or the end of the world, in the middle of a flight
     } catch (...) {

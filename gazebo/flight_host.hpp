@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "gazebo/gazebo_plant.hpp"
+#include "limpet/live/live_flight.hpp"
 #include "limpet/simulation/flight.hpp"
 
 namespace limpet::gazebo11 {
@@ -21,6 +22,7 @@ struct HostedFlight {
     std::filesystem::path recording;  ///< empty: none
     simulation::FlightConduct conduct;
     simulation::FlightWatch watch;
+    live::LiveFlight* live = nullptr;  ///< shows it to viewers; null: nobody watches
 };
 
 /// Of the flights of one server: flight.mcap, flight-2.mcap, ...

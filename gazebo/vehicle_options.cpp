@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -63,8 +64,8 @@ scenario::Scenario scenario_of(const scenario::YamlNode& section) {
 }  // namespace
 
 std::vector<std::string_view> vehicle_elements() {
-    return {"scenario", "set",       "seed",   "autopilot", "hil",  "offboard",
-            "wait_s",   "recording", "result", "when_over", "speed"};
+    return {"scenario", "set",       "seed",   "autopilot", "hil",   "offboard",
+            "wait_s",   "recording", "result", "when_over", "speed", "live"};
 }
 
 VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
@@ -84,8 +85,17 @@ VehicleOptions read_vehicle_options(const scenario::YamlNode& parameters,
     read_given(parameters, "result", options.result);
     read_word_if_given(parameters, "when_over", options.when_over,
                        {{"pause", WhenOver::pause}, {"quit", WhenOver::quit}});
+    std::optional<std::uint32_t> port;
+    read_given(parameters, "live", port, scenario::read_count);
+    if (port && *port > std::numeric_limits<std::uint16_t>::max()) {
+        fail(*parameters.find("live"),
+             fmt::format("{}, allowed a port, 0..65535 (0: any that is free)", *port));
+    }
+    if (port) {
+        options.live = static_cast<std::uint16_t>(*port);
+    }
     const bool board = options.autopilot == Autopilot::px4 && px4.serial();
-    options.speed = board ? 1.0 : 0.0;
+    options.speed = board || options.live ? 1.0 : 0.0;
     read_given(parameters, {{"wait_s", "s", 0.1, 86400.0, &px4.wait_s, {}, {}},
                             {"speed", "-", 0.0, kFastest, &options.speed, {}, {}}});
     if (const scenario::YamlNode* speed = parameters.find("speed")) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +29,7 @@ struct VehicleOptions {
     std::filesystem::path recording;
     std::filesystem::path result;
     double speed = 0.0;
+    std::optional<std::uint16_t> live;  ///< port; none: nobody watches
     WhenOver when_over = WhenOver::pause;
 };
 

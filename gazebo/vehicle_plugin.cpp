@@ -82,7 +82,8 @@ void VehiclePlugin::Load(gazebo::physics::ModelPtr model, sdf::ElementPtr sdf) {
     load_or_end(*world, [&] { configure(std::move(model), sdf); });
 }
 
-/// Whoever waits for a PX4 hears that the world is to stop: its destructor comes after that wait.
+/// Whoever waits for a PX4 or a viewer hears that the world is to stop: its destructor comes after
+/// that wait.
 void VehiclePlugin::watch_world() {
     constexpr std::chrono::milliseconds kEvery(50);
     while (!watched_) {
@@ -120,8 +121,18 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
     };
     flight.watch.on_event = [](const Event& event) { say(simulation::event_line(event)); };
     prepare(parameters, flight);
-    if (options_.autopilot == VehicleOptions::Autopilot::px4) {
+    const bool by_px4 = options_.autopilot == VehicleOptions::Autopilot::px4;
+    if (by_px4 || options_.live) {
         watching_ = std::thread([this] { watch_world(); });
+    }
+    if (options_.live) {
+        live_ = std::make_unique<live::LiveFlight>(
+            live::LiveFlightOptions{.port = *options_.live, .tunes = !by_px4}, options_.scenario,
+            stop_);
+        flight.live = live_.get();
+        say("live       " + live_->live().address());
+    }
+    if (by_px4) {
         const px4::Px4WireWatch watch{
             .on_open = [](const std::string& where) { say("waiting for PX4 on " + where); },
             .on_text = [](const std::string& text) { say("          PX4: " + text); },
@@ -161,6 +172,9 @@ void VehiclePlugin::end() {
     }
     if (const long long complaints = take_solver_complaints(); complaints > 0) {
         say(fmt::format("engine     ODE's contact solver stopped early {} times", complaints));
+    }
+    if (live_ != nullptr) {
+        say("live       " + live_->live().report());
     }
     write_result(flight_file(options_.result, host_->flights()), result);
     world_->SetPaused(true);

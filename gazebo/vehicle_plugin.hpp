@@ -30,7 +30,9 @@ namespace limpet::gazebo11 {
 ///   offboard   where px4's onboard link comes in                              udp:127.0.0.1:14540
 ///   wait_s     longest wait for a px4 [s]                                     60
 ///   speed      times real time; 0: as fast as it goes. 1 alone with a px4 on
-///              a serial wire, which has a clock of its own                    0
+///              a serial wire, which has a clock of its own                    0, watched 1
+///   live       port where Foxglove and Lichtblick may watch (docs/live.md);
+///              0: any that is free, and told                                  nobody may
 ///   recording  MCAP file to write                                             none
 ///   result     JSON file to write when the flight is over                     none
 ///   when_over  pause the world, or quit the server                            pause
@@ -66,10 +68,11 @@ private:
 
     VehicleOptions options_;
     gazebo::physics::WorldPtr world_;
-    std::atomic<bool> stop_{false};  ///< the world is to stop: waits for a PX4 are over
+    std::atomic<bool> stop_{false};  ///< the world is to stop: waits for a PX4 or a viewer are over
     std::atomic<bool> watched_{false};
-    std::thread watching_;  ///< of a flight with a PX4
+    std::thread watching_;  ///< of a flight with a PX4 or viewers
     std::unique_ptr<px4::Px4Wires> px4_;
+    std::unique_ptr<live::LiveFlight> live_;
     std::unique_ptr<FlightHost> host_;
     bool told_ = false;  ///< how it ended
     gazebo::event::ConnectionPtr on_update_;

@@ -14,6 +14,7 @@
 #include "limpet/companion/real_time.hpp"
 #include "limpet/companion/run.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/live/live_flight.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
@@ -118,7 +119,7 @@ live::LiveOptions live_options(companion::CompanionConfig config) {
     return {.server = {},
             .name = "limpet companion: " + config.name,
             .services = {"/abort"},
-            .parameters = live_parameters(sections, "")};
+            .parameters = live::live_parameters(sections, "")};
 }
 
 companion::CompanionResult fly(const CompanionOptions& options,
@@ -176,7 +177,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
     const companion::CompanionResult result = fly(options, config, wires, conduct, terminal);
     if (live) {
         live->say(live::StatusLevel::info, "ended: " + result.reason);
-        tell(terminal, "live", report_of(*live));
+        tell(terminal, "live", live->report());
     }
     conclude(result, wires, conduct.recording, terminal);
     return code_of(options, result);

@@ -8,6 +8,7 @@
 
 #include "flight_report.hpp"
 #include "ground_station.hpp"
+#include "limpet/live/live_flight.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
@@ -86,10 +87,12 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     const auto model = simulation::build_model(scenario);
 
     Terminal terminal(options.voice());
-    std::optional<LiveFlight> live;
+    std::optional<live::LiveFlight> live;
     if (options.live.wanted) {
-        live.emplace(options.live, *model, options.autopilot == "builtin" && !options.ground.wanted,
-                     stop, terminal);
+        const bool tunes = options.autopilot == "builtin" && !options.ground.wanted;
+        live.emplace(live::LiveFlightOptions{port_of(options.live), options.live.wait, tunes},
+                     *model->scenario, *stop);
+        tell_address(live->live(), terminal);
     }
     std::optional<OutFolder> folder;
     std::filesystem::path recording;
@@ -135,7 +138,7 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     }
     if (live) {
         live->end(result);
-        terminal.line("live", report_of(live->live()));
+        terminal.line("live", live->live().report());
     }
     return conclude(options, result, *stop, "ground", ground ? ground->report() : "",
                     px4 ? &*px4 : nullptr, terminal);

@@ -7,6 +7,7 @@
 
 #include "flight_report.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/live/live_flight.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
@@ -87,7 +88,7 @@ ExitCode sim_io(SimIoOptions options) {
     const auto live = open_live(options.live,
                                 {.server = {},
                                  .name = "limpet sim-io: " + scenario.name,
-                                 .parameters = live_parameters(scenario_sections(shown), "")},
+                                 .parameters = live::live_parameters(scenario_sections(shown), "")},
                                 terminal);
     const OutFolder folder(options.folder(scenario.name));
     introduce(scenario, terminal);
@@ -108,7 +109,7 @@ ExitCode sim_io(SimIoOptions options) {
         fly(model, folder.path() / "flight.mcap", watch(terminal), 0, conduct);
     if (live) {
         live->say(live::StatusLevel::info, "ended: " + result.reason);
-        terminal.line("live", report_of(*live));
+        terminal.line("live", live->report());
     }
     return conclude(options, result, *stop, "companion", report_line(guidance.count()), &px4,
                     terminal);

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
+#include "../../tests/serve/client.hpp"
 #include "hosted.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
@@ -86,7 +88,8 @@ class AtRest : public FlightHostTest {
 protected:
     void SetUp() override {
         open("perch_concrete");
-        flight.recording = std::filesystem::path(::testing::TempDir()) / "gazebo_at_rest.mcap";
+        const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+        flight.recording = std::filesystem::path(::testing::TempDir()) / (test + ".mcap");
         flight.watch.on_event = [this](const Event& event) {
             rests = rests || event.name == EventName::motors_off;
         };
@@ -116,6 +119,52 @@ TEST_F(AtRest, AWallThatIsDeletedEndsNoServer) {
     gazebo::runWorld(world, 300);
     EXPECT_TRUE(host->under_way());
     EXPECT_TRUE(vehicle->WorldPose().IsFinite());
+}
+
+TEST_F(FlightHostTest, AFlightIsWatchedAndAbortedByAViewerAndTheNextOneToo) {
+    using nlohmann::json;
+    open("perch_concrete");
+    const std::atomic<bool> stop{false};
+    live::LiveFlight watched({}, flight.scenario, stop);
+    flight.live = &watched;
+    host_it();
+    const std::string address = watched.live().address();
+    serve::test::SocketClient viewer(
+        static_cast<std::uint16_t>(std::stoul(address.substr(address.rfind(':') + 1))));
+    viewer.shake_hands(address.substr(address.find("/?")), "foxglove.sdk.v1");
+    const auto next_text = [&](const std::string& op) {
+        for (;;) {
+            const std::string frame = viewer.receive();
+            if (viewer.got_text() && json::parse(frame).at("op") == op) {
+                return json::parse(frame);
+            }
+        }
+    };
+    gazebo::runWorld(world, 10);
+    std::optional<int> abort;
+    const json offered = next_text("advertiseServices");
+    for (const json& service : offered.at("services")) {
+        abort = service.at("name") == "/abort" ? service.at("id").get<int>() : abort;
+    }
+    ASSERT_TRUE(abort);
+    viewer.send(R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":0}]})");
+    for (int flights = 1; flights <= 2; ++flights) {
+        gazebo::runWorld(world, 100);
+        ASSERT_EQ(host->result(), nullptr);
+        std::string bytes = viewer.receive();
+        while (viewer.got_text() || bytes.at(0) != 1) {
+            bytes = viewer.receive();
+        }
+        EXPECT_EQ(bytes.at(1), 7) << "what is subscribed to stays so";
+        viewer.send_binary({'\2', static_cast<char>(*abort), '\0', '\0', '\0', '\5', '\0', '\0',
+                            '\0', '\3', '\0', '\0', '\0', 'c', 'd', 'r'});
+        const simulation::FlightResult* result = fly_to_the_end();
+        ASSERT_NE(result, nullptr);
+        EXPECT_EQ(result->outcome, Outcome::aborted);
+        EXPECT_EQ(result->reason, "a viewer asked for it");
+        world->Reset();
+        host->restart();
+    }
 }
 
 TEST_F(FlightHostTest, WhatFlyThrowsComesOutOfTheUpdate) {

@@ -51,6 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
         vehicle("UnknownAutopilot", "<autopilot>ardu</autopilot>",
                 "autopilot: \"ardu\" is none of builtin, px4\n"),
         vehicle("TooSlow", "<speed>0.001</speed>", "speed: 0.001 is out of range"),
+        vehicle("NoPort", "<live>65536</live>",
+                "live: 65536, allowed a port, 0..65535 (0: any that is free)\n"),
         vehicle("BoardFasterThanItsClock",
                 "<autopilot>px4</autopilot><hil>serial:/dev/null:921600</hil><speed>2</speed>",
                 "speed: 2, allowed 1 with a px4 on a serial wire\n"),

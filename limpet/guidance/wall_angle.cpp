@@ -18,6 +18,25 @@ double WallSeen::distance_m(const PerchingParameters& parameters, const Vector3&
     return offset_m - into_wall_W().dot(p_WB_m) - parameters.lidar_x_m;
 }
 
+namespace {
+
+/// How the vehicle stood.
+struct Stand {
+    Vector3 p_WB_m;
+    Euler attitude;
+};
+
+/// @param time_s  when the echoes were taken: before guidance hears them, and not when the pose was
+Stand stand_at(const Estimate& estimate, double time_s) {
+    constexpr double kFar_s = 0.1;  // nobody's latency; beyond it a fault of the clocks
+    const double ahead_s = std::clamp(time_s - (estimate.time_s - estimate.age_s), -kFar_s, kFar_s);
+    const Quaternion q_BS = quaternion_from_rotation_vector(ahead_s * estimate.w_WB_B_rad_s);
+    return {estimate.p_WB_m + ahead_s * estimate.v_WB_m_s,
+            euler_from_quaternion(estimate.q_WB * q_BS)};
+}
+
+}  // namespace
+
 void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readings& readings,
               const Estimate& estimate) {
     const auto& left = readings.lidar_left;
@@ -31,19 +50,19 @@ void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readin
         return;
     }
     // A pitched vehicle's beams run obliquely: their horizontal part is what counts.
-    const Euler attitude = euler_from_quaternion(estimate.q_WB);
+    const double time_s = std::min(left.time_s, right.time_s);
+    const auto [p_WB_m, attitude] = stand_at(estimate, time_s);
     const double level = std::cos(attitude.pitch_rad);
     wall.alpha_rad = wall_angle(left.value.distance_m * level, right.value.distance_m * level,
                                 parameters.lidar_separation_m);
     const double heading_rad = attitude.yaw_rad + wall.alpha_rad;
     const double ahead_m = (mean_m + parameters.lidar_x_m) * level * std::cos(wall.alpha_rad);
 
-    const double time_s = std::min(left.time_s, right.time_s);
     const double dt_s = time_s - wall.time_s;
     const double gain =
         wall.ever ? -std::expm1(-dt_s / std::max(parameters.wall_filter_s, 1e-9)) : 1.0;
     wall.heading_rad = wrap_pi(wall.heading_rad + gain * wrap_pi(heading_rad - wall.heading_rad));
-    const double offset_m = wall.into_wall_W().dot(estimate.p_WB_m) + ahead_m;
+    const double offset_m = wall.into_wall_W().dot(p_WB_m) + ahead_m;
     wall.offset_m += gain * (offset_m - wall.offset_m);
     wall.time_s = time_s;
     wall.ever = true;

@@ -33,7 +33,8 @@ struct WallSeen {
 };
 
 /// Takes in a pair of echoes that are new since wall.time_s; a pair with one missing is no pair.
-/// Low-passed with wall_filter_s.
+/// Low-passed with wall_filter_s. The pose is brought to the time of the echoes by the estimate's
+/// velocity and rate.
 void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readings& readings,
               const Estimate& estimate);
 

@@ -27,6 +27,15 @@ std::string_view view_of(const std::array<char, n>& bytes) {
 
 }  // namespace
 
+serve::ServerOptions server_for_viewers(std::uint16_t port) {
+    serve::ServerOptions options;
+    options.port = port;
+    options.token = serve::make_token();
+    // Foxglove's page, and the two programs, whose pages are files.
+    options.origins = {"https://app.foxglove.dev", "file://"};
+    return options;
+}
+
 Live::Live(LiveOptions options) : options_(std::move(options)), server_(options_.server) {
     server_.websocket("/", {kSubprotocols.begin(), kSubprotocols.end()}, *this);
     server_.start();
@@ -38,6 +47,11 @@ Live::~Live() {
 
 void Live::channel(const record::SinkChannel& channel) {
     const std::lock_guard lock(guards_all_);
+    if (channel.id < channels_.size() && channels_[channel.id].topic == channel.topic) {
+        latches_[channel.id] = {.holds = latches_[channel.id].holds};
+        next_time_ns_ = 0;  // another flight begins
+        return;
+    }
     require(channel.id == channels_.size(), "channels are told in their order, from 0");
     channels_.push_back({channel.id, std::string(channel.topic), std::string(channel.type),
                          std::string(channel.encoding), std::string(channel.schema_encoding),
@@ -311,6 +325,13 @@ void Live::apply(const Word& word, const LiveDesk& desk) {
                 parameter_values(told, viewer.session == word.from ? word.id : ""));
         }
     }
+}
+
+std::string Live::report() const {
+    const LiveCount all = count();
+    return fmt::format(
+        "{} came to watch, {} messages, {} frames dropped that they read too slowly for",
+        all.viewers, all.messages, all.dropped);
 }
 
 void Live::say(StatusLevel level, std::string_view text) {

@@ -32,6 +32,10 @@ struct LiveDesk {
     std::function<void(std::string_view name, double value)> set;
 };
 
+/// On this machine alone, with a new token, for the pages of Foxglove and of the viewers' programs.
+/// @param port  0: any that is free
+[[nodiscard]] serve::ServerOptions server_for_viewers(std::uint16_t port);
+
 struct LiveOptions {
     serve::ServerOptions server;
     std::string name;                        ///< of what is flown
@@ -47,8 +51,9 @@ struct LiveCount {
 
 /// What a recording takes goes to viewers too, by Foxglove's WebSocket protocol (protocol.hpp): the
 /// same topics, types and bytes, at the same times. Who comes late gets what stands still:
-/// description, /tf_static, the wall. A viewer that is slow or gone costs the flight nothing; what
-/// viewers ask for waits until the flight takes it up in answer().
+/// description, /tf_static, the wall. A second flight's channels are the first one's. A viewer that
+/// is slow or gone costs the flight nothing; what viewers ask for waits until the flight takes it
+/// up in answer().
 class Live final : public record::MessageSink, private serve::Listener {
 public:
     /// Listens from now on.
@@ -74,6 +79,8 @@ public:
     void say(StatusLevel level, std::string_view text);
 
     [[nodiscard]] LiveCount count() const;
+    /// One line: who came, what went.
+    [[nodiscard]] std::string report() const;
 
 private:
     struct Kept {

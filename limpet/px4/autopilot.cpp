@@ -58,6 +58,11 @@ void Px4Autopilot::hear(const mavlink::Frame& frame) {
     }
 }
 
+/// Whether its clock is ours, and its estimate has come.
+bool Px4Autopilot::in_step() const {
+    return options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
+}
+
 /// A fresh estimate for guidance costs system calls: at twice its rate, not at the IMU's. On a busy
 /// machine PX4's telemetry may lag behind its own lockstep; then it is given a moment, so that
 /// guidance never flies on an estimate that is old by accident.
@@ -76,8 +81,7 @@ void Px4Autopilot::listen() {
         }
         hear(*frame);
     }
-    const bool follows = options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
-    if (follows && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+    if (in_step() && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
         const auto begin = std::chrono::steady_clock::now();
         if (const auto frame = offboard_link_.receive(kMoment)) {
             hear(*frame);
@@ -91,6 +95,9 @@ Estimate Px4Autopilot::estimate(double time_s) {
     listen();
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s = time_s;
+    if (in_step()) {
+        estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(told_usec_));
+    }
     estimate.valid = estimate.valid && !tracker_silent(time_s);
     return estimate;
 }

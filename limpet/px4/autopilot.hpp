@@ -49,6 +49,7 @@ private:
     void hear(const mavlink::Frame& frame);
     void listen();
     void look_who();
+    [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 

@@ -44,6 +44,30 @@ TEST(WallSeen, FindsHeadingAndOffsetFromAnyYaw) {
     }
 }
 
+TEST(WallSeen, EchoesAndPosesOfOtherTimesArePaired) {
+    const PerchingParameters parameters;
+    const auto flown = [](double time_s) {
+        Estimate truth;
+        truth.v_WB_m_s = {0.6, 0.2, 0.0};
+        truth.w_WB_B_rad_s = {0.0, 0.0, 0.5};
+        truth.p_WB_m = time_s * truth.v_WB_m_s;
+        truth.q_WB = quaternion_from_rotation_vector(time_s * truth.w_WB_B_rad_s);
+        return truth;
+    };
+    for (const double age_s : {0.0, 0.035}) {         // of the pose
+        for (const double latency_s : {0.0, 0.02}) {  // of the echoes
+            Estimate estimate = flown(0.1 - age_s);
+            estimate.time_s = 0.1;
+            estimate.age_s = age_s;
+            WallSeen wall;
+            const double time_s = 0.1 - latency_s;
+            see_wall(parameters, wall, echoes(time_s, 2.2, flown(time_s), parameters), estimate);
+            EXPECT_NEAR(wall.offset_m, 2.2, 1e-9) << age_s << ", " << latency_s;
+            EXPECT_NEAR(wall.heading_rad, 0.0, 1e-9);
+        }
+    }
+}
+
 TEST(WallSeen, FilterSettlesWithItsTimeConstant) {
     PerchingParameters parameters;
     parameters.wall_filter_s = 0.3;

@@ -10,6 +10,7 @@ namespace limpet {
 /// The autopilot's belief about the vehicle.
 struct Estimate {
     double time_s = 0.0;
+    double age_s = 0.0;  ///< pose and velocity are of time_s - age_s; known of a PX4 in lockstep
     Vector3 p_WB_m = Vector3::Zero();
     Vector3 v_WB_m_s = Vector3::Zero();
     Quaternion q_WB = Quaternion::Identity();
