@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "command_line.hpp"
 #include "limpet/campaign/campaign.hpp"
@@ -11,11 +14,46 @@
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
+#include "limpet/simulation/wire_log.hpp"
 
 namespace limpet::app {
 namespace {
 
+std::string text_of(const simulation::WireTally::Way& way) {
+    std::vector<std::string> parts;
+    for (const auto& [name, count] : way.messages) {
+        parts.push_back(fmt::format("{} {}", name, count));
+    }
+    const mavlink::LinkStatistics& seen = way.statistics;
+    for (const auto& [what, count] :
+         {std::pair("of another kind", seen.unknown), std::pair("lost", seen.lost),
+          std::pair("with a wrong checksum", seen.bad_checksum),
+          std::pair("bytes of no message", seen.discarded_bytes)}) {
+        if (count > 0) {
+            parts.push_back(fmt::format("{} {}", count, what));
+        }
+    }
+    return parts.empty() ? "nothing" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// @return false: it is a recording of another kind
+bool check_wire(const std::string& file) {
+    const auto wire = simulation::read_wire_log(file);
+    if (!wire) {
+        return false;
+    }
+    if (!wire->damage.empty()) {
+        throw InputError(file + ": " + wire->damage);
+    }
+    fmt::print("{}: a whole recording of a wire, {:.1f} s\n  sent      {}\n  received  {}\n", file,
+               wire->lasted_s, text_of(wire->sent), text_of(wire->received));
+    return true;
+}
+
 void check_recording(const std::string& file) {
+    if (check_wire(file)) {
+        return;
+    }
     const record::Recording recording = record::read_recording(file);
     if (!recording.damage.empty()) {
         throw InputError(file + ": " + recording.damage);

@@ -55,10 +55,12 @@ OptionList options_of(FlyOptions& options) {
 void check_together(const Given& given, const FlyOptions& options) {
     check(options.ground, options.autopilot == "builtin");
     only_with(given, options.autopilot == "px4",
-              {"--instance", "--hil", "--offboard", "--wait", "--record-wire", "--only-px4"},
+              {"--instance", "--hil", "--offboard", "--wait", "--patience", "--record-wire",
+               "--only-px4"},
               "--autopilot px4");
     only_with(given, !options.px4.serial(), {"--offboard"},
               "--hil tcp:...; over serial all goes over the one wire");
+    only_with(given, !options.px4.serial(), {"--patience"}, "--hil tcp:...; a board does not wait");
     only_with(given, !options.no_record, {"--out", "--csv", "--record-wire", "--live"},
               "a recording, not with --no-record");
     only_with(given, options.live.wanted, {"--live-wait"}, "--live");

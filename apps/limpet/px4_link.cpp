@@ -21,6 +21,7 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
                                    instance.offboard()),
             .system = instance.system(),
             .wait_s = options.wait_s,
+            .patience_s = options.patience_s,
             .sets_origin = !gps,
             .only_px4 = options.only_px4,
             .aiding_limit_s = gps ? std::numeric_limits<double>::infinity()
@@ -68,6 +69,10 @@ OptionList options_of(Px4LinkOptions& options, bool flies) {
                         "no flight when the stand-in answers instead of a PX4"});
     }
     list.push_back({"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
+                    range(0.1, 86400.0, false)});
+    list.push_back({"--patience SECONDS", &options.patience_s,
+                    "in lockstep, longest wait for PX4's next answer [s] (default 5);\n"
+                    "more for one that a debugger stops",
                     range(0.1, 86400.0, false)});
     list.push_back({"--record-wire", &options.record_wire,
                     "write every byte of the simulator link as well, into wire.mcap"});

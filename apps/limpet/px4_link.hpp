@@ -22,6 +22,7 @@ struct Px4LinkOptions {
     std::optional<std::string> hil;       ///< none: the instance's
     std::optional<std::string> offboard;  ///< likewise
     double wait_s = 60.0;
+    double patience_s = 5.0;
     bool record_wire = false;
     bool only_px4 = false;
     std::string speed;  ///< "" as suits the wire, "max", or a factor

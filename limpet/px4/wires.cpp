@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -57,6 +58,7 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     px4.hil.timing =
         addresses.serial() ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
     px4.hil.motion_capture = flies;
+    px4.hil.answer_limit = std::chrono::milliseconds(std::llround(1e3 * addresses.patience_s));
     px4.hil.stop = stop;
     px4.control_rate_Hz = control_rate_Hz;
     px4.flies = flies;

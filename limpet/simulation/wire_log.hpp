@@ -4,9 +4,13 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 
+#include "limpet/mavlink/codec.hpp"
 #include "limpet/mcap/writer.hpp"
 #include "limpet/wire/transport.hpp"
 
@@ -33,6 +37,21 @@ private:
     std::uint16_t received_;
     std::chrono::steady_clock::time_point begin_;
 };
+
+/// What a wire log holds.
+struct WireTally {
+    struct Way {
+        std::map<std::string_view, std::uint64_t> messages;  ///< by MAVLink's name
+        mavlink::LinkStatistics statistics;
+    };
+    Way sent, received;
+    double lasted_s = 0.0;
+    std::string damage;  ///< of the file; empty for a whole one
+};
+
+/// @return nothing for an MCAP file of another kind
+/// @throws InputError  as mcap::read() does
+[[nodiscard]] std::optional<WireTally> read_wire_log(const std::filesystem::path& path);
 
 /// The same wire, listened to.
 /// @param log  outlives the wire

@@ -146,7 +146,7 @@ TEST(BadInput, NoWaitOrSpeedIsNaN) {
 
 TEST(BadInput, OptionsThatWouldDoNothing) {
     const Bench bench;
-    for (const char* option : {"--instance", "--hil", "--offboard", "--wait"}) {
+    for (const char* option : {"--instance", "--hil", "--offboard", "--wait", "--patience"}) {
         expect_refused(bench, {"fly", "hover", option, "1"}, {option, "--autopilot px4"});
     }
     expect_refused(bench, {"fly", "hover", "--record-wire"}, {"--record-wire", "--autopilot px4"});

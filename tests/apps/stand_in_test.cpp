@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "free_port.hpp"
 #include "program.hpp"
@@ -58,6 +59,29 @@ TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
         EXPECT_TRUE(who.at("git_hash").is_null());
         EXPECT_TRUE(who.at("airframe").is_null());
         EXPECT_EQ(who.at("system"), 4);
+    }
+}
+
+TEST(StandInVerb, OneThatADebuggerStopsIsWaitedForWhereThatIsAsked) {
+    for (const std::string patience : {"0.3", "60"}) {
+        const Bench bench;
+        const std::string hil = "tcp:" + free_port(SOCK_STREAM);
+        const std::string offboard = "udp:" + free_port(SOCK_DGRAM);
+        Started stand_in(bench.folder(), "stand_in",
+                         {"stand-in", "hover", "--hil", hil, "--onboard",
+                          "udp:" + free_port(SOCK_DGRAM), "--peer", offboard});
+        Started flight(bench.folder(), "flight",
+                       {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
+                        "--patience", patience, "--speed", "4", "--wait", "30"});
+        ASSERT_TRUE(flight.says("armed", std::chrono::seconds(20))) << flight.output();
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        stand_in.signal(SIGSTOP);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+        stand_in.signal(SIGCONT);
+        const Finished end = flight.wait(std::chrono::seconds(30));
+        EXPECT_THAT(end.out + end.err,
+                    HasSubstr(patience == "60" ? "outcome    released"
+                                               : "the autopilot answers no longer"));
     }
 }
 

@@ -107,6 +107,24 @@ TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     EXPECT_THAT(bad.err, HasSubstr("big.yaml:2: rotors: must be a list of 4 to 12 rotors, has 1"));
 }
 
+/// Of a flight on a real PX4 v1.15.1.
+TEST(Verbs, CheckCountsWhatWentOverAWire) {
+    const Bench bench;
+    const std::string data = std::string(LIMPET_SOURCE_DIR) + "/tests/data/";
+    const std::string wire = text_of(data + "px4_1.15.1_hil_perch_concrete.mcap");
+    (void)bench.write("wire.mcap", wire);
+    const Finished whole = bench.run({"check", "wire.mcap"});
+    EXPECT_EQ(whole.exit_code, 0) << whole.err;
+    EXPECT_THAT(whole.out, HasSubstr("wire.mcap: a whole recording of a wire, "));
+    EXPECT_THAT(whole.out, testing::ContainsRegex("\n  sent      .*HIL_SENSOR [0-9]{4}"));
+    EXPECT_THAT(whole.out,
+                testing::ContainsRegex("\n  received  .*HIL_ACTUATOR_CONTROLS [0-9]{4}"));
+    (void)bench.write("wire.mcap", wire.substr(0, wire.size() / 2));
+    const Finished half = bench.run({"check", "wire.mcap"});
+    EXPECT_EQ(half.exit_code, 2);
+    EXPECT_TRUE(half.one_line_of_error()) << half.err;
+}
+
 TEST(Verbs, ExportNamesWhatItWroteAndMakesItsFolder) {
     const Bench bench;
     const Finished model = bench.run({"export", "perching_hexa", "--out", "new/hexa.xml"});
