@@ -69,6 +69,7 @@ Lab::Lab(std::string scenario, const std::atomic<bool>* stop, fs::path keep)
     }
     scratch_ = folder;
     learn_ = std::make_unique<Learn>(first_);
+    swing_ = std::make_unique<Swing>(first_);
     many_ = std::make_unique<Many>(first_, scratch_ / "many", std::move(keep));
 }
 
@@ -148,6 +149,15 @@ void Lab::serve_on(serve::Server& server) {
         return json_answer("{}");
     });
     server.get("/learn", [this](const serve::Request&) { return json_answer(learn_->state()); });
+    server.post("/swing/begin", [this](const serve::Request& asked) {
+        swing_->begin(asked.body);
+        return json_answer(swing_->state());
+    });
+    server.post("/swing/stop", [this](const serve::Request&) {
+        swing_->stop();
+        return json_answer("{}");
+    });
+    server.get("/swing", [this](const serve::Request&) { return json_answer(swing_->state()); });
     server.post("/many/flight", [this](const serve::Request& asked) {
         return recording_answer(many_->flight(asked.body));
     });

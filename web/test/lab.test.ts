@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// `limpet lab` in a real browser: LIMPET_PROGRAM is the program. LIMPET_PICTURES: a folder for what
-// it looked like.
+// The lab's page: one flight, many, what a number hangs on.
 import assert from "node:assert/strict";
-import { type ChildProcess, spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import { after, test } from "node:test";
 import { Changes, rounded, slide } from "../src/lab/changes";
+import {
+  browser,
+  drag,
+  idle,
+  lab,
+  type LabState,
+  page,
+  picture,
+  press,
+  program,
+  said,
+  shown,
+  skip,
+  tab,
+  useLab,
+} from "./lab_page";
 
-const program = process.env.LIMPET_PROGRAM ?? "";
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
-  existsSync(path),
-);
-const skip = program === "" ? "no LIMPET_PROGRAM" : chromium === undefined ? "no Chromium" : false;
-
-interface LabState {
-  idle: boolean;
-  changes: string[];
-  command: string;
-  delays: number[];
-}
 interface Shown {
-  limpet: { state(): { recordings: number; end: number; geometries: number; time: number } };
   lab: { state(): LabState; many: { outside(): ManyShown }; learn: { outside(): LearnShown } };
 }
 interface LearnShown {
@@ -41,96 +42,9 @@ interface ManyShown {
   places: [number, number][];
 }
 
-let served: ChildProcess;
-let address = "";
-let browser: Browser;
-let page: Page;
-const said: string[] = [];
 const folder = mkdtempSync(join(tmpdir(), "limpet_lab_test_"));
-
-before(async () => {
-  if (skip !== false) {
-    return;
-  }
-  served = spawn(program, ["lab", "perch_metal_valve"], { stdio: ["ignore", "pipe", "inherit"] });
-  address = await new Promise((found, failed) => {
-    let text = "";
-    served.once("exit", () => failed(new Error(`limpet lab ended: ${text}`)));
-    served.stdout?.on("data", (bytes: Buffer) => {
-      text += bytes.toString();
-      const here = /http:\S+/.exec(text);
-      if (here !== null) {
-        found(here[0]);
-      }
-    });
-  });
-  browser = await puppeteer.launch({
-    executablePath: chromium as string,
-    args: [
-      "--no-sandbox",
-      "--use-gl=angle",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-    ],
-  });
-  page = await browser.newPage();
-  page.setDefaultTimeout(120000);
-  page.on("console", (message) => {
-    if (!/GPU stall|swiftshader|WebGL|status of 400/i.test(message.text())) {
-      said.push(message.text());
-    }
-  });
-  page.on("pageerror", (problem) => said.push(String(problem)));
-  page.on("request", (request) => {
-    if (
-      !request.url().startsWith(new URL(address).origin) &&
-      !/^(data|blob):/.test(request.url())
-    ) {
-      said.push(`asks for ${request.url()}`);
-    }
-  });
-  await page.setViewport({ width: 1400, height: 860 });
-  await page.goto(address);
-  await idle();
-});
-after(async () => {
-  await browser?.close();
-  if (served !== undefined) {
-    const ended = new Promise((code) => served.once("exit", code));
-    served.kill("SIGINT");
-    assert.equal(await ended, 0);
-  }
-  rmSync(folder, { recursive: true, force: true });
-});
-
-const idle = (): Promise<unknown> =>
-  page.waitForFunction(() => (window as unknown as Shown).lab?.state().idle === true);
-const lab = (): Promise<LabState> => page.evaluate(() => (window as unknown as Shown).lab.state());
-const shown = (): Promise<{ recordings: number; end: number; geometries: number; time: number }> =>
-  page.evaluate(() => (window as unknown as Shown).limpet.state());
-async function picture(name: string): Promise<void> {
-  if (process.env.LIMPET_PICTURES !== undefined) {
-    writeFileSync(join(process.env.LIMPET_PICTURES, name), await page.screenshot());
-  }
-}
-/** As a hand does it: some moves, then the release. */
-async function drag(key: string, values: number[]): Promise<void> {
-  for (const [k, value] of values.entries()) {
-    await page.evaluate(
-      (row, to, last) => {
-        const slider = document.querySelector<HTMLInputElement>(
-          `[data-key="${row}"] input[type=range]`,
-        ) as HTMLInputElement;
-        slider.value = String(to);
-        slider.dispatchEvent(new Event(last ? "change" : "input", { bubbles: true }));
-      },
-      key,
-      value,
-      k === values.length - 1,
-    );
-    await idle();
-  }
-}
+useLab("perch_metal_valve");
+after(() => rmSync(folder, { recursive: true, force: true }));
 
 test("changes go into an address and a command, and back", () => {
   const changes = new Changes();
@@ -229,24 +143,8 @@ test("another surface, another scenario, found parameters", { skip }, async () =
   });
 });
 
-const tab = (name: string, on = page): Promise<void> =>
-  on.evaluate((wanted) => {
-    [...document.querySelectorAll<HTMLElement>("#lab [role=tab]")]
-      .find((one) => one.textContent === wanted)
-      ?.click();
-  }, name);
 const many = (): Promise<ManyShown> =>
   page.evaluate(() => (window as unknown as Shown).lab.many.outside());
-async function press(text: string): Promise<void> {
-  const clicked = await page.evaluate((wanted) => {
-    const found = [
-      ...document.querySelectorAll<HTMLElement>("#lab .many:not([hidden]) button"),
-    ].find((one) => one.textContent === wanted);
-    found?.click();
-    return found !== undefined;
-  }, text);
-  assert.ok(clicked, `no button ${text}`);
-}
 /** Landed runs, at least so many. */
 const landed = (count: number): Promise<unknown> =>
   page.waitForFunction(

@@ -7,6 +7,7 @@ import { button, element, labelled, tabs } from "./element";
 import { Learn } from "./learn";
 import { Many } from "./many";
 import * as server from "./server";
+import { Swing } from "./swing";
 
 export interface LabHost {
   /** The first is the flight, the second its ghost; camera and time stay. */
@@ -34,6 +35,7 @@ export class Lab {
   private wanted: { brief: boolean; since: number } | undefined;
   readonly many: Many;
   readonly learn: Learn;
+  readonly swing: Swing;
   /** Of the latest re-flights, from the hand to the picture [ms]. */
   readonly delays: number[] = [];
 
@@ -52,12 +54,20 @@ export class Lab {
     const one = element("div", {}, this.diff, tools, this.search, this.sections);
     this.many = new Many(this);
     this.learn = new Learn(this);
+    this.swing = new Swing(this);
+    this.learn.element.append(this.swing.element);
     const row = tabs("What to do", [
       { name: "One", panel: one },
       { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
-      { name: "Learn", panel: this.learn.element, shown: () => this.learn.shown() },
+      {
+        name: "Learn",
+        panel: this.learn.element,
+        shown: () => this.learn.shown(),
+        seen: (seen) => this.swing.shown(seen),
+      },
     ]);
-    place.append(this.choices, this.status, row, one, this.many.element, this.learn.element);
+    const panels = [one, this.many.element, this.learn.element];
+    place.append(this.choices, this.status, row, ...panels);
     void this.begin();
   }
 
@@ -94,6 +104,7 @@ export class Lab {
     const schema = await server.schema({ scenario: this.changes.scenario, set: named });
     this.buildChoices(schema);
     this.many.offer(schema.sections, this.catalogue?.campaigns ?? []);
+    this.swing.offer(schema.sections);
     const rank = (section: server.Section): number =>
       (kFirst.indexOf(section.name) + kFirst.length + 1) % (kFirst.length + 1);
     this.sections.replaceChildren(
@@ -269,6 +280,18 @@ export class Lab {
     }
     this.refly(brief);
   }
+  /** @param brief  a slider is moving: the others follow when it is let go */
+  turn(values: [string, number][], brief: boolean): void {
+    for (const [key, value] of values) {
+      this.changes.set(key, String(value));
+    }
+    void this.trying(async () => {
+      if (!brief) {
+        await this.build();
+      }
+      this.refly(brief);
+    });
+  }
   private reset(): void {
     this.changes.clear();
     void this.trying(() => this.build().then(() => this.refly(false)));
@@ -299,6 +322,7 @@ export class Lab {
   private refly(brief: boolean): void {
     this.wanted = { brief, since: this.wanted?.since ?? performance.now() };
     this.told();
+    this.swing.changed();
     if (!this.busy) {
       void this.flyWanted();
     }
