@@ -27,14 +27,15 @@ std::uint16_t port_of(const std::string& text) {
 }  // namespace
 
 OptionList options_of(LiveViewOptions& options, bool waits) {
-    OptionList all = {{"--live PORT",
-                       [&options](const std::string& port) {
-                           options.wanted = true;
-                           options.port = port.empty() ? options.port : port;
-                       },
-                       "let Foxglove and Lichtblick watch, on this machine alone, in real\n"
-                       "time (default port 8765; 0: any)",
-                       values(0, 1)}};
+    OptionList all = {
+        {"--live PORT",
+         [&options](const std::string& port) {
+             options.wanted = true;
+             options.port = port.empty() ? options.port : port;
+         },
+         "let the lab, Foxglove and Lichtblick watch, on this machine alone, in real\n"
+         "time (default port 8765; 0: any)",
+         values(0, 1)}};
     if (waits) {
         all.push_back({"--live-wait", &options.wait, "begin when the first of them watches"});
     }
@@ -66,11 +67,12 @@ std::unique_ptr<live::Live> open_live(const LiveViewOptions& options, live::Live
     }
     about.server.port = port_of(options.port);
     about.server.token = serve::make_token();
-    // Foxglove's page, and the two programs, whose pages are files.
-    about.server.origins = {"https://app.foxglove.dev", "file://"};
+    // Foxglove's page, and the two programs, whose pages are files; the lab's.
+    about.server.origins = {"https://app.foxglove.dev", "file://", "http://127.0.0.1:*",
+                            "http://localhost:*"};
     auto opened = std::make_unique<live::Live>(std::move(about));
     terminal.line("live",
-                  opened->address() + "  (Foxglove, Lichtblick: Open connection, WebSocket)");
+                  opened->address() + "  (limpet lab: Live; Foxglove: Open connection, WebSocket)");
     return opened;
 }
 

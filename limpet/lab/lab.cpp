@@ -36,7 +36,8 @@ nlohmann::json names_json(const std::vector<scenario::CatalogueEntry>& entries) 
     return names;
 }
 
-/// The page of recordings with a place for the lab in it, which may ask this server.
+/// The page of recordings with a place for the lab in it, which may ask this server, and flights
+/// that are flying on this machine.
 std::string page_html() {
     std::string page(report::view_page());
     const auto put = [&page](std::string_view place, std::string_view text) {
@@ -45,7 +46,7 @@ std::string page_html() {
         page.replace(at, place.size(), text);
     };
     put("<!--PANEL-->", "<aside id=\"lab\" aria-label=\"Parameters\"></aside>");
-    put("connect-src data:", "connect-src 'self' data:");
+    put("connect-src data:", "connect-src 'self' data: ws://127.0.0.1:* ws://localhost:*");
     return page;
 }
 

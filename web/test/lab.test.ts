@@ -274,7 +274,7 @@ test("re-flown again and again, the memory is flat; how long a hand waits", { sk
 test("readable for everybody, also on a phone", { skip }, async () => {
   const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
   await page.evaluate(axe);
-  for (const name of ["One", "Many", "Learn"]) {
+  for (const name of ["One", "Many", "Learn", "Live"]) {
     await tab(name);
     for (const scheme of ["light", "dark"]) {
       await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
@@ -291,7 +291,7 @@ test("readable for everybody, also on a phone", { skip }, async () => {
     }
   }
   await page.setViewport({ width: 400, height: 800 });
-  for (const name of ["Learn", "Many", "One"]) {
+  for (const name of ["Live", "Learn", "Many", "One"]) {
     await tab(name);
     // once the charts have followed
     await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import type { Recording } from "../recording/recording";
 import { valueAt } from "../recording/series";
-import { type Panel, samplesOf } from "./panels";
+import { type Line, type Panel, samplesOf } from "./panels";
 
 export interface ChartHost {
   seek(t: number): void;
@@ -12,7 +12,8 @@ export interface ChartHost {
 }
 
 interface Drawn {
-  label: string;
+  line: Line;
+  recording: Recording;
   time: Float64Array;
   values: number[];
 }
@@ -48,22 +49,16 @@ export class Chart {
   load(recordings: Recording[], colours: { text: string; grid: string }, width: number): boolean {
     this.plot?.destroy();
     this.plot = undefined;
-    this.drawn = [];
-    const series: uPlot.Series[] = [];
-    recordings.forEach((recording, k) => {
-      for (const line of this.panel.lines) {
-        const samples = samplesOf(recording, line);
-        if (samples !== undefined) {
-          this.drawn.push({ label: line.label, ...samples });
-          series.push({
-            label: k === 0 ? line.label : `${line.label} (${recording.name})`,
-            stroke: k === 0 ? line.colour : `${line.colour}80`,
-            width: k === 0 ? 1.5 : 1,
-            dash: k === 0 ? line.dash : [2, 2],
-            spanGaps: true,
-          });
-        }
-      }
+    this.drawn = this.linesOf(recordings);
+    const series: uPlot.Series[] = this.drawn.map(({ line, recording }) => {
+      const first = recording === recordings[0];
+      return {
+        label: first ? line.label : `${line.label} (${recording.name})`,
+        stroke: first ? line.colour : `${line.colour}80`,
+        width: first ? 1.5 : 1,
+        dash: first ? line.dash : [2, 2],
+        spanGaps: true,
+      };
     });
     this.element.hidden = series.length === 0;
     if (this.element.hidden) {
@@ -100,6 +95,29 @@ export class Chart {
     this.plot.over.addEventListener("dblclick", () => this.host.zoomed(Number.NaN, Number.NaN));
     return true;
   }
+  /** @returns whether what has grown are the lines that are drawn; else load() is asked for */
+  grow(recordings: Recording[]): boolean {
+    const drawn = this.linesOf(recordings);
+    const same =
+      drawn.length === this.drawn.length &&
+      drawn.every(({ line, recording }, k) => {
+        const before = this.drawn[k];
+        return before?.line === line && before.recording === recording;
+      });
+    if (same) {
+      this.drawn = drawn;
+      this.plot?.setData(this.joined(), false);
+    }
+    return same;
+  }
+  private linesOf(recordings: Recording[]): Drawn[] {
+    return recordings.flatMap((recording) =>
+      this.panel.lines.flatMap((line) => {
+        const samples = samplesOf(recording, line);
+        return samples === undefined ? [] : [{ line, recording, ...samples }];
+      }),
+    );
+  }
   resize(width: number): void {
     this.plot?.setSize({ width, height: kHeight_px });
   }
@@ -107,9 +125,9 @@ export class Chart {
     this.now = t;
     this.readout.textContent = this.drawn
       .slice(0, this.panel.lines.length)
-      .map(({ label, time, values }) => {
+      .map(({ line, time, values }) => {
         const value = valueAt(time, values, t);
-        return `${label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
+        return `${line.label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
       })
       .join("  ");
     this.plot?.redraw(false, false);

@@ -5,6 +5,7 @@ import { type Recording, readRecording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
 import { button, element, labelled, tabs } from "./element";
 import { Learn } from "./learn";
+import { Live } from "./live";
 import { Many } from "./many";
 import * as server from "./server";
 import { Swing } from "./swing";
@@ -12,6 +13,10 @@ import { Swing } from "./swing";
 export interface LabHost {
   /** The first is the flight, the second its ghost; camera and time stay. */
   refresh(recordings: Recording[]): void;
+  /** A flight that is still flying, at its latest time until somebody seeks another. */
+  follow(recording: Recording): void;
+  /** It has more to show; nothing happens where another one is looked at. */
+  grown(recording: Recording): void;
   say(text: string): void;
 }
 
@@ -36,6 +41,7 @@ export class Lab {
   readonly many: Many;
   readonly learn: Learn;
   readonly swing: Swing;
+  readonly live: Live;
   /** Of the latest re-flights, from the hand to the picture [ms]. */
   readonly delays: number[] = [];
 
@@ -55,6 +61,11 @@ export class Lab {
     this.many = new Many(this);
     this.learn = new Learn(this);
     this.swing = new Swing(this);
+    this.live = new Live({
+      trying: (does) => this.trying(does),
+      follow: (recording) => this.host.follow(recording),
+      grown: (recording) => this.host.grown(recording),
+    });
     this.learn.element.append(this.swing.element);
     const row = tabs("What to do", [
       { name: "One", panel: one },
@@ -65,8 +76,9 @@ export class Lab {
         shown: () => this.learn.shown(),
         seen: (seen) => this.swing.shown(seen),
       },
+      { name: "Live", panel: this.live.element },
     ]);
-    const panels = [one, this.many.element, this.learn.element];
+    const panels = [one, this.many.element, this.learn.element, this.live.element];
     place.append(this.choices, this.status, row, ...panels);
     void this.begin();
   }
