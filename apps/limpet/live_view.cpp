@@ -33,8 +33,8 @@ OptionList options_of(LiveViewOptions& options, bool waits) {
              options.wanted = true;
              options.port = port.empty() ? options.port : port;
          },
-         "let the lab, Foxglove and Lichtblick watch, on this machine alone, in real\n"
-         "time (default port 8765; 0: any)",
+         "let the lab, Foxglove and Lichtblick watch, on this machine alone, in\n"
+         "real time (default port 8765; 0: any)",
          values(0, 1)}};
     if (waits) {
         all.push_back({"--live-wait", &options.wait, "begin when the first of them watches"});

@@ -12,8 +12,8 @@ import {
   browser,
   drag,
   idle,
-  lab,
   type LabState,
+  lab,
   page,
   picture,
   press,
@@ -42,6 +42,8 @@ interface ManyShown {
   places: [number, number][];
 }
 
+const kFlat_bytes = 1e6; // a flight that were kept is of that size
+const kFlatNodes = 20;
 const folder = mkdtempSync(join(tmpdir(), "limpet_lab_test_"));
 useLab("perch_metal_valve");
 after(() => rmSync(folder, { recursive: true, force: true }));
@@ -126,11 +128,7 @@ test("what cannot be is said, and the last flight stays", { skip }, async () => 
 });
 
 test("another surface, another scenario, found parameters", { skip }, async () => {
-  await page.select("#lab select", "hover");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
-  );
-  await idle();
+  await choose("hover");
   await page.type("#lab input[type=search]", "gust");
   const found = await page.$$eval(
     "#lab .row",
@@ -154,11 +152,7 @@ const landed = (count: number): Promise<unknown> =>
   );
 
 test("many fly; a point is a flight to look at", { skip }, async () => {
-  await page.select("#lab select", "perch_concrete");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly perch_concrete",
-  );
-  await idle();
+  await choose("perch_concrete");
   await drag("guidance.attempts", [1]);
   await tab("Many");
   await page.$eval("#lab .many input[aria-label=from]", (input) => {
@@ -230,11 +224,7 @@ test("a campaign that ships is stopped, and found again by another page", { skip
 });
 
 test("what a number hangs on: each parameter turned alone", { skip }, async () => {
-  await page.select("#lab select", "hover");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
-  );
-  await idle();
+  await choose("hover");
   await tab("Learn");
   await press("Turn them all");
   await page.waitForFunction(() => {
@@ -251,24 +241,79 @@ test("what a number hangs on: each parameter turned alone", { skip }, async () =
   await tab("One");
 });
 
-test("re-flown again and again, the memory is flat; how long a hand waits", { skip }, async () => {
-  await page.select("#lab select", "perch_concrete");
-  await page.waitForFunction(() =>
-    (window as unknown as Shown).lab.state().command.endsWith("perch_concrete"),
+async function choose(scenario: string): Promise<void> {
+  await page.select("#lab select", scenario);
+  await page.waitForFunction(
+    (name) => (window as unknown as Shown).lab.state().command === `limpet fly ${name}`,
+    {},
+    scenario,
   );
   await idle();
-  const speeds = Array.from({ length: 18 }, (_, k) => 0.8 + 0.03 * k);
-  await drag("guidance.dock_speed_m_s", speeds.slice(0, 4));
-  const early = (await shown()).geometries;
-  const used = async (): Promise<number> => (await page.metrics()).JSHeapUsedSize ?? 0;
-  const heap = await used();
-  await drag("guidance.dock_speed_m_s", speeds.slice(4));
-  assert.equal((await shown()).geometries, early);
-  assert.ok((await used()) < heap + 60e6, `${heap} then ${await used()} bytes`);
-  const delays = (await lab()).delays.slice(-14).sort((a, b) => a - b);
-  console.log(
-    `      slider to picture: ${(delays[7] ?? 0).toFixed(0)} ms in the median, ${(delays[12] ?? 0).toFixed(0)} ms at 90 % (software renderer)`,
+}
+/** As a hand does it that waits for each picture, within the page; now and then it lets go. */
+const reflown = (key: string, values: number[]): Promise<number[]> =>
+  page.evaluate(
+    async (row, moves) => {
+      const { lab } = window as unknown as Shown;
+      const slider = document.querySelector<HTMLInputElement>(
+        `[data-key="${row}"] input[type=range]`,
+      ) as HTMLInputElement;
+      const delays: number[] = [];
+      for (const [k, value] of moves.entries()) {
+        slider.value = String(value);
+        slider.dispatchEvent(new Event(k % 20 === 19 ? "change" : "input", { bubbles: true }));
+        do {
+          await new Promise((passed) => setTimeout(passed, 0));
+        } while (!lab.state().idle);
+        delays.push(lab.state().delays.at(-1) ?? Number.NaN);
+      }
+      return delays.sort((a, b) => a - b);
+    },
+    key,
+    values,
   );
+const along = (count: number, from: number, step: number): number[] =>
+  Array.from({ length: count }, (_, k) => from + step * (k % 10));
+function tell(what: string, delays: number[]): void {
+  const at = (share: number): string =>
+    (delays[Math.floor(delays.length * share)] ?? Number.NaN).toFixed(0);
+  console.log(
+    `      slider to picture, ${what}: ${at(0.5)} ms in the median, ${at(0.9)} ms at 90 %, ${delays.length} times`,
+  );
+}
+/** What is held once garbage has been collected. */
+async function held(): Promise<Record<"heap" | "nodes" | "listeners" | "geometries", number>> {
+  const session = await page.createCDPSession();
+  await session.send("HeapProfiler.enable");
+  await session.send("HeapProfiler.collectGarbage");
+  await session.detach();
+  const { JSHeapUsedSize = 0, Nodes = 0, JSEventListeners = 0 } = await page.metrics();
+  const { geometries } = await shown();
+  return { heap: JSHeapUsedSize, nodes: Nodes, listeners: JSEventListeners, geometries };
+}
+
+test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, async () => {
+  await choose("perch_concrete");
+  await reflown("guidance.dock_speed_m_s", [1, 1.1]);
+  tell(
+    "perch_concrete, 1400 x 860 (software renderer)",
+    await reflown("guidance.dock_speed_m_s", along(19, 0.8, 0.05)),
+  );
+  await choose("hover");
+  await page.setViewport({ width: 640, height: 480 }); // this is not about the renderer
+  await reflown("simulation.hover_s", along(20, 0.5, 0.05));
+  const early = await held();
+  tell("hover, 640 x 480", await reflown("simulation.hover_s", along(200, 0.5, 0.05)));
+  const late = await held();
+  await page.setViewport({ width: 1400, height: 860 });
+  console.log(
+    `      held after garbage: heap ${(early.heap / 1e6).toFixed(2)} then ${(late.heap / 1e6).toFixed(2)} MB, ${early.nodes} then ${late.nodes} nodes`,
+  );
+  const text = JSON.stringify({ early, late });
+  assert.ok(late.heap < early.heap + kFlat_bytes, text);
+  assert.ok(late.nodes <= early.nodes + kFlatNodes, text);
+  assert.ok(late.listeners <= early.listeners + kFlatNodes, text);
+  assert.equal(late.geometries, early.geometries, text);
 });
 
 test("readable for everybody, also on a phone", { skip }, async () => {

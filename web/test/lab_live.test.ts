@@ -6,7 +6,10 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
+import { parse } from "@foxglove/rosmsg";
+import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 import { callOf, liveAddress } from "../src/recording/live";
+import { Builder } from "../src/recording/recording";
 import { page, picture, press, program, said, shown, skip, tab, useLab } from "./lab_page";
 
 interface LiveShown {
@@ -91,6 +94,38 @@ test("an address is one of this machine; a call is a call", () => {
     [...callOf(3, 258)],
     [2, 3, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0, 99, 100, 114, 0, 1, 0, 0, 0],
   );
+});
+
+test("a vehicle without a truth is where it is estimated", () => {
+  const numbers = (names: string): string =>
+    names
+      .split(" ")
+      .map((name) => `float64 ${name}`)
+      .join("\n");
+  const line = "=".repeat(80);
+  const schema = `geometry_msgs/Pose pose
+${line}
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+${line}
+MSG: geometry_msgs/Point
+${numbers("x y z")}
+${line}
+MSG: geometry_msgs/Quaternion
+${numbers("x y z w")}`;
+  const writer = new MessageWriter(parse(schema, { ros2: true }));
+  const builder = new Builder("live", new Set(["/estimate/pose"]));
+  const channel = { id: 4, encoding: "cdr", schemaEncoding: "ros2msg", schema };
+  assert.equal(builder.channel({ ...channel, topic: "/nobody/asks" }), false);
+  assert.equal(builder.channel({ ...channel, topic: "/estimate/pose" }), true);
+  for (const x of [0, 1]) {
+    const pose = { position: { x, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+    builder.message(4, BigInt(x) * 1_000_000_000n, writer.writeMessage({ pose }));
+  }
+  const { frames, duration } = builder.tell();
+  assert.equal(duration, 1);
+  assert.deepEqual(frames.get("base_link")?.at(0.5), [0.5, 2, 3, 0, 0, 0, 1]);
 });
 
 test("a flight is seen as it flies, and can be asked to stop", { skip }, async () => {

@@ -3,17 +3,14 @@
 // LIMPET_PICTURES: a folder for what it looked like.
 import assert from "node:assert/strict";
 import { type ChildProcess, spawn } from "node:child_process";
-import { existsSync, writeFileSync } from "node:fs";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import type { Browser, Page } from "puppeteer-core";
+import { hasChromium, openChromium } from "./chromium";
 
 export const program = process.env.LIMPET_PROGRAM ?? "";
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
-  existsSync(path),
-);
-export const skip =
-  program === "" ? "no LIMPET_PROGRAM" : chromium === undefined ? "no Chromium" : false;
+export const skip = program === "" ? "no LIMPET_PROGRAM" : !hasChromium ? "no Chromium" : false;
 
 export interface LabState {
   idle: boolean;
@@ -65,15 +62,7 @@ async function open(scenario: string, mayAsk: string[]): Promise<void> {
       }
     });
   });
-  browser = await puppeteer.launch({
-    executablePath: chromium as string,
-    args: [
-      "--no-sandbox",
-      "--use-gl=angle",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-    ],
-  });
+  browser = await openChromium();
   page = await browser.newPage();
   page.setDefaultTimeout(120000);
   page.on("console", (message) => {

@@ -13,7 +13,7 @@ export interface ChartHost {
 
 interface Drawn {
   line: Line;
-  recording: Recording;
+  ghost: boolean; // of another flight than the first
   time: Float64Array;
   values: number[];
 }
@@ -23,6 +23,7 @@ export class Chart {
   private plot: uPlot | undefined;
   private readonly readout = document.createElement("p");
   private drawn: Drawn[] = [];
+  private look = ""; // of the plot's lines
   private now = 0;
 
   constructor(
@@ -45,25 +46,39 @@ export class Chart {
     this.element.append(head);
   }
 
-  /** @returns whether there is anything to see */
+  /**
+   * The plot stays where its lines do, for a canvas costs more than what is drawn on it.
+   * @returns whether there is anything to see
+   */
   load(recordings: Recording[], colours: { text: string; grid: string }, width: number): boolean {
+    this.drawn = recordings.flatMap((recording, k) =>
+      this.panel.lines.flatMap((line) => {
+        const samples = samplesOf(recording, line);
+        return samples === undefined ? [] : [{ line, ghost: k > 0, ...samples }];
+      }),
+    );
+    this.element.hidden = this.drawn.length === 0;
+    const look = JSON.stringify([
+      colours,
+      this.drawn.map(({ line, ghost }) => [line.label, ghost]),
+    ]);
+    if (this.plot !== undefined && look === this.look) {
+      this.plot.setData(this.joined(), false);
+      return true;
+    }
+    this.look = look;
     this.plot?.destroy();
     this.plot = undefined;
-    this.drawn = this.linesOf(recordings);
-    const series: uPlot.Series[] = this.drawn.map(({ line, recording }) => {
-      const first = recording === recordings[0];
-      return {
-        label: first ? line.label : `${line.label} (${recording.name})`,
-        stroke: first ? line.colour : `${line.colour}80`,
-        width: first ? 1.5 : 1,
-        dash: first ? line.dash : [2, 2],
-        spanGaps: true,
-      };
-    });
-    this.element.hidden = series.length === 0;
     if (this.element.hidden) {
       return false;
     }
+    const series: uPlot.Series[] = this.drawn.map(({ line, ghost }) => ({
+      label: line.label,
+      stroke: ghost ? `${line.colour}80` : line.colour,
+      width: ghost ? 1 : 1.5,
+      dash: ghost ? [2, 2] : line.dash,
+      spanGaps: true,
+    }));
     const axis: uPlot.Axis = {
       stroke: colours.text,
       grid: { stroke: colours.grid, width: 1 },
@@ -94,29 +109,6 @@ export class Chart {
     });
     this.plot.over.addEventListener("dblclick", () => this.host.zoomed(Number.NaN, Number.NaN));
     return true;
-  }
-  /** @returns whether what has grown are the lines that are drawn; else load() is asked for */
-  grow(recordings: Recording[]): boolean {
-    const drawn = this.linesOf(recordings);
-    const same =
-      drawn.length === this.drawn.length &&
-      drawn.every(({ line, recording }, k) => {
-        const before = this.drawn[k];
-        return before?.line === line && before.recording === recording;
-      });
-    if (same) {
-      this.drawn = drawn;
-      this.plot?.setData(this.joined(), false);
-    }
-    return same;
-  }
-  private linesOf(recordings: Recording[]): Drawn[] {
-    return recordings.flatMap((recording) =>
-      this.panel.lines.flatMap((line) => {
-        const samples = samplesOf(recording, line);
-        return samples === undefined ? [] : [{ line, recording, ...samples }];
-      }),
-    );
   }
   resize(width: number): void {
     this.plot?.setSize({ width, height: kHeight_px });

@@ -114,6 +114,7 @@ class Page {
     this.stage.setFlights(this.flights);
     this.stage.setFloor(Math.min(-0.5, (first.frames.get("base_link")?.at(0)[2] ?? 0) - 1.2));
     this.timeline.load(first);
+    this.zoomed = false;
     this.loadCharts();
     if (anew) {
       this.view(this.stage.currentView);
@@ -138,18 +139,9 @@ class Page {
     } else {
       this.player.end = recording.duration;
       this.timeline.grow();
-      this.growCharts();
+      this.loadCharts();
     }
     this.redraw();
-  }
-  private growCharts(): void {
-    if (!this.charts.every((chart) => chart.grow(this.recordings))) {
-      this.loadCharts();
-    } else if (!this.zoomed) {
-      for (const chart of this.charts) {
-        chart.range(Number.NaN, Number.NaN, this.player.end);
-      }
-    }
   }
   seek(t: number): void {
     this.following = false;
@@ -274,7 +266,6 @@ class Page {
     this.redraw();
   }
   private loadCharts(): void {
-    this.zoomed = false;
     const style = getComputedStyle(document.body);
     const colours = {
       text: style.getPropertyValue("--text"),
@@ -282,7 +273,8 @@ class Page {
     };
     const width = by("charts").clientWidth - 16;
     for (const chart of this.charts) {
-      if (chart.load(this.recordings, colours, Math.max(200, width))) {
+      const there = chart.load(this.recordings, colours, Math.max(200, width));
+      if (there && !this.zoomed) {
         chart.range(Number.NaN, Number.NaN, this.player.end);
       }
     }

@@ -53,6 +53,8 @@ export interface Recording {
   tables: Map<string, Table>;
 }
 
+const kVehicle = "base_link";
+
 export class NotARecording extends Error {}
 
 interface Xyz {
@@ -72,6 +74,9 @@ interface Transforms {
     child_frame_id: string;
     transform: { translation: Xyz; rotation: Xyzw };
   }[];
+}
+interface Posed {
+  pose: { position: Xyz; orientation: Xyzw };
 }
 interface Markers {
   markers: {
@@ -161,6 +166,7 @@ export interface ChannelOf {
 export class Builder {
   private readonly readers = new Map<number, { reader: MessageReader; take: Take }>();
   private readonly tables = new Map<string, TableBuilder>();
+  private readonly estimated = new Track("map"); // where the vehicle believes to be
   readonly recording: Recording;
 
   constructor(
@@ -222,6 +228,10 @@ export class Builder {
       recording.tables.set(topic, builder.table());
     }
     recording.phases = phasesOf(recording.tables.get("/guidance"), recording.duration);
+    // A companion knows no truth: its vehicle is where it is estimated.
+    if (this.estimated.time.length > 0 && !recording.frames.has(kVehicle)) {
+      recording.frames.set(kVehicle, this.estimated);
+    }
     return recording;
   }
 
@@ -244,14 +254,20 @@ export class Builder {
         }
         const builder = new TableBuilder(topic);
         this.tables.set(topic, builder);
-        return (t, message) => builder.push(t, message);
+        return topic === "/estimate/pose"
+          ? (t, message) => {
+              builder.push(t, message);
+              const { position, orientation } = (message as Posed).pose;
+              this.estimated.push(t, pose(position, orientation));
+            }
+          : (t, message) => builder.push(t, message);
       }
     }
   }
   private move(t: number, message: Transforms): void {
     for (const { header, child_frame_id, transform } of message.transforms) {
       let track = this.recording.frames.get(child_frame_id);
-      if (track === undefined) {
+      if (track === undefined || track === this.estimated) {
         track = new Track(header.frame_id);
         this.recording.frames.set(child_frame_id, track);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording in the scene: frames, the vehicle's links in them, marks.
-import { Group, Object3D, type Plane } from "three";
+import { AxesHelper, Group, Object3D, type Plane } from "three";
 import type { Mark, Recording } from "../recording/recording";
 import { indexAt, valueAt } from "../recording/series";
 import { dispose, markShape } from "./marks";
@@ -33,6 +33,10 @@ export class FlightView {
     }
     for (const [child, track] of recording.frames) {
       this.frames.get(track.parent)?.add(this.frames.get(child) as Object3D);
+    }
+    if (this.robot.links.size === 0) {
+      const kArm_m = 0.3;
+      this.position()?.add(new AxesHelper(kArm_m)); // of no known shape: forward, left, up
     }
   }
 
