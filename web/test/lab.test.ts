@@ -3,7 +3,6 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -22,6 +21,7 @@ import {
   shown,
   skip,
   tab,
+  unreadable,
   useLab,
 } from "./lab_page";
 
@@ -317,20 +317,11 @@ test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, as
 });
 
 test("readable for everybody, also on a phone", { skip }, async () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  await page.evaluate(axe);
   for (const name of ["One", "Many", "Learn", "Live"]) {
     await tab(name);
     for (const scheme of ["light", "dark"]) {
       await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
-      const wrong = await page.evaluate(async () => {
-        const found = await (
-          window as unknown as {
-            axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
-          }
-        ).axe.run();
-        return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
-      });
+      const wrong = await unreadable();
       assert.deepEqual(wrong, [], `${name}, ${scheme}`);
       await picture(`lab_${name.toLowerCase()}_${scheme}.png`);
     }

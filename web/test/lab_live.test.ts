@@ -10,7 +10,18 @@ import { parse } from "@foxglove/rosmsg";
 import { MessageWriter } from "@foxglove/rosmsg2-serialization";
 import { callOf, liveAddress } from "../src/recording/live";
 import { Builder } from "../src/recording/recording";
-import { page, picture, press, program, said, shown, skip, tab, useLab } from "./lab_page";
+import {
+  page,
+  picture,
+  press,
+  program,
+  said,
+  shown,
+  skip,
+  tab,
+  unreadable,
+  useLab,
+} from "./lab_page";
 
 interface LiveShown {
   watching: boolean;
@@ -153,6 +164,7 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   assert.ok(held.time > early.time && held.time === held.end, JSON.stringify(held));
   assert.match((await live()).told, /^perch_concrete · \d+\.\d s · \w+/);
   await picture("lab_live.png");
+  assert.deepEqual(await unreadable(), []);
 
   // What was is looked at while it flies on; then it is followed again.
   await page.$eval("#timeline input", (slider) => {

@@ -3,7 +3,8 @@
 // LIMPET_PICTURES: a folder for what it looked like.
 import assert from "node:assert/strict";
 import { type ChildProcess, spawn } from "node:child_process";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before } from "node:test";
 import type { Browser, Page } from "puppeteer-core";
@@ -135,4 +136,18 @@ export async function press(text: string): Promise<void> {
     return found !== undefined;
   }, text);
   assert.ok(clicked, `no button ${text}`);
+}
+/** What axe-core finds that not everybody can read. */
+export async function unreadable(): Promise<string[]> {
+  await page.evaluate(
+    readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"),
+  );
+  return page.evaluate(async () => {
+    const found = await (
+      window as unknown as {
+        axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
+      }
+    ).axe.run();
+    return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
+  });
 }

@@ -4,7 +4,19 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { growthAt, shareAlong, valueAlong } from "../src/lab/growth";
 import type { SwingState } from "../src/lab/server";
-import { idle, lab, page, picture, press, said, shown, skip, tab, useLab } from "./lab_page";
+import {
+  idle,
+  lab,
+  page,
+  picture,
+  press,
+  said,
+  shown,
+  skip,
+  tab,
+  unreadable,
+  useLab,
+} from "./lab_page";
 
 type Seen = SwingState & { idle: boolean; place?: [number, number] };
 interface Shown {
@@ -65,6 +77,7 @@ test("the swing on the cup: a map, and the vehicle in it", { skip }, async () =>
   assert.match(text ?? "", /This vehicle: grows, \+0\.\d+ 1\/s at 0\.\d+ Hz/);
   await page.$eval("#lab .swing canvas", (canvas) => canvas.scrollIntoView({ block: "center" }));
   await picture("lab_swing.png");
+  assert.deepEqual(await unreadable(), []);
 });
 
 test("a slider moves the vehicle, and it flies so", { skip }, async () => {
