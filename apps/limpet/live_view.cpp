@@ -27,15 +27,14 @@ std::uint16_t port_of(const std::string& text) {
 }  // namespace
 
 OptionList options_of(LiveViewOptions& options, bool waits) {
-    OptionList all = {
-        {"--live PORT",
-         [&options](const std::string& port) {
-             options.wanted = true;
-             options.port = port.empty() ? options.port : port;
-         },
-         "let the lab, Foxglove and Lichtblick watch, on this machine alone, in\n"
-         "real time (default port 8765; 0: any)",
-         values(0, 1)}};
+    OptionList all = {{"--live PORT",
+                       [&options](const std::string& port) {
+                           options.wanted = true;
+                           options.port = port.empty() ? options.port : port;
+                       },
+                       "let the lab, Foxglove and Lichtblick watch, on this machine alone, in\n"
+                       "real time (default port 8765; 0: any)",
+                       values(0, 1)}};
     if (waits) {
         all.push_back({"--live-wait", &options.wait, "begin when the first of them watches"});
     }

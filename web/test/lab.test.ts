@@ -297,7 +297,7 @@ test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, as
   await reflown("guidance.dock_speed_m_s", [1, 1.1]);
   tell(
     "perch_concrete, 1400 x 860 (software renderer)",
-    await reflown("guidance.dock_speed_m_s", along(19, 0.8, 0.05)),
+    await reflown("guidance.dock_speed_m_s", along(9, 0.8, 0.05)),
   );
   await choose("hover");
   await page.setViewport({ width: 640, height: 480 }); // this is not about the renderer
