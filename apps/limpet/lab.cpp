@@ -64,7 +64,9 @@ Verb lab_verb() {
                             "flight follows while one is dragged, the last one stays as a ghost. "
                             "What was changed is in\n"
                             "the page's address, and can be saved as YAML or as a command. Many: a "
-                            "campaign, each of its\nflights a point to look at.\n");
+                            "campaign, each of its\nflights a point to look at. Learn: what a "
+                            "number hangs on. Live: a flight in "
+                            "progress.\n");
 }
 
 }  // namespace limpet::app

@@ -24,8 +24,8 @@ OptionList options_of(LiveViewOptions& options, bool waits) {
                            options.wanted = true;
                            options.port = port.empty() ? options.port : port;
                        },
-                       "let Foxglove and Lichtblick watch, on this machine alone, in real\n"
-                       "time (default port 8765; 0: any)",
+                       "let the lab, Foxglove and Lichtblick watch, on this machine alone, in\n"
+                       "real time (default port 8765; 0: any)",
                        values(0, 1)}};
     if (waits) {
         all.push_back({"--live-wait", &options.wait, "begin when the first of them watches"});
@@ -34,7 +34,8 @@ OptionList options_of(LiveViewOptions& options, bool waits) {
 }
 
 void tell_address(const live::Live& live, Terminal& terminal) {
-    terminal.line("live", live.address() + "  (Foxglove, Lichtblick: Open connection, WebSocket)");
+    terminal.line("live",
+                  live.address() + "  (limpet lab: Live; Foxglove: Open connection, WebSocket)");
 }
 
 std::unique_ptr<live::Live> open_live(const LiveViewOptions& options, live::LiveOptions about,

@@ -36,7 +36,8 @@ nlohmann::json names_json(const std::vector<scenario::CatalogueEntry>& entries) 
     return names;
 }
 
-/// The page of recordings with a place for the lab in it, which may ask this server.
+/// The page of recordings with a place for the lab in it, which may ask this server, and flights
+/// that are flying on this machine.
 std::string page_html() {
     std::string page(report::view_page());
     const auto put = [&page](std::string_view place, std::string_view text) {
@@ -45,7 +46,7 @@ std::string page_html() {
         page.replace(at, place.size(), text);
     };
     put("<!--PANEL-->", "<aside id=\"lab\" aria-label=\"Parameters\"></aside>");
-    put("connect-src data:", "connect-src 'self' data:");
+    put("connect-src data:", "connect-src 'self' data: ws://127.0.0.1:* ws://localhost:*");
     return page;
 }
 
@@ -69,6 +70,7 @@ Lab::Lab(std::string scenario, const std::atomic<bool>* stop, fs::path keep)
     }
     scratch_ = folder;
     learn_ = std::make_unique<Learn>(first_);
+    swing_ = std::make_unique<Swing>(first_);
     many_ = std::make_unique<Many>(first_, scratch_ / "many", std::move(keep));
 }
 
@@ -148,6 +150,15 @@ void Lab::serve_on(serve::Server& server) {
         return json_answer("{}");
     });
     server.get("/learn", [this](const serve::Request&) { return json_answer(learn_->state()); });
+    server.post("/swing/begin", [this](const serve::Request& asked) {
+        swing_->begin(asked.body);
+        return json_answer(swing_->state());
+    });
+    server.post("/swing/stop", [this](const serve::Request&) {
+        swing_->stop();
+        return json_answer("{}");
+    });
+    server.get("/swing", [this](const serve::Request&) { return json_answer(swing_->state()); });
     server.post("/many/flight", [this](const serve::Request& asked) {
         return recording_answer(many_->flight(asked.body));
     });

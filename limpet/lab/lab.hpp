@@ -9,12 +9,13 @@
 
 #include "limpet/lab/learn.hpp"
 #include "limpet/lab/many.hpp"
+#include "limpet/lab/swing.hpp"
 #include "limpet/serve/server.hpp"
 
 namespace limpet::lab {
 
 /// What the page asks for. Nothing is kept between two requests but the flights that it began
-/// and has not ended: a campaign, what turning each parameter does.
+/// and has not ended: a campaign, what turning each parameter does, the map of the swing.
 class Lab {
 public:
     /// @param scenario  that the page opens with
@@ -51,6 +52,7 @@ private:
     const std::atomic<bool>* stop_;
     std::filesystem::path scratch_;
     std::unique_ptr<Learn> learn_;
+    std::unique_ptr<Swing> swing_;
     std::unique_ptr<Many> many_;
 };
 

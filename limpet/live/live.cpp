@@ -31,8 +31,9 @@ serve::ServerOptions server_for_viewers(std::uint16_t port) {
     serve::ServerOptions options;
     options.port = port;
     options.token = serve::make_token();
-    // Foxglove's page, and the two programs, whose pages are files.
-    options.origins = {"https://app.foxglove.dev", "file://"};
+    // Foxglove's page, and the two programs, whose pages are files; the lab's.
+    options.origins = {"https://app.foxglove.dev", "file://", "http://127.0.0.1:*",
+                       "http://localhost:*"};
     return options;
 }
 

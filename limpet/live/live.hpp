@@ -32,7 +32,8 @@ struct LiveDesk {
     std::function<void(std::string_view name, double value)> set;
 };
 
-/// On this machine alone, with a new token, for the pages of Foxglove and of the viewers' programs.
+/// On this machine alone, with a new token, for the lab's page, Foxglove's, and those of the
+/// viewers' programs.
 /// @param port  0: any that is free
 [[nodiscard]] serve::ServerOptions server_for_viewers(std::uint16_t port);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/paper/oscillation.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -92,12 +90,6 @@ std::vector<Extreme> extremes(const std::vector<double>& time_s, const std::vect
 
 }  // namespace
 
-Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
-    LevelOnCup loop(
-        simulation::build_model(scenario::load_scenario(scenario, {.overrides = overrides})));
-    return pitch_mode(loop.modes());
-}
-
 KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
                           double floor_deg) {
     constexpr std::size_t kFewest = 4;
@@ -137,7 +129,7 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     const auto model = simulation::build_model(quiet);
     constexpr double kLeast_Hz = 0.3;  // where the loop hardly swings at all
     const double frequency_Hz =
-        std::max(kLeast_Hz, pitch_mode(LevelOnCup(model).modes()).frequency_Hz);
+        std::max(kLeast_Hz, pitch_mode(stability::LevelOnCup(model).modes()).frequency_Hz);
     simulation::Flight twin(model);
     while (!waits(twin)) {
         require(!twin.ended(), "a flight that comes to its release");
@@ -169,22 +161,19 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     return measure_swing(std::move(time_s), std::move(difference_deg));
 }
 
-Overrides motors_and_pivot(double lag_s, double pivot_m) {
-    return {fmt::format("vehicle.rotor.time_constant_up_s={}", lag_s),
-            fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
-            fmt::format("vehicle.cup.joint_x_m={}", pivot_m)};
+stability::Axis motor_lags(std::vector<double> lag_s) {
+    return {{"vehicle.rotor.time_constant_up_s", "vehicle.rotor.time_constant_down_s"},
+            std::move(lag_s)};
 }
 
-void fill(StabilityMap& map, int jobs) {
-    map.growth_1_s.assign(map.lag_s.size() * map.pivot_m.size(), 0.0);
-    for_each_index(map.growth_1_s.size(), jobs, [&](std::size_t i) {
-        const Overrides point =
-            motors_and_pivot(map.lag_s[i % map.lag_s.size()], map.pivot_m[i / map.lag_s.size()]);
-        const scenario::Scenario scenario =
-            scenario::load_scenario(map.scenario, {.overrides = joined(map.gains, point)});
-        LevelOnCup loop(simulation::build_model(scenario));
-        map.growth_1_s[i] = pitch_mode(loop.modes()).growth_1_s;
-    });
+stability::Axis pivots(std::vector<double> pivot_m) {
+    return {{"vehicle.cup.joint_x_m"}, std::move(pivot_m)};
+}
+
+void fill(stability::StabilityMap& map, int jobs) {
+    map.growth_1_s.assign(map.size(), 0.0);
+    for_each_index(map.size(), jobs,
+                   [&](std::size_t i) { map.growth_1_s[i] = swing_at(map, i).growth_1_s; });
 }
 
 double SwingMissions::quantile(double share) const {

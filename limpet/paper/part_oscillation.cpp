@@ -30,19 +30,27 @@ std::vector<double> axis(double from, double to, int count) {
     return values;
 }
 
-std::vector<StabilityMap> maps(const Study& study) {
-    std::vector<StabilityMap> all = {
-        {.title = "PX4's default gains"},
-        {.title = "rate integrator off", .gains = {"autopilot.MC_PITCHRATE_I=0"}},
-        {.title = "rate P 0.20 instead of 0.15", .gains = {"autopilot.MC_PITCHRATE_P=0.2"}},
-        {.title = "all rate gains x 0.7", .gains = {"autopilot.MC_PITCHRATE_K=0.7"}},
+struct TitledMap {
+    std::string title;
+    stability::StabilityMap map = {};
+};
+
+std::vector<TitledMap> maps(const Study& study) {
+    const std::vector<std::pair<const char*, Overrides>> cases = {
+        {"PX4's default gains", {}},
+        {"rate integrator off", {"autopilot.MC_PITCHRATE_I=0"}},
+        {"rate P 0.20 instead of 0.15", {"autopilot.MC_PITCHRATE_P=0.2"}},
+        {"all rate gains x 0.7", {"autopilot.MC_PITCHRATE_K=0.7"}},
     };
-    for (StabilityMap& map : all) {
-        study.say("stability map: " + map.title);
-        map.scenario = kSlow;
-        map.lag_s = axis(0.010, 0.100, study.quick ? 10 : 28);
-        map.pivot_m = axis(0.40, 0.58, study.quick ? 7 : 19);
-        fill(map, study.jobs);
+    std::vector<TitledMap> all;
+    for (const auto& [title, gains] : cases) {
+        study.say(fmt::format("stability map: {}", title));
+        all.push_back({title,
+                       {.scenario = kSlow,
+                        .changes = gains,
+                        .across = motor_lags(axis(0.010, 0.100, study.quick ? 10 : 28)),
+                        .up = pivots(axis(0.40, 0.58, study.quick ? 7 : 19))}});
+        fill(all.back().map, study.jobs);
     }
     return all;
 }
@@ -63,24 +71,27 @@ std::vector<MapPoint> samples(const Study& study) {
     }
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {
         MapPoint& sample = all[i];
-        const Overrides point = motors_and_pivot(sample.lag_s, sample.pivot_m);
-        sample.linear_1_s = linear_swing(kSlow, point).growth_1_s;
+        const Overrides point = stability::StabilityMap{.across = motor_lags({sample.lag_s}),
+                                                        .up = pivots({sample.pivot_m})}
+                                    .point(0);
+        sample.linear_1_s = stability::linear_swing(kSlow, point).growth_1_s;
         sample.flown_1_s = kicked_swing(kSlow, point).growth_1_s;
     });
     return all;
 }
 
-draw::HeatPanel map_panel(const StabilityMap& map) {
-    draw::HeatPanel panel{.title = map.title,
+draw::HeatPanel map_panel(const TitledMap& titled) {
+    const stability::StabilityMap& map = titled.map;
+    draw::HeatPanel panel{.title = titled.title,
                           .x_label = "time constant of the motors  [ms]",
                           .y_label = "pivot ahead of the centre of mass  [m]",
                           .z_label = "growth  [1/s]",
-                          .y = map.pivot_m,
+                          .y = map.up.values,
                           .z = map.growth_1_s,
                           .levels = {-0.4, -0.2, 0.2, 0.4},
                           .z_most = 0.6,
                           .height_px = 320.0};
-    for (const double lag_s : map.lag_s) {
+    for (const double lag_s : map.across.values) {
         panel.x.push_back(1000.0 * lag_s);
     }
     return panel;
@@ -90,7 +101,7 @@ void study_map(Study& study) {
     draw::Chart chart{
         .subtitle = "growth rate of the pitch mode, vehicle level on its cup; dead time 16 ms",
         .columns = 2};
-    for (const StabilityMap& map : maps(study)) {
+    for (const TitledMap& map : maps(study)) {
         chart.panels.emplace_back(map_panel(map));
     }
     auto& defaults = std::get<draw::HeatPanel>(chart.panels.front());
@@ -116,7 +127,7 @@ struct Change {
     Overrides overrides = {};
     bool linear = true;   ///< the linearised loop knows of it
     bool traced = false;  ///< its pitch is drawn
-    Mode mode = {};
+    stability::Mode mode = {};
     KickedSwing kicked = {};
 };
 
@@ -146,7 +157,7 @@ std::vector<Change> changes(const Study& study) {
         Change& change = all[i];
         change.kicked = kicked_swing(change.scenario, change.overrides);
         if (change.linear) {
-            change.mode = linear_swing(change.scenario, change.overrides);
+            change.mode = stability::linear_swing(change.scenario, change.overrides);
         }
     });
     return all;
@@ -189,7 +200,7 @@ void study_changes(Study& study) {
     study.draw("fig-cures", {.panels = {traces, bars}});
     study.table("cures", rows);
     study.evidence.set("swing.long_pivot_frequency_Hz",
-                       linear_swing(kSlow, {"vehicle.cup.joint_x_m=0.55"}).frequency_Hz);
+                       stability::linear_swing(kSlow, {"vehicle.cup.joint_x_m=0.55"}).frequency_Hz);
 }
 
 // --- whole missions ---------------------------------------------------------------------------

@@ -13,6 +13,8 @@
 namespace limpet::serve {
 namespace {
 
+constexpr auto kDigits = "0123456789";
+
 std::string unescape(std::string_view text, bool plus_is_space) {
     std::string plain;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -90,7 +92,6 @@ bool host_allowed(std::string_view host) {
         name = host.substr(0, colon);
         port = host.substr(colon);
     }
-    constexpr auto kDigits = "0123456789";
     if (!port.empty() &&
         (port.front() != ':' || port.find_first_not_of(kDigits, 1) != std::string_view::npos)) {
         return false;
@@ -102,8 +103,14 @@ bool host_allowed(std::string_view host) {
 
 bool origin_allowed(std::string_view origin, std::string_view host,
                     const std::vector<std::string>& others) {
+    // "http://localhost:*" is any port of it.
+    const std::string_view page = origin.substr(0, origin.rfind(':') + 1);
+    const std::string_view port = origin.substr(page.size());
+    const bool has_port = !port.empty() && port.find_first_not_of(kDigits) == port.npos;
     return origin.empty() || origin == "http://" + std::string(host) ||
-           std::find(others.begin(), others.end(), origin) != others.end();
+           std::any_of(others.begin(), others.end(), [&](const std::string& other) {
+               return other == origin || (has_port && other == std::string(page) + "*");
+           });
 }
 
 std::string Request::value(std::string_view key, std::string_view otherwise) const {

@@ -26,7 +26,8 @@ struct Target {
 /// point here (DNS rebinding).
 [[nodiscard]] bool host_allowed(std::string_view host);
 
-/// None, this server under the name it was called by, or one of `others`.
+/// None, this server under the name it was called by, or one of `others`; one that ends in ":*" is
+/// all of its ports.
 [[nodiscard]] bool origin_allowed(std::string_view origin, std::string_view host,
                                   const std::vector<std::string>& others);
 

@@ -20,8 +20,8 @@ struct ServerOptions {
     std::uint16_t port = 0;          ///< 0: any that is free
     /// Who does not show it gets 403: as `/TOKEN/...` or `?token=TOKEN`. Empty: nobody is asked.
     std::string token = {};
-    /// Pages of others that may come in too ("https://app.example.org"); those of this server and
-    /// programs, which name no origin, may anyway.
+    /// Pages of others that may come in too ("https://app.example.org", "http://localhost:*" at any
+    /// port); those of this server and programs, which name no origin, may anyway.
     std::vector<std::string> origins = {};
     std::size_t most_connections = 32;
     std::size_t most_request_bytes = std::size_t{1} << 20U;  ///< a body, a frame from a client

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/lab.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -224,6 +225,91 @@ TEST(LearnOf, StopsAndBeginsAnew) {
     const json state = json::parse(learn.state());
     EXPECT_EQ(state["id"], 2);
     EXPECT_TRUE(state["running"]);
+}
+
+constexpr const char* kLags =
+    R"(["vehicle.rotor.time_constant_up_s", "vehicle.rotor.time_constant_down_s"])";
+
+std::string swing_request(const std::string& set) {
+    return fmt::format(
+        R"({{"scenario": "slow_motors_metal", "set": [{}],
+            "across": {{"keys": {}, "from": 0.02, "to": 0.08, "count": 3}},
+            "up": {{"keys": ["autopilot.MC_PITCHRATE_I"], "from": 0.1, "to": 0.3, "count": 2}}}})",
+        set, kLags);
+}
+
+json ended(Swing& swing) {
+    json state = json::parse(swing.state());
+    while (state["running"]) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        state = json::parse(swing.state());
+    }
+    return state;
+}
+
+TEST(SwingOf, IsTheLinearisedLoopsWithTheVehicleInIt) {
+    Swing swing("hover");
+    EXPECT_EQ(json::parse(swing.state())["id"], 0);
+    swing.begin(swing_request(""));
+    json state = ended(swing);
+    EXPECT_EQ(state["id"], 1);
+    EXPECT_EQ(state["done"], 6);
+    const stability::StabilityMap map{.scenario = "slow_motors_metal",
+                                      .across = {json::parse(kLags), {0.02, 0.05, 0.08}},
+                                      .up = {{"autopilot.MC_PITCHRATE_I"}, {0.1, 0.3}}};
+    for (const std::size_t i : {0U, 2U, 4U}) {
+        EXPECT_EQ(state["growth_1_s"][i].get<double>(), swing_at(map, i).growth_1_s) << i;
+    }
+    EXPECT_EQ(state["own"]["growth_1_s"].get<double>(),
+              stability::linear_swing("slow_motors_metal", {}).growth_1_s);
+    EXPECT_EQ(state["across"]["own"], json({0.065, 0.065}));
+    EXPECT_EQ(state["up"]["own"], json({0.2}));
+
+    // A number of an axis moves the vehicle within its map, another one makes another map.
+    swing.begin(swing_request(R"("autopilot.MC_PITCHRATE_I=0")"));
+    const json moved = json::parse(swing.state());
+    EXPECT_EQ(moved["id"], 1);
+    EXPECT_EQ(moved["growth_1_s"], state["growth_1_s"]);
+    EXPECT_EQ(moved["up"]["own"], json({0.0}));
+    EXPECT_LT(moved["own"]["growth_1_s"].get<double>(), state["own"]["growth_1_s"].get<double>());
+    swing.begin(swing_request(R"("autopilot.MC_PITCHRATE_P=0.2")"));
+    const json other = ended(swing);
+    EXPECT_EQ(other["id"], 2);
+    EXPECT_LT(other["growth_1_s"][2].get<double>(), state["growth_1_s"][2].get<double>());
+}
+
+TEST(SwingOf, WhatCannotBeIsALineAndTheLastMapStands) {
+    Swing swing("slow_motors_metal");
+    swing.begin(swing_request(""));
+    const auto refusal = [&](const std::string& request) {
+        try {
+            swing.begin(request);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto up = [](const char* key, int count) {
+        return fmt::format(
+            R"({{"across": {{"keys": {}, "from": 0.02, "to": 0.08, "count": 3}},
+                "up": {{"keys": ["{}"], "from": 0.1, "to": 0.3, "count": {}}}}})",
+            kLags, key, count);
+    };
+    EXPECT_THAT(refusal("{}"), HasSubstr("\"across\" is"));
+    EXPECT_THAT(refusal(up("autopilot.MC_PITCHRATE_I", 65)), HasSubstr("\"count\" 2..64"));
+    EXPECT_THAT(refusal(up("autopilot.nothing", 2)), HasSubstr("is no number of the scenario"));
+    std::string hover = up("autopilot.MC_PITCHRATE_I", 2);
+    hover.insert(1, R"("scenario": "hover", )");
+    EXPECT_THAT(refusal(hover), HasSubstr("asks for a wall"));
+    EXPECT_EQ(ended(swing)["id"], 1);
+    // Two numbers that do not go together leave a hole, not a line.
+    swing.begin(R"({"across": {"keys": ["vehicle.rotor.time_constant_up_s"], "from": 0.01,
+                               "to": 0.02, "count": 2},
+                    "up": {"keys": ["autopilot.MC_PITCHRATE_I"], "from": -0.2, "to": 0.2,
+                           "count": 2}})");
+    const json holed = ended(swing);
+    EXPECT_EQ(holed["growth_1_s"][0], "none");
+    EXPECT_TRUE(holed["growth_1_s"][2].is_number());
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(KickedSwing, GrowsAsTheLinearisedLoopSays) {
     for (const Kick& kick : {Kick{"perch_metal", {}}, Kick{"slow_motors_metal", {}},
                              Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_I=0"}},
                              Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_P=0.2"}}}) {
-        const Mode linear = linear_swing(kick.scenario, kick.gains);
+        const stability::Mode linear = stability::linear_swing(kick.scenario, kick.gains);
         const KickedSwing kicked = kicked_swing(kick.scenario, kick.gains);
         EXPECT_NEAR(kicked.growth_1_s, linear.growth_1_s, 0.03);
         EXPECT_NEAR(kicked.frequency_Hz, linear.frequency_Hz, 0.02);
@@ -66,11 +66,10 @@ TEST(KickedSwing, AltitudeHoldKillsIt) {
     }
 }
 
-TEST(StabilityMap, GrowthRisesWithTheLag) {
-    StabilityMap map;
-    map.scenario = "slow_motors_metal";
-    map.lag_s = {0.02, 0.05, 0.08};
-    map.pivot_m = {0.42, 0.50};
+TEST(PapersMap, GrowthRisesWithTheLagAndTheArm) {
+    stability::StabilityMap map{.scenario = "slow_motors_metal",
+                                .across = motor_lags({0.02, 0.05, 0.08}),
+                                .up = pivots({0.42, 0.50})};
     fill(map, 2);
     for (std::size_t pivot = 0; pivot < 2; ++pivot) {
         EXPECT_LT(map.at(pivot, 0), map.at(pivot, 1));

@@ -62,6 +62,13 @@ TEST(Origin, OnlyTheSameServerAndThoseNamed) {
     EXPECT_TRUE(origin_allowed("https://app.example", "localhost:80", {"https://app.example"}));
     EXPECT_FALSE(origin_allowed("http://localhost:81", "localhost:80", {}));
     EXPECT_FALSE(origin_allowed("https://app.example", "localhost:80", {}));
+    const std::vector<std::string> any_port = {"http://127.0.0.1:*"};
+    EXPECT_TRUE(origin_allowed("http://127.0.0.1:81", "localhost:80", any_port));
+    for (const char* other : {"http://127.0.0.1", "http://127.0.0.1:", "https://127.0.0.1:81",
+                              "http://127.0.0.1:8.evil.example",
+                              "http://127.0.0.1:81@evil.example:82", "http://evil.example:81"}) {
+        EXPECT_FALSE(origin_allowed(other, "localhost:80", any_port)) << other;
+    }
     EXPECT_FALSE(origin_allowed("null", "localhost:80", {"https://app.example"}));
 }
 

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// `limpet lab` in a real browser: LIMPET_PROGRAM is the program. LIMPET_PICTURES: a folder for what
-// it looked like.
+// The lab's page: one flight, many, what a number hangs on.
 import assert from "node:assert/strict";
-import { type ChildProcess, spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
-import puppeteer, { type Browser, type Page } from "puppeteer-core";
+import { after, test } from "node:test";
 import { Changes, rounded, slide } from "../src/lab/changes";
+import {
+  browser,
+  drag,
+  idle,
+  type LabState,
+  lab,
+  page,
+  picture,
+  press,
+  program,
+  said,
+  shown,
+  skip,
+  tab,
+  unreadable,
+  useLab,
+} from "./lab_page";
 
-const program = process.env.LIMPET_PROGRAM ?? "";
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
-  existsSync(path),
-);
-const skip = program === "" ? "no LIMPET_PROGRAM" : chromium === undefined ? "no Chromium" : false;
-
-interface LabState {
-  idle: boolean;
-  changes: string[];
-  command: string;
-  delays: number[];
-}
 interface Shown {
-  limpet: { state(): { recordings: number; end: number; geometries: number; time: number } };
   lab: { state(): LabState; many: { outside(): ManyShown }; learn: { outside(): LearnShown } };
 }
 interface LearnShown {
@@ -41,96 +42,11 @@ interface ManyShown {
   places: [number, number][];
 }
 
-let served: ChildProcess;
-let address = "";
-let browser: Browser;
-let page: Page;
-const said: string[] = [];
+const kFlat_bytes = 1e6; // a flight that were kept is of that size
+const kFlatNodes = 20;
 const folder = mkdtempSync(join(tmpdir(), "limpet_lab_test_"));
-
-before(async () => {
-  if (skip !== false) {
-    return;
-  }
-  served = spawn(program, ["lab", "perch_metal_valve"], { stdio: ["ignore", "pipe", "inherit"] });
-  address = await new Promise((found, failed) => {
-    let text = "";
-    served.once("exit", () => failed(new Error(`limpet lab ended: ${text}`)));
-    served.stdout?.on("data", (bytes: Buffer) => {
-      text += bytes.toString();
-      const here = /http:\S+/.exec(text);
-      if (here !== null) {
-        found(here[0]);
-      }
-    });
-  });
-  browser = await puppeteer.launch({
-    executablePath: chromium as string,
-    args: [
-      "--no-sandbox",
-      "--use-gl=angle",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-    ],
-  });
-  page = await browser.newPage();
-  page.setDefaultTimeout(120000);
-  page.on("console", (message) => {
-    if (!/GPU stall|swiftshader|WebGL|status of 400/i.test(message.text())) {
-      said.push(message.text());
-    }
-  });
-  page.on("pageerror", (problem) => said.push(String(problem)));
-  page.on("request", (request) => {
-    if (
-      !request.url().startsWith(new URL(address).origin) &&
-      !/^(data|blob):/.test(request.url())
-    ) {
-      said.push(`asks for ${request.url()}`);
-    }
-  });
-  await page.setViewport({ width: 1400, height: 860 });
-  await page.goto(address);
-  await idle();
-});
-after(async () => {
-  await browser?.close();
-  if (served !== undefined) {
-    const ended = new Promise((code) => served.once("exit", code));
-    served.kill("SIGINT");
-    assert.equal(await ended, 0);
-  }
-  rmSync(folder, { recursive: true, force: true });
-});
-
-const idle = (): Promise<unknown> =>
-  page.waitForFunction(() => (window as unknown as Shown).lab?.state().idle === true);
-const lab = (): Promise<LabState> => page.evaluate(() => (window as unknown as Shown).lab.state());
-const shown = (): Promise<{ recordings: number; end: number; geometries: number; time: number }> =>
-  page.evaluate(() => (window as unknown as Shown).limpet.state());
-async function picture(name: string): Promise<void> {
-  if (process.env.LIMPET_PICTURES !== undefined) {
-    writeFileSync(join(process.env.LIMPET_PICTURES, name), await page.screenshot());
-  }
-}
-/** As a hand does it: some moves, then the release. */
-async function drag(key: string, values: number[]): Promise<void> {
-  for (const [k, value] of values.entries()) {
-    await page.evaluate(
-      (row, to, last) => {
-        const slider = document.querySelector<HTMLInputElement>(
-          `[data-key="${row}"] input[type=range]`,
-        ) as HTMLInputElement;
-        slider.value = String(to);
-        slider.dispatchEvent(new Event(last ? "change" : "input", { bubbles: true }));
-      },
-      key,
-      value,
-      k === values.length - 1,
-    );
-    await idle();
-  }
-}
+useLab("perch_metal_valve");
+after(() => rmSync(folder, { recursive: true, force: true }));
 
 test("changes go into an address and a command, and back", () => {
   const changes = new Changes();
@@ -212,11 +128,7 @@ test("what cannot be is said, and the last flight stays", { skip }, async () => 
 });
 
 test("another surface, another scenario, found parameters", { skip }, async () => {
-  await page.select("#lab select", "hover");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
-  );
-  await idle();
+  await choose("hover");
   await page.type("#lab input[type=search]", "gust");
   const found = await page.$$eval(
     "#lab .row",
@@ -229,24 +141,8 @@ test("another surface, another scenario, found parameters", { skip }, async () =
   });
 });
 
-const tab = (name: string, on = page): Promise<void> =>
-  on.evaluate((wanted) => {
-    [...document.querySelectorAll<HTMLElement>("#lab [role=tab]")]
-      .find((one) => one.textContent === wanted)
-      ?.click();
-  }, name);
 const many = (): Promise<ManyShown> =>
   page.evaluate(() => (window as unknown as Shown).lab.many.outside());
-async function press(text: string): Promise<void> {
-  const clicked = await page.evaluate((wanted) => {
-    const found = [
-      ...document.querySelectorAll<HTMLElement>("#lab .many:not([hidden]) button"),
-    ].find((one) => one.textContent === wanted);
-    found?.click();
-    return found !== undefined;
-  }, text);
-  assert.ok(clicked, `no button ${text}`);
-}
 /** Landed runs, at least so many. */
 const landed = (count: number): Promise<unknown> =>
   page.waitForFunction(
@@ -256,11 +152,7 @@ const landed = (count: number): Promise<unknown> =>
   );
 
 test("many fly; a point is a flight to look at", { skip }, async () => {
-  await page.select("#lab select", "perch_concrete");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly perch_concrete",
-  );
-  await idle();
+  await choose("perch_concrete");
   await drag("guidance.attempts", [1]);
   await tab("Many");
   await page.$eval("#lab .many input[aria-label=from]", (input) => {
@@ -332,11 +224,7 @@ test("a campaign that ships is stopped, and found again by another page", { skip
 });
 
 test("what a number hangs on: each parameter turned alone", { skip }, async () => {
-  await page.select("#lab select", "hover");
-  await page.waitForFunction(
-    () => (window as unknown as Shown).lab.state().command === "limpet fly hover",
-  );
-  await idle();
+  await choose("hover");
   await tab("Learn");
   await press("Turn them all");
   await page.waitForFunction(() => {
@@ -353,47 +241,93 @@ test("what a number hangs on: each parameter turned alone", { skip }, async () =
   await tab("One");
 });
 
-test("re-flown again and again, the memory is flat; how long a hand waits", { skip }, async () => {
-  await page.select("#lab select", "perch_concrete");
-  await page.waitForFunction(() =>
-    (window as unknown as Shown).lab.state().command.endsWith("perch_concrete"),
+async function choose(scenario: string): Promise<void> {
+  await page.select("#lab select", scenario);
+  await page.waitForFunction(
+    (name) => (window as unknown as Shown).lab.state().command === `limpet fly ${name}`,
+    {},
+    scenario,
   );
   await idle();
-  const speeds = Array.from({ length: 18 }, (_, k) => 0.8 + 0.03 * k);
-  await drag("guidance.dock_speed_m_s", speeds.slice(0, 4));
-  const early = (await shown()).geometries;
-  const used = async (): Promise<number> => (await page.metrics()).JSHeapUsedSize ?? 0;
-  const heap = await used();
-  await drag("guidance.dock_speed_m_s", speeds.slice(4));
-  assert.equal((await shown()).geometries, early);
-  assert.ok((await used()) < heap + 60e6, `${heap} then ${await used()} bytes`);
-  const delays = (await lab()).delays.slice(-14).sort((a, b) => a - b);
-  console.log(
-    `      slider to picture: ${(delays[7] ?? 0).toFixed(0)} ms in the median, ${(delays[12] ?? 0).toFixed(0)} ms at 90 % (software renderer)`,
+}
+/** As a hand does it that waits for each picture, within the page; now and then it lets go. */
+const reflown = (key: string, values: number[]): Promise<number[]> =>
+  page.evaluate(
+    async (row, moves) => {
+      const { lab } = window as unknown as Shown;
+      const slider = document.querySelector<HTMLInputElement>(
+        `[data-key="${row}"] input[type=range]`,
+      ) as HTMLInputElement;
+      const delays: number[] = [];
+      for (const [k, value] of moves.entries()) {
+        slider.value = String(value);
+        slider.dispatchEvent(new Event(k % 20 === 19 ? "change" : "input", { bubbles: true }));
+        do {
+          await new Promise((passed) => setTimeout(passed, 0));
+        } while (!lab.state().idle);
+        delays.push(lab.state().delays.at(-1) ?? Number.NaN);
+      }
+      return delays.sort((a, b) => a - b);
+    },
+    key,
+    values,
   );
+const along = (count: number, from: number, step: number): number[] =>
+  Array.from({ length: count }, (_, k) => from + step * (k % 10));
+function tell(what: string, delays: number[]): void {
+  const at = (share: number): string =>
+    (delays[Math.floor(delays.length * share)] ?? Number.NaN).toFixed(0);
+  console.log(
+    `      slider to picture, ${what}: ${at(0.5)} ms in the median, ${at(0.9)} ms at 90 %, ${delays.length} times`,
+  );
+}
+/** What is held once garbage has been collected. */
+async function held(): Promise<Record<"heap" | "nodes" | "listeners" | "geometries", number>> {
+  const session = await page.createCDPSession();
+  await session.send("HeapProfiler.enable");
+  await session.send("HeapProfiler.collectGarbage");
+  await session.detach();
+  const { JSHeapUsedSize = 0, Nodes = 0, JSEventListeners = 0 } = await page.metrics();
+  const { geometries } = await shown();
+  return { heap: JSHeapUsedSize, nodes: Nodes, listeners: JSEventListeners, geometries };
+}
+
+test("how long a hand waits; 200 re-flights leave the memory flat", { skip }, async () => {
+  await choose("perch_concrete");
+  await reflown("guidance.dock_speed_m_s", [1, 1.1]);
+  tell(
+    "perch_concrete, 1400 x 860 (software renderer)",
+    await reflown("guidance.dock_speed_m_s", along(9, 0.8, 0.05)),
+  );
+  await choose("hover");
+  await page.setViewport({ width: 640, height: 480 }); // this is not about the renderer
+  await reflown("simulation.hover_s", along(20, 0.5, 0.05));
+  const early = await held();
+  tell("hover, 640 x 480", await reflown("simulation.hover_s", along(200, 0.5, 0.05)));
+  const late = await held();
+  await page.setViewport({ width: 1400, height: 860 });
+  console.log(
+    `      held after garbage: heap ${(early.heap / 1e6).toFixed(2)} then ${(late.heap / 1e6).toFixed(2)} MB, ${early.nodes} then ${late.nodes} nodes`,
+  );
+  const text = JSON.stringify({ early, late });
+  assert.ok(late.heap < early.heap + kFlat_bytes, text);
+  assert.ok(late.nodes <= early.nodes + kFlatNodes, text);
+  assert.ok(late.listeners <= early.listeners + kFlatNodes, text);
+  assert.equal(late.geometries, early.geometries, text);
 });
 
 test("readable for everybody, also on a phone", { skip }, async () => {
-  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-  await page.evaluate(axe);
-  for (const name of ["One", "Many", "Learn"]) {
+  for (const name of ["One", "Many", "Learn", "Live"]) {
     await tab(name);
     for (const scheme of ["light", "dark"]) {
       await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
-      const wrong = await page.evaluate(async () => {
-        const found = await (
-          window as unknown as {
-            axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> };
-          }
-        ).axe.run();
-        return found.violations.map((one) => `${one.id}: ${one.nodes[0]?.html}`);
-      });
+      const wrong = await unreadable();
       assert.deepEqual(wrong, [], `${name}, ${scheme}`);
       await picture(`lab_${name.toLowerCase()}_${scheme}.png`);
     }
   }
   await page.setViewport({ width: 400, height: 800 });
-  for (const name of ["Learn", "Many", "One"]) {
+  for (const name of ["Live", "Learn", "Many", "One"]) {
     await tab(name);
     // once the charts have followed
     await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);

@@ -347,6 +347,12 @@ test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 },
   assert.match(await knock(address, "https://evil.example"), /403/);
   assert.match(await knock(address.replace(/token=.*/, "token=0")), /403/);
   assert.match(await knock(address.replace(/\?token=.*/, "")), /403/);
+  assert.match(await knock(address, "http://192.0.2.1:8080"), /403/);
   assert.equal(await knock(address, "https://app.foxglove.dev"), "open");
+  assert.equal(await knock(address, "http://127.0.0.1:40000"), "open"); // the lab's
+  assert.match(
+    await knock(address.replace(/token=.*/, "token=0"), "http://127.0.0.1:40000"),
+    /403/,
+  );
   flight.process.kill("SIGKILL");
 });

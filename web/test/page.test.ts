@@ -2,18 +2,16 @@
 // The page in a real browser, with a real flight: LIMPET_VIEW is a page that `limpet view` wrote,
 // LIMPET_RECORDING the recording in it. LIMPET_PICTURES: a folder for what it looked like.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import puppeteer, { type Browser, type ElementHandle, type Page } from "puppeteer-core";
+import type { Browser, ElementHandle, Page } from "puppeteer-core";
+import { hasChromium, openChromium } from "./chromium";
 
 const page_file = process.env.LIMPET_VIEW ?? "";
 const recording_file = process.env.LIMPET_RECORDING ?? "";
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((path) =>
-  existsSync(path),
-);
-const skip = page_file === "" ? "no LIMPET_VIEW" : chromium === undefined ? "no Chromium" : false;
+const skip = page_file === "" ? "no LIMPET_VIEW" : !hasChromium ? "no Chromium" : false;
 
 interface State {
   time: number;
@@ -37,15 +35,7 @@ before(async () => {
   if (skip !== false) {
     return;
   }
-  browser = await puppeteer.launch({
-    executablePath: chromium as string,
-    args: [
-      "--no-sandbox",
-      "--use-gl=angle",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-    ],
-  });
+  browser = await openChromium();
   page = await browser.newPage();
   page.setDefaultTimeout(120000); // a busy machine without a graphics card
   page.on("console", (message) => {

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import type { Recording } from "../recording/recording";
 import { valueAt } from "../recording/series";
-import { type Panel, samplesOf } from "./panels";
+import { type Line, type Panel, samplesOf } from "./panels";
 
 export interface ChartHost {
   seek(t: number): void;
@@ -12,7 +12,8 @@ export interface ChartHost {
 }
 
 interface Drawn {
-  label: string;
+  line: Line;
+  ghost: boolean; // of another flight than the first
   time: Float64Array;
   values: number[];
 }
@@ -22,6 +23,7 @@ export class Chart {
   private plot: uPlot | undefined;
   private readonly readout = document.createElement("p");
   private drawn: Drawn[] = [];
+  private look = ""; // of the plot's lines
   private now = 0;
 
   constructor(
@@ -44,31 +46,39 @@ export class Chart {
     this.element.append(head);
   }
 
-  /** @returns whether there is anything to see */
+  /**
+   * The plot stays where its lines do, for a canvas costs more than what is drawn on it.
+   * @returns whether there is anything to see
+   */
   load(recordings: Recording[], colours: { text: string; grid: string }, width: number): boolean {
+    this.drawn = recordings.flatMap((recording, k) =>
+      this.panel.lines.flatMap((line) => {
+        const samples = samplesOf(recording, line);
+        return samples === undefined ? [] : [{ line, ghost: k > 0, ...samples }];
+      }),
+    );
+    this.element.hidden = this.drawn.length === 0;
+    const look = JSON.stringify([
+      colours,
+      this.drawn.map(({ line, ghost }) => [line.label, ghost]),
+    ]);
+    if (this.plot !== undefined && look === this.look) {
+      this.plot.setData(this.joined(), false);
+      return true;
+    }
+    this.look = look;
     this.plot?.destroy();
     this.plot = undefined;
-    this.drawn = [];
-    const series: uPlot.Series[] = [];
-    recordings.forEach((recording, k) => {
-      for (const line of this.panel.lines) {
-        const samples = samplesOf(recording, line);
-        if (samples !== undefined) {
-          this.drawn.push({ label: line.label, ...samples });
-          series.push({
-            label: k === 0 ? line.label : `${line.label} (${recording.name})`,
-            stroke: k === 0 ? line.colour : `${line.colour}80`,
-            width: k === 0 ? 1.5 : 1,
-            dash: k === 0 ? line.dash : [2, 2],
-            spanGaps: true,
-          });
-        }
-      }
-    });
-    this.element.hidden = series.length === 0;
     if (this.element.hidden) {
       return false;
     }
+    const series: uPlot.Series[] = this.drawn.map(({ line, ghost }) => ({
+      label: line.label,
+      stroke: ghost ? `${line.colour}80` : line.colour,
+      width: ghost ? 1 : 1.5,
+      dash: ghost ? [2, 2] : line.dash,
+      spanGaps: true,
+    }));
     const axis: uPlot.Axis = {
       stroke: colours.text,
       grid: { stroke: colours.grid, width: 1 },
@@ -107,9 +117,9 @@ export class Chart {
     this.now = t;
     this.readout.textContent = this.drawn
       .slice(0, this.panel.lines.length)
-      .map(({ label, time, values }) => {
+      .map(({ line, time, values }) => {
         const value = valueAt(time, values, t);
-        return `${label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
+        return `${line.label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
       })
       .join("  ");
     this.plot?.redraw(false, false);

@@ -26,6 +26,8 @@ export interface Tab {
   name: string;
   panel: HTMLElement;
   shown?: () => void;
+  /** At every choice: whether it is this one. */
+  seen?: (seen: boolean) => void;
 }
 /** A row of tabs; the panels stay where they are, one is seen. Arrow keys go from tab to tab. */
 export function tabs(name: string, all: Tab[]): HTMLElement {
@@ -39,8 +41,9 @@ export function tabs(name: string, all: Tab[]): HTMLElement {
     return head;
   });
   const choose = (chosen: number): void => {
-    all.forEach(({ panel }, k) => {
+    all.forEach(({ panel, seen }, k) => {
       panel.hidden = k !== chosen;
+      seen?.(k === chosen);
       heads[k]?.setAttribute("aria-selected", String(k === chosen));
       heads[k]?.setAttribute("tabindex", k === chosen ? "0" : "-1");
     });

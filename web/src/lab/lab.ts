@@ -5,12 +5,18 @@ import { type Recording, readRecording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
 import { button, element, labelled, tabs } from "./element";
 import { Learn } from "./learn";
+import { Live } from "./live";
 import { Many } from "./many";
 import * as server from "./server";
+import { Swing } from "./swing";
 
 export interface LabHost {
   /** The first is the flight, the second its ghost; camera and time stay. */
   refresh(recordings: Recording[]): void;
+  /** A flight that is still flying, at its latest time until somebody seeks another. */
+  follow(recording: Recording): void;
+  /** It has more to show; nothing happens where another one is looked at. */
+  grown(recording: Recording): void;
   say(text: string): void;
 }
 
@@ -34,6 +40,8 @@ export class Lab {
   private wanted: { brief: boolean; since: number } | undefined;
   readonly many: Many;
   readonly learn: Learn;
+  readonly swing: Swing;
+  readonly live: Live;
   /** Of the latest re-flights, from the hand to the picture [ms]. */
   readonly delays: number[] = [];
 
@@ -52,12 +60,26 @@ export class Lab {
     const one = element("div", {}, this.diff, tools, this.search, this.sections);
     this.many = new Many(this);
     this.learn = new Learn(this);
+    this.swing = new Swing(this);
+    this.live = new Live({
+      trying: (does) => this.trying(does),
+      follow: (recording) => this.host.follow(recording),
+      grown: (recording) => this.host.grown(recording),
+    });
+    this.learn.element.append(this.swing.element);
     const row = tabs("What to do", [
       { name: "One", panel: one },
       { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
-      { name: "Learn", panel: this.learn.element, shown: () => this.learn.shown() },
+      {
+        name: "Learn",
+        panel: this.learn.element,
+        shown: () => this.learn.shown(),
+        seen: (seen) => this.swing.shown(seen),
+      },
+      { name: "Live", panel: this.live.element },
     ]);
-    place.append(this.choices, this.status, row, one, this.many.element, this.learn.element);
+    const panels = [one, this.many.element, this.learn.element, this.live.element];
+    place.append(this.choices, this.status, row, ...panels);
     void this.begin();
   }
 
@@ -94,6 +116,7 @@ export class Lab {
     const schema = await server.schema({ scenario: this.changes.scenario, set: named });
     this.buildChoices(schema);
     this.many.offer(schema.sections, this.catalogue?.campaigns ?? []);
+    this.swing.offer(schema.sections);
     const rank = (section: server.Section): number =>
       (kFirst.indexOf(section.name) + kFirst.length + 1) % (kFirst.length + 1);
     this.sections.replaceChildren(
@@ -269,6 +292,18 @@ export class Lab {
     }
     this.refly(brief);
   }
+  /** @param brief  a slider is moving: the others follow when it is let go */
+  turn(values: [string, number][], brief: boolean): void {
+    for (const [key, value] of values) {
+      this.changes.set(key, String(value));
+    }
+    void this.trying(async () => {
+      if (!brief) {
+        await this.build();
+      }
+      this.refly(brief);
+    });
+  }
   private reset(): void {
     this.changes.clear();
     void this.trying(() => this.build().then(() => this.refly(false)));
@@ -299,6 +334,7 @@ export class Lab {
   private refly(brief: boolean): void {
     this.wanted = { brief, since: this.wanted?.since ?? performance.now() };
     this.told();
+    this.swing.changed();
     if (!this.busy) {
       void this.flyWanted();
     }

@@ -2,7 +2,7 @@
 // A campaign flown from the page: its map fills while it flies, each point is a flight to look at.
 import { kColumns } from "../charts/panels";
 import { type Recording, readRecording } from "../recording/recording";
-import { rounded, slide } from "./changes";
+import { AxisChoice } from "./axis";
 import { button, element, labelled } from "./element";
 import { type AxisOf, drawMark, SuccessMap, type Value } from "./map";
 import * as server from "./server";
@@ -15,90 +15,15 @@ export interface ManyHost {
 
 const kEvery_ms = 300;
 const kOwn = ""; // not a campaign that ships: the scenario over axes
-const kUsual = ["guidance.dock_speed_m_s", ""];
-
-class AxisChoice {
-  readonly element = element("fieldset", { className: "axis" });
-  private readonly key = element("select", {});
-  private readonly from = element("input", { type: "number", step: "any", ariaLabel: "from" });
-  private readonly to = element("input", { type: "number", step: "any", ariaLabel: "to" });
-  private readonly count = element("input", {
-    type: "number",
-    min: "2",
-    max: "100",
-    value: "6",
-    ariaLabel: "values",
-  });
-  private rows = new Map<string, server.Row>();
-
-  constructor(name: string) {
-    this.key.addEventListener("change", () => this.fill());
-    this.element.append(
-      labelled(name, this.key),
-      element(
-        "div",
-        { className: "range" },
-        this.from,
-        " to ",
-        this.to,
-        " in ",
-        this.count,
-        " values",
-      ),
-    );
-  }
-  offer(sections: server.Section[], otherwise: string): void {
-    const before = this.key.value;
-    this.rows = new Map(
-      sections.flatMap(({ rows }) =>
-        rows.filter(({ kind }) => kind !== "switch").map((row) => [row.key, row] as const),
-      ),
-    );
-    this.key.replaceChildren(
-      element("option", { value: "" }, "none"),
-      ...sections.map(({ name, rows }) =>
-        element(
-          "optgroup",
-          { label: name },
-          ...rows
-            .filter(({ key }) => this.rows.has(key))
-            .map(({ key }) => element("option", { value: key }, key.slice(name.length + 1))),
-        ),
-      ),
-    );
-    const wanted = before || otherwise;
-    this.key.value = this.rows.has(wanted) ? wanted : "";
-    if (before !== this.key.value) {
-      this.fill();
-    }
-  }
-  private fill(): void {
-    const row = this.rows.get(this.key.value);
-    if (row !== undefined) {
-      const [from, to] = slide(row.value, row.minimum, row.maximum);
-      this.from.value = String(rounded(from, from, to));
-      this.to.value = String(rounded(to, from, to));
-    }
-  }
-  axis(): server.Axis[] {
-    return this.key.value === ""
-      ? []
-      : [
-          {
-            key: this.key.value,
-            from: Number(this.from.value),
-            to: Number(this.to.value),
-            count: Number(this.count.value),
-          },
-        ];
-  }
-}
 
 export class Many {
   readonly element = element("div", { className: "many" });
   private readonly campaign = element("select", {});
   private readonly about = element("p", { className: "what" });
-  private readonly axes = [new AxisChoice("Along"), new AxisChoice("and along")] as const;
+  private readonly axes = [
+    new AxisChoice("Along", { count: 6, otherwise: "guidance.dock_speed_m_s", none: true }),
+    new AxisChoice("and along", { count: 6, otherwise: "", none: true }),
+  ] as const;
   private readonly repeats = element("input", { type: "number", min: "1", value: "10" });
   private readonly own: HTMLElement;
   private readonly bar = element("progress", { ariaLabel: "Runs flown", value: 0 });
@@ -158,9 +83,9 @@ export class Many {
       ...campaigns.map(({ name }) => element("option", { value: name }, name)),
     );
     this.campaign.value = before;
-    this.axes.forEach((axis, k) => {
-      axis.offer(sections, kUsual[k] ?? "");
-    });
+    for (const axis of this.axes) {
+      axis.offer(sections);
+    }
     this.describe();
   }
   /** The tab is seen: a campaign may have been flying since before the page was opened. */

@@ -126,17 +126,11 @@ export class SuccessMap {
   }
 
   draw(): void {
-    const { clientWidth, clientHeight } = this.canvas;
-    const context = this.canvas.getContext("2d");
-    if (this.axes === undefined || clientWidth === 0 || context === null) {
+    const drawing = drawingOn(this.canvas);
+    if (this.axes === undefined || drawing === undefined) {
       return;
     }
-    const ratio = window.devicePixelRatio;
-    this.canvas.width = Math.round(clientWidth * ratio);
-    this.canvas.height = Math.round(clientHeight * ratio);
-    context.scale(ratio, ratio);
-    const wide = clientWidth - kLeft - kRight;
-    const high = clientHeight - kTop - kBottom;
+    const { context, frame, style } = drawing;
     const x = new Scale(
       this.axes[0],
       this.marks.map((mark) => mark.x),
@@ -145,12 +139,9 @@ export class SuccessMap {
       this.axes[1],
       this.marks.map((mark) => mark.y),
     );
-    const toX = (share: number): number => kLeft + share * wide;
-    const toY = (share: number): number => kTop + (1 - share) * high;
-    const style = getComputedStyle(this.canvas);
-    this.drawCells(context, x, y, { toX, toY, wide, high });
-    this.drawAxes(context, x, y, { toX, toY, wide, high }, style);
-    this.place(x, y, { toX, toY, wide, high });
+    this.drawCells(context, x, y, frame);
+    drawAxes(drawing, x, y);
+    this.place(x, y, frame);
     for (const { mark, x, y } of this.places) {
       drawMark(context, mark, x, y);
       if (mark.run === this.chosen) {
@@ -212,36 +203,9 @@ export class SuccessMap {
       }
     }
   }
-  private drawAxes(
-    context: CanvasRenderingContext2D,
-    x: Scale,
-    y: Scale,
-    { toX, toY, wide, high }: Frame,
-    style: CSSStyleDeclaration,
-  ): void {
-    context.strokeStyle = style.getPropertyValue("--line");
-    context.strokeRect(kLeft, kTop, wide, high);
-    context.fillStyle = style.getPropertyValue("--text");
-    context.font = "11px system-ui, sans-serif";
-    context.textAlign = "center";
-    for (const { at, text } of x.ticks()) {
-      context.fillText(text, toX(at), kTop + high + 14, wide / Math.max(1, x.ticks().length));
-    }
-    context.fillText(x.axis.name, kLeft + wide / 2, kTop + high + 32, wide);
-    context.textAlign = "right";
-    for (const { at, text } of y.ticks()) {
-      context.fillText(text, kLeft - 4, toY(at) + 4, kLeft - 22);
-    }
-    context.save();
-    context.translate(11, kTop + high / 2);
-    context.rotate(-Math.PI / 2);
-    context.textAlign = "center";
-    context.fillText(y.axis.name, 0, 0, high);
-    context.restore();
-  }
 }
 
-interface Frame {
+export interface Frame {
   toX: (share: number) => number;
   toY: (share: number) => number;
   wide: number;
@@ -267,4 +231,50 @@ export function drawMark(
     context.lineTo(x + 3, y - 3);
     context.stroke();
   }
+}
+
+export interface Drawing {
+  context: CanvasRenderingContext2D;
+  frame: Frame;
+  style: CSSStyleDeclaration;
+}
+/** Wiped, as large as it is seen; undefined while it is not. */
+export function drawingOn(canvas: HTMLCanvasElement): Drawing | undefined {
+  const { clientWidth, clientHeight } = canvas;
+  const context = canvas.getContext("2d");
+  if (clientWidth === 0 || context === null) {
+    return undefined;
+  }
+  const ratio = window.devicePixelRatio;
+  canvas.width = Math.round(clientWidth * ratio);
+  canvas.height = Math.round(clientHeight * ratio);
+  context.scale(ratio, ratio);
+  const wide = clientWidth - kLeft - kRight;
+  const high = clientHeight - kTop - kBottom;
+  const toX = (share: number): number => kLeft + share * wide;
+  const toY = (share: number): number => kTop + (1 - share) * high;
+  return { context, frame: { toX, toY, wide, high }, style: getComputedStyle(canvas) };
+}
+
+export function drawAxes({ context, frame, style }: Drawing, x: Scale, y: Scale): void {
+  const { toX, toY, wide, high } = frame;
+  context.strokeStyle = style.getPropertyValue("--line");
+  context.strokeRect(kLeft, kTop, wide, high);
+  context.fillStyle = style.getPropertyValue("--text");
+  context.font = "11px system-ui, sans-serif";
+  context.textAlign = "center";
+  for (const { at, text } of x.ticks()) {
+    context.fillText(text, toX(at), kTop + high + 14, wide / Math.max(1, x.ticks().length));
+  }
+  context.fillText(x.axis.name, kLeft + wide / 2, kTop + high + 32, wide);
+  context.textAlign = "right";
+  for (const { at, text } of y.ticks()) {
+    context.fillText(text, kLeft - 4, toY(at) + 4, kLeft - 22);
+  }
+  context.save();
+  context.translate(11, kTop + high / 2);
+  context.rotate(-Math.PI / 2);
+  context.textAlign = "center";
+  context.fillText(y.axis.name, 0, 0, high);
+  context.restore();
 }

@@ -129,3 +129,31 @@ export const learnBegin = async (wish: Wish & { share: number }): Promise<LearnS
 export const learnState = async (): Promise<LearnState> =>
   (await ask("/learn")).json() as Promise<LearnState>;
 export const learnStop = async (): Promise<void> => void (await ask("/learn/stop", {}));
+
+/** Of limpet/lab/swing.hpp */
+export interface SwingAxis {
+  keys: string[];
+  values: number[];
+  own: number[]; // of the vehicle, by key
+}
+export interface SwingState {
+  id: number; // 0: nothing has begun
+  running: boolean;
+  done: number;
+  across: SwingAxis;
+  up: SwingAxis;
+  growth_1_s: (number | "none" | null)[]; // up by up; null: not yet
+  own: { growth_1_s: number | null; frequency_Hz: number | null };
+}
+export interface SwingWishAxis {
+  keys: string[];
+  from: number;
+  to: number;
+  count: number;
+}
+export const swingBegin = async (
+  wish: Wish & { across: SwingWishAxis; up: SwingWishAxis },
+): Promise<SwingState> => (await ask("/swing/begin", wish)).json() as Promise<SwingState>;
+export const swingState = async (): Promise<SwingState> =>
+  (await ask("/swing")).json() as Promise<SwingState>;
+export const swingStop = async (): Promise<void> => void (await ask("/swing/stop", {}));

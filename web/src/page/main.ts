@@ -40,6 +40,7 @@ class Page {
       new Chart(panel, {
         seek: (t) => this.seek(t),
         zoomed: (from, to) => {
+          this.zoomed = !Number.isNaN(from);
           for (const chart of this.charts) {
             chart.range(from, to, this.player.end);
           }
@@ -47,13 +48,16 @@ class Page {
       }),
   );
   private recordings: Recording[] = [];
+  private flights: FlightView[] = [];
+  private following = false; // a flight that is still flying
+  private zoomed = false;
   private shown = Number.NaN;
   private dirty = true;
 
   constructor() {
     by("charts").append(...this.charts.map((chart) => chart.element));
     this.viewButtons();
-    by("play").addEventListener("click", () => this.player.toggle());
+    by("play").addEventListener("click", () => this.toggle());
     by<HTMLSelectElement>("speed").addEventListener("change", (event) => {
       this.player.speed = Number((event.target as HTMLSelectElement).value);
     });
@@ -85,6 +89,7 @@ class Page {
   }
   /** The same, seen from where one looks, at the same time. */
   refresh(recordings: Recording[]): void {
+    this.following &&= recordings[0] === this.recordings[0];
     const anew = this.recordings.length === 0;
     this.recordings = recordings;
     const first = recordings[0];
@@ -100,25 +105,53 @@ class Page {
     by("names").textContent =
       recordings.length > 1 ? recordings.map((one) => one.name).join(", ") : "";
     this.player.end = first.duration;
-    const flights = recordings.map(
+    this.flights = recordings.map(
       (recording, k) => new FlightView(recording, k > 0, this.stage.cut),
     );
-    flights.forEach((flight) => {
+    for (const flight of this.flights) {
       flight.show(this.player.time);
-    });
-    this.stage.setFlights(flights);
+    }
+    this.stage.setFlights(this.flights);
     this.stage.setFloor(Math.min(-0.5, (first.frames.get("base_link")?.at(0)[2] ?? 0) - 1.2));
     this.timeline.load(first);
+    this.zoomed = false;
     this.loadCharts();
     if (anew) {
       this.view(this.stage.currentView);
     }
     this.redraw();
   }
+  /** As it flies: at its latest time until somebody seeks another. */
+  follow(recording: Recording): void {
+    this.player.playing = false;
+    if (this.recordings[0] !== recording) {
+      this.refresh([recording]);
+      this.view(this.stage.currentView);
+    }
+    this.following = true;
+  }
+  grown(recording: Recording): void {
+    if (this.recordings[0] !== recording) {
+      return; // another one is looked at
+    }
+    if (this.flights.some((flight) => flight.outgrown)) {
+      this.refresh(this.recordings);
+    } else {
+      this.player.end = recording.duration;
+      this.timeline.grow();
+      this.loadCharts();
+    }
+    this.redraw();
+  }
   seek(t: number): void {
+    this.following = false;
     this.player.seek(t);
     this.player.playing = false;
     this.redraw();
+  }
+  private toggle(): void {
+    this.following = false;
+    this.player.toggle();
   }
   async open(files: File[]): Promise<void> {
     try {
@@ -146,6 +179,7 @@ class Page {
       time: this.player.time,
       end: this.player.end,
       recordings: this.recordings.length,
+      following: this.following,
       vehicle: this.stage.vehicleInPicture(),
       charts: this.charts.filter((chart) => !chart.element.hidden).length,
       geometries: this.stage.renderer.info.memory.geometries,
@@ -155,17 +189,22 @@ class Page {
   }
 
   private show(): void {
+    if (this.following) {
+      this.player.end = this.recordings[0]?.duration ?? 0;
+      this.player.seek(this.player.end);
+    }
     by("play").textContent = this.player.playing ? "Pause" : "Play";
     if (this.recordings.length === 0 || (this.player.time === this.shown && !this.dirty)) {
       return;
     }
+    const charts = this.dirty || !this.following; // what flies moves at each picture, they when told
     this.dirty = false;
     this.shown = this.player.time;
     by("time").textContent = `${this.shown.toFixed(2)} s`;
     this.stage.draw(this.recordings.map((recording) => Math.min(this.shown, recording.duration)));
     this.timeline.show(this.shown);
     for (const chart of this.charts) {
-      if (!chart.element.hidden) {
+      if (charts && !chart.element.hidden) {
         chart.show(this.shown);
       }
     }
@@ -205,7 +244,7 @@ class Page {
     const kStep_s = event.shiftKey ? 1 : 0.05;
     const chosen = kViews[Number(event.key) - 1];
     if (event.key === " " && !(event.target instanceof HTMLButtonElement)) {
-      this.player.toggle();
+      this.toggle();
     } else if (event.key === "ArrowRight") {
       this.seek(this.player.time + kStep_s);
     } else if (event.key === "ArrowLeft") {
@@ -234,7 +273,8 @@ class Page {
     };
     const width = by("charts").clientWidth - 16;
     for (const chart of this.charts) {
-      if (chart.load(this.recordings, colours, Math.max(200, width))) {
+      const there = chart.load(this.recordings, colours, Math.max(200, width));
+      if (there && !this.zoomed) {
         chart.range(Number.NaN, Number.NaN, this.player.end);
       }
     }

@@ -52,20 +52,32 @@ export class Timeline {
   load(recording: Recording): void {
     this.recording = recording;
     this.current = -2;
+    this.items = [];
+    this.list.replaceChildren();
+    this.grow();
+  }
+  /** The recording has grown. */
+  grow(): void {
+    const { recording } = this;
+    if (recording === undefined) {
+      return;
+    }
     this.slider.max = String(recording.duration);
     this.drawBars(recording);
-    this.items = recording.events.map((event) => {
-      const item = document.createElement("li");
-      const button = document.createElement("button");
-      button.type = "button";
-      const time = document.createElement("time");
-      time.textContent = `${event.time.toFixed(3)} s`;
-      button.append(time, ` ${eventText(event)}`);
-      button.addEventListener("click", () => this.seek(event.time));
-      item.append(button);
-      return item;
-    });
-    this.list.replaceChildren(...this.items);
+    const more = recording.events.slice(this.items.length).map((event) => this.itemOf(event));
+    this.items.push(...more);
+    this.list.append(...more);
+  }
+  private itemOf(event: FlightEvent): HTMLLIElement {
+    const item = document.createElement("li");
+    const button = document.createElement("button");
+    button.type = "button";
+    const time = document.createElement("time");
+    time.textContent = `${event.time.toFixed(3)} s`;
+    button.append(time, ` ${eventText(event)}`);
+    button.addEventListener("click", () => this.seek(event.time));
+    item.append(button);
+    return item;
   }
 
   show(t: number): void {

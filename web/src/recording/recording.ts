@@ -53,6 +53,8 @@ export interface Recording {
   tables: Map<string, Table>;
 }
 
+const kVehicle = "base_link";
+
 export class NotARecording extends Error {}
 
 interface Xyz {
@@ -72,6 +74,9 @@ interface Transforms {
     child_frame_id: string;
     transform: { translation: Xyz; rotation: Xyzw };
   }[];
+}
+interface Posed {
+  pose: { position: Xyz; orientation: Xyzw };
 }
 interface Markers {
   markers: {
@@ -148,15 +153,20 @@ class TableBuilder {
 
 type Take = (t: number, message: unknown) => void;
 
-/** Takes a recording's records, in any order of channels, and makes a Recording of them. */
-class Builder {
-  private readonly readers = new Map<
-    number,
-    { topic: string; reader: MessageReader; take: Take }
-  >();
+/** What a channel's messages are; of others than ROS 2's nothing is taken. */
+export interface ChannelOf {
+  id: number;
+  topic: string;
+  encoding: string;
+  schemaEncoding: string;
+  schema: string;
+}
+
+/** Takes channels and messages, in any order of channels, and makes a Recording of them. */
+export class Builder {
+  private readonly readers = new Map<number, { reader: MessageReader; take: Take }>();
   private readonly tables = new Map<string, TableBuilder>();
-  private readonly schemas = new Map<number, McapTypes.TypedMcapRecords["Schema"]>();
-  private last = 0;
+  private readonly estimated = new Track("map"); // where the vehicle believes to be
   readonly recording: Recording;
 
   constructor(
@@ -178,36 +188,24 @@ class Builder {
     };
   }
 
-  schema(schema: McapTypes.TypedMcapRecords["Schema"]): void {
-    this.schemas.set(schema.id, schema);
-  }
-  channel(channel: McapTypes.TypedMcapRecords["Channel"]): void {
-    const schema = this.schemas.get(channel.schemaId);
-    if (
-      this.readers.has(channel.id) || // the summary names all once more
-      schema === undefined ||
-      schema.encoding !== "ros2msg" ||
-      channel.messageEncoding !== "cdr"
-    ) {
-      return;
+  /** @returns whether its messages are wanted */
+  channel({ id, topic, encoding, schemaEncoding, schema }: ChannelOf): boolean {
+    if (this.readers.has(id)) {
+      return true; // a file's summary names all once more
     }
-    const take = this.taker(channel.topic);
-    if (take === undefined) {
-      return;
+    const take = encoding === "cdr" && schemaEncoding === "ros2msg" ? this.taker(topic) : undefined;
+    if (take !== undefined) {
+      const reader = new MessageReader(parseDefinition(schema, { ros2: true }));
+      this.readers.set(id, { reader, take });
     }
-    const definition = parseDefinition(new TextDecoder().decode(schema.data), { ros2: true });
-    this.readers.set(channel.id, {
-      topic: channel.topic,
-      reader: new MessageReader(definition),
-      take,
-    });
+    return take !== undefined;
   }
-  message(message: McapTypes.TypedMcapRecords["Message"]): void {
-    const channel = this.readers.get(message.channelId);
-    if (channel !== undefined) {
-      const t = seconds(message.logTime);
-      this.last = Math.max(this.last, t);
-      channel.take(t, channel.reader.readMessage(message.data));
+  message(channel: number, time_ns: bigint, data: Uint8Array): void {
+    const of = this.readers.get(channel);
+    if (of !== undefined) {
+      const t = seconds(time_ns);
+      this.recording.duration = Math.max(this.recording.duration, t);
+      of.take(t, of.reader.readMessage(data));
     }
   }
   attachment(name: string, data: Uint8Array): void {
@@ -223,16 +221,18 @@ class Builder {
       this.recording.scenario = values.get("scenario") ?? "";
     }
   }
-  finish(): Recording {
+  /** Tables and phases as far as messages have come. */
+  tell(): Recording {
+    const { recording } = this;
     for (const [topic, builder] of this.tables) {
-      this.recording.tables.set(topic, builder.table());
+      recording.tables.set(topic, builder.table());
     }
-    this.recording.duration = this.last;
-    this.recording.phases = phasesOf(this.recording.tables.get("/guidance"), this.last);
-    if (this.recording.tables.size === 0) {
-      throw new NotARecording(`${this.recording.name} holds no messages that this page reads`);
+    recording.phases = phasesOf(recording.tables.get("/guidance"), recording.duration);
+    // A companion knows no truth: its vehicle is where it is estimated.
+    if (this.estimated.time.length > 0 && !recording.frames.has(kVehicle)) {
+      recording.frames.set(kVehicle, this.estimated);
     }
-    return this.recording;
+    return recording;
   }
 
   private taker(topic: string): Take | undefined {
@@ -254,14 +254,20 @@ class Builder {
         }
         const builder = new TableBuilder(topic);
         this.tables.set(topic, builder);
-        return (t, message) => builder.push(t, message);
+        return topic === "/estimate/pose"
+          ? (t, message) => {
+              builder.push(t, message);
+              const { position, orientation } = (message as Posed).pose;
+              this.estimated.push(t, pose(position, orientation));
+            }
+          : (t, message) => builder.push(t, message);
       }
     }
   }
   private move(t: number, message: Transforms): void {
     for (const { header, child_frame_id, transform } of message.transforms) {
       let track = this.recording.frames.get(child_frame_id);
-      if (track === undefined) {
+      if (track === undefined || track === this.estimated) {
         track = new Track(header.frame_id);
         this.recording.frames.set(child_frame_id, track);
       }
@@ -328,19 +334,28 @@ const decompressHandlers = {
  */
 export function readRecording(name: string, bytes: Uint8Array, columns: Set<string>): Recording {
   const builder = new Builder(name, columns);
+  const schemas = new Map<number, McapTypes.TypedMcapRecords["Schema"]>();
   const reader = new McapStreamReader({ decompressHandlers });
   try {
     reader.append(bytes);
     for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
       switch (record.type) {
         case "Schema":
-          builder.schema(record);
+          schemas.set(record.id, record);
           break;
-        case "Channel":
-          builder.channel(record);
+        case "Channel": {
+          const schema = schemas.get(record.schemaId);
+          builder.channel({
+            id: record.id,
+            topic: record.topic,
+            encoding: record.messageEncoding,
+            schemaEncoding: schema?.encoding ?? "",
+            schema: new TextDecoder().decode(schema?.data),
+          });
           break;
+        }
         case "Message":
-          builder.message(record);
+          builder.message(record.channelId, record.logTime, record.data);
           break;
         case "Attachment":
           builder.attachment(record.name, record.data);
@@ -353,5 +368,9 @@ export function readRecording(name: string, bytes: Uint8Array, columns: Set<stri
   } catch (problem) {
     throw new NotARecording(`${name} is not an MCAP recording: ${String(problem)}`);
   }
-  return builder.finish();
+  const recording = builder.tell();
+  if (recording.tables.size === 0) {
+    throw new NotARecording(`${name} holds no messages that this page reads`);
+  }
+  return recording;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording in the scene: frames, the vehicle's links in them, marks.
-import { Group, Object3D, type Plane } from "three";
+import { AxesHelper, Group, Object3D, type Plane } from "three";
 import type { Mark, Recording } from "../recording/recording";
-import { indexAt, type Table, valueAt } from "../recording/series";
+import { indexAt, valueAt } from "../recording/series";
 import { dispose, markShape } from "./marks";
 import { buildRobot, type Robot } from "./robot";
 
@@ -12,9 +12,8 @@ export class FlightView {
   readonly root = new Group();
   private readonly frames = new Map<string, Object3D>();
   private readonly robot: Robot;
+  private readonly urdf: string;
   private readonly shown = new Map<string, { mark: Mark; shape: Object3D }>();
-  private readonly vehicle: Table | undefined;
-  private readonly cup: Table | undefined;
 
   /**
    * @param ghost  beside another flight: the vehicle alone, seen through
@@ -26,9 +25,8 @@ export class FlightView {
     private readonly cut: Plane,
   ) {
     const kGhost = 0.35;
+    this.urdf = recording.urdf;
     this.robot = buildRobot(recording.urdf, recording.meshes, ghost ? kGhost : 1);
-    this.vehicle = recording.tables.get("/truth/vehicle");
-    this.cup = recording.tables.get("/cup");
     this.frames.set("map", this.root);
     for (const child of recording.frames.keys()) {
       this.frames.set(child, this.robot.links.get(child) ?? new Object3D());
@@ -36,12 +34,23 @@ export class FlightView {
     for (const [child, track] of recording.frames) {
       this.frames.get(track.parent)?.add(this.frames.get(child) as Object3D);
     }
+    if (this.robot.links.size === 0) {
+      const kArm_m = 0.3;
+      this.position()?.add(new AxesHelper(kArm_m)); // of no known shape: forward, left, up
+    }
   }
 
+  /** Whether frames have come that it was not made with. */
+  get outgrown(): boolean {
+    return this.recording.frames.size >= this.frames.size || this.recording.urdf !== this.urdf;
+  }
   /** Everything as it was at `t` [s]. */
   show(t: number): void {
     for (const [child, track] of this.recording.frames) {
-      const frame = this.frames.get(child) as Object3D;
+      const frame = this.frames.get(child);
+      if (frame === undefined) {
+        continue; // come since
+      }
       const [x, y, z, qx, qy, qz, qw] = track.at(t);
       frame.position.set(x, y, z);
       frame.quaternion.set(qx, qy, qz, qw);
@@ -66,12 +75,14 @@ export class FlightView {
     }
   }
 
+  /** Of a flight that still flies the tables grow. */
+  private value(topic: string, column: string, t: number): number {
+    const table = this.recording.tables.get(topic);
+    const values = table?.columns.get(column);
+    return (table && values && valueAt(table.time, values, t)) ?? 0;
+  }
   private turnRotors(t: number): void {
-    const speed = this.vehicle?.columns.get("rotor_speed_rad_s[0]");
-    const turning =
-      this.vehicle !== undefined &&
-      speed !== undefined &&
-      (valueAt(this.vehicle.time, speed, t) ?? 0) > kTurning_rad_s;
+    const turning = this.value("/truth/vehicle", "rotor_speed_rad_s[0]", t) > kTurning_rad_s;
     for (const disc of this.robot.discs) {
       disc.visible = turning;
     }
@@ -81,9 +92,7 @@ export class FlightView {
   }
   /** The lip is pressed together by as much as it is inside the wall. */
   private pressCup(t: number): void {
-    const gap = this.cup?.columns.get("gap_m");
-    const depth =
-      gap === undefined ? 0 : -Math.min(0, valueAt((this.cup as Table).time, gap, t) ?? 0);
+    const depth = -Math.min(0, this.value("/cup", "gap_m", t));
     const length = this.recording.frames.get("lip")?.at(0)[0] ?? 0.04;
     this.robot.soft.scale.x = Math.max(0.3, 1 - depth / length);
   }

@@ -9,7 +9,7 @@
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/snapshot.hpp"
 
-namespace limpet::paper {
+namespace limpet::stability {
 
 /// A mode of a linear system: x ~ exp(growth t) sin(2 pi frequency t).
 struct Mode {
@@ -60,4 +60,4 @@ private:
 /// @throws InternalError when there is none
 [[nodiscard]] Mode pitch_mode(const std::vector<Mode>& modes);
 
-}  // namespace limpet::paper
+}  // namespace limpet::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/level_on_cup.hpp"
+#include "limpet/stability/level_on_cup.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -10,7 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/advance.hpp"
 
-namespace limpet::paper {
+namespace limpet::stability {
 namespace {
 
 using Vector = Eigen::VectorXd;
@@ -257,4 +257,4 @@ Mode pitch_mode(const std::vector<Mode>& modes) {
     return *found;
 }
 
-}  // namespace limpet::paper
+}  // namespace limpet::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/paper/level_on_cup.hpp"
+#include "limpet/stability/level_on_cup.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <complex>
 #include <ostream>
 
-#include "limpet/paper/oscillation.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/stability/map.hpp"
 
-namespace limpet::paper {
+namespace limpet::stability {
 namespace {
 
 using Complex = std::complex<double>;
@@ -118,4 +118,4 @@ TEST(LevelOnCup, SlowMotorsSwingInPitchAlone) {
 }
 
 }  // namespace
-}  // namespace limpet::paper
+}  // namespace limpet::stability

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/stability/map.hpp"
+
+#include <fmt/format.h>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/plant/reduced_plant.hpp"
+#include "limpet/scenario/loader.hpp"
+
+namespace limpet::stability {
+
+Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
+    scenario::Scenario waits = scenario::load_scenario(scenario, {.overrides = overrides});
+    const char* const lacks = !waits.airframe.has_cup               ? "a vehicle with a cup"
+                              : !waits.wall.present                 ? "a wall"
+                              : waits.mount != vehicle::Mount::free ? "a free vehicle"
+                              : waits.autopilot_kind != &autopilot::kCascade
+                                  ? "the autopilot 'cascade'"
+                                  : nullptr;
+    if (lacks != nullptr) {
+        throw InputError(fmt::format("{}: the swing on the cup asks for {}", waits.name, lacks));
+    }
+    waits.engine = &plant::kReducedEngine;  // whose bodies can be displaced
+    return pitch_mode(LevelOnCup(simulation::build_model(std::move(waits))).modes());
+}
+
+Overrides StabilityMap::point(std::size_t i) const {
+    Overrides all = changes;
+    const auto set = [&all](const Axis& axis, std::size_t place) {
+        for (const std::string& key : axis.keys) {
+            all.push_back(fmt::format("{}={}", key, axis.values[place]));
+        }
+    };
+    set(across, i % across.values.size());
+    set(up, i / across.values.size());
+    return all;
+}
+
+Mode swing_at(const StabilityMap& map, std::size_t i) {
+    return linear_swing(map.scenario, map.point(i));
+}
+
+}  // namespace limpet::stability

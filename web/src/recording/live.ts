@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flight that is flying (`--live`), by Foxglove's WebSocket protocol, into a recording that grows.
+import { parse } from "@foxglove/rosmsg";
+import { MessageReader } from "@foxglove/rosmsg2-serialization";
+import { Builder, type ChannelOf, type Recording } from "./recording";
+
+export interface LiveNews {
+  /** What may be asked for, by name. */
+  services(names: string[]): void;
+  /** A line of the flight, or an answer to what was asked for. */
+  said(text: string): void;
+  closed(why: string): void;
+}
+
+interface Service {
+  id: number;
+  name: string;
+}
+type Told =
+  | { op: "serverInfo"; name: string }
+  | { op: "advertise"; channels: ChannelOf[] }
+  | { op: "advertiseServices"; services: Service[] }
+  | { op: "status"; message: string }
+  | { op: "serviceCallFailure"; message: string }
+  | { op: "other" };
+
+const kSubprotocols = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
+const kMessage = 1; // bytes from a flight begin so
+const kAnswer = 3;
+const kCall = 2; // and to it
+const kNothing = [0, 1, 0, 0, 0]; // a request without fields, as CDR
+
+/** @throws Error in a line where it is no flight of this machine */
+export function liveAddress(text: string): URL {
+  const found = /wss?:\/\/\S+/.exec(text)?.[0];
+  const url = found === undefined ? undefined : new URL(found);
+  if (url?.protocol !== "ws:" || !["127.0.0.1", "localhost"].includes(url.hostname)) {
+    throw new Error(
+      "an address as a flight of this machine prints it: ws://127.0.0.1:8765/?token=...",
+    );
+  }
+  return url;
+}
+
+/** @returns the bytes that ask a service for what it does */
+export function callOf(service: number, call: number): Uint8Array<ArrayBuffer> {
+  const encoding = new TextEncoder().encode("cdr");
+  const bytes = new Uint8Array(13 + encoding.length + kNothing.length);
+  const view = new DataView(bytes.buffer);
+  view.setUint8(0, kCall);
+  view.setUint32(1, service, true);
+  view.setUint32(5, call, true);
+  view.setUint32(9, encoding.length, true);
+  bytes.set(encoding, 13);
+  bytes.set(kNothing, 13 + encoding.length);
+  return bytes;
+}
+
+export class LiveFlight {
+  private readonly socket: WebSocket;
+  private readonly builder: Builder;
+  private readonly services = new Map<string, number>();
+  private readonly answers = new MessageReader<{ success: boolean; message: string }>(
+    parse("bool success\nstring message", { ros2: true }),
+  );
+  private calls = 0;
+  messages = 0;
+
+  constructor(
+    address: URL,
+    columns: Set<string>,
+    private readonly news: LiveNews,
+  ) {
+    this.builder = new Builder("live", columns);
+    this.socket = new WebSocket(address, kSubprotocols);
+    this.socket.binaryType = "arraybuffer";
+    this.socket.addEventListener("message", ({ data }: MessageEvent<string | ArrayBuffer>) =>
+      typeof data === "string" ? this.hear(JSON.parse(data) as Told) : this.take(data),
+    );
+    this.socket.addEventListener("close", ({ code }) =>
+      this.news.closed(
+        this.messages > 0 || code !== 1006
+          ? "the flight is no longer there"
+          : "no flight answers there, or its token is another one",
+      ),
+    );
+  }
+  close(): void {
+    this.socket.close();
+  }
+  /** As far as it has come. */
+  recording(): Recording {
+    return this.builder.tell();
+  }
+  ask(name: string): void {
+    const service = this.services.get(name);
+    if (service !== undefined && this.socket.readyState === WebSocket.OPEN) {
+      this.calls += 1;
+      this.socket.send(callOf(service, this.calls));
+    }
+  }
+
+  private hear(told: Told): void {
+    switch (told.op) {
+      case "serverInfo":
+        this.builder.recording.scenario = told.name.replace(/^limpet: /, "");
+        break;
+      case "advertise": {
+        const wanted = told.channels.filter((channel) => this.builder.channel(channel));
+        const subscriptions = wanted.map(({ id }) => ({ id, channelId: id }));
+        this.socket.send(JSON.stringify({ op: "subscribe", subscriptions }));
+        break;
+      }
+      case "advertiseServices":
+        for (const { id, name } of told.services) {
+          this.services.set(name, id);
+        }
+        this.news.services([...this.services.keys()]);
+        break;
+      case "status":
+      case "serviceCallFailure":
+        this.news.said(told.message);
+        break;
+    }
+  }
+  private take(data: ArrayBuffer): void {
+    const view = new DataView(data);
+    switch (view.getUint8(0)) {
+      case kMessage:
+        this.messages += 1;
+        this.builder.message(
+          view.getUint32(1, true),
+          view.getBigUint64(5, true),
+          new Uint8Array(data, 13),
+        );
+        break;
+      case kAnswer: {
+        const from = 13 + view.getUint32(9, true);
+        const { message } = this.answers.readMessage(new Uint8Array(data, from));
+        this.news.said(message);
+        break;
+      }
+    }
+  }
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flight in progress, watched in the lab's page.
+import assert from "node:assert/strict";
+import { type ChildProcess, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { parse } from "@foxglove/rosmsg";
+import { MessageWriter } from "@foxglove/rosmsg2-serialization";
+import { callOf, liveAddress } from "../src/recording/live";
+import { Builder } from "../src/recording/recording";
+import {
+  page,
+  picture,
+  press,
+  program,
+  said,
+  shown,
+  skip,
+  tab,
+  unreadable,
+  useLab,
+} from "./lab_page";
+
+interface LiveShown {
+  watching: boolean;
+  messages: number;
+  told: string;
+  said: string[];
+  services: string[];
+}
+interface Shown {
+  lab: { live: { outside(): LiveShown } };
+}
+const folder = mkdtempSync(join(tmpdir(), "limpet_lab_live_"));
+const flights: ChildProcess[] = [];
+useLab("perch_concrete", ["ws://127.0.0.1:"]);
+after(() => {
+  for (const flight of flights) {
+    flight.kill("SIGKILL");
+  }
+  rmSync(folder, { recursive: true, force: true });
+});
+
+const live = (): Promise<LiveShown> =>
+  page.evaluate(() => (window as unknown as Shown).lab.live.outside());
+const until = (what: (live: LiveShown) => boolean): Promise<unknown> =>
+  page.waitForFunction(
+    `(${what.toString()})(window.lab.live.outside())`, // runs in the page
+  );
+/** @returns the line with its address, and the result when it has ended */
+async function fly(
+  speed: number,
+): Promise<{ line: string; ended: Promise<{ outcome: string; reason: string; hash: string }> }> {
+  const flight = spawn(program, [
+    ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`, "--json"],
+    ...["--out", join(folder, `${flights.length}`)],
+  ]);
+  flights.push(flight);
+  let result = "";
+  flight.stdout.on("data", (text) => {
+    result += text;
+  });
+  const ended = new Promise<number | null>((done) => flight.on("close", done)).then((code) => {
+    assert.equal(code, 0);
+    return JSON.parse(result);
+  });
+  const line = await new Promise<string>((found, failed) => {
+    let told = "";
+    flight.once("exit", () => failed(new Error(`it ended: ${told}`)));
+    flight.stderr.on("data", (text) => {
+      told += text;
+      const here = /^.*ws:\/\/.*$/m.exec(told);
+      if (here !== null) {
+        found(here[0]);
+      }
+    });
+  });
+  return { line, ended };
+}
+async function watch(line: string): Promise<void> {
+  await page.$eval(
+    "#lab .live input",
+    (input, text) => {
+      input.value = text;
+    },
+    line,
+  );
+  await press("Watch");
+}
+
+test("an address is one of this machine; a call is a call", () => {
+  const here = "ws://127.0.0.1:8765/?token=ab";
+  assert.equal(liveAddress(`  live  ${here}  (limpet lab: Live)`).href, here);
+  for (const other of [
+    "",
+    "ws://192.0.2.1:8765/",
+    "wss://127.0.0.1:1/",
+    "ws://localhost.example/",
+  ]) {
+    assert.throws(() => liveAddress(other), /as a flight of this machine prints it/);
+  }
+  assert.deepEqual(
+    [...callOf(3, 258)],
+    [2, 3, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0, 99, 100, 114, 0, 1, 0, 0, 0],
+  );
+});
+
+test("a vehicle without a truth is where it is estimated", () => {
+  const numbers = (names: string): string =>
+    names
+      .split(" ")
+      .map((name) => `float64 ${name}`)
+      .join("\n");
+  const line = "=".repeat(80);
+  const schema = `geometry_msgs/Pose pose
+${line}
+MSG: geometry_msgs/Pose
+geometry_msgs/Point position
+geometry_msgs/Quaternion orientation
+${line}
+MSG: geometry_msgs/Point
+${numbers("x y z")}
+${line}
+MSG: geometry_msgs/Quaternion
+${numbers("x y z w")}`;
+  const writer = new MessageWriter(parse(schema, { ros2: true }));
+  const builder = new Builder("live", new Set(["/estimate/pose"]));
+  const channel = { id: 4, encoding: "cdr", schemaEncoding: "ros2msg", schema };
+  assert.equal(builder.channel({ ...channel, topic: "/nobody/asks" }), false);
+  assert.equal(builder.channel({ ...channel, topic: "/estimate/pose" }), true);
+  for (const x of [0, 1]) {
+    const pose = { position: { x, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
+    builder.message(4, BigInt(x) * 1_000_000_000n, writer.writeMessage({ pose }));
+  }
+  const { frames, duration } = builder.tell();
+  assert.equal(duration, 1);
+  assert.deepEqual(frames.get("base_link")?.at(0.5), [0.5, 2, 3, 0, 0, 0, 1]);
+});
+
+test("a flight is seen as it flies, and can be asked to stop", { skip }, async () => {
+  await tab("Live");
+  await watch("ws://192.0.2.1:8765/");
+  const problem = await page.$eval("#problem", (e) => e.textContent);
+  assert.match(problem ?? "", /as a flight of this machine prints it/);
+
+  const { line, ended } = await fly(2);
+  await watch(line);
+  await until(({ messages }) => messages > 500);
+  assert.deepEqual((await live()).services, ["Pause", "Resume", "Take off", "Abort"]);
+  const early = await shown();
+  assert.equal(early.recordings, 1);
+  assert.ok(early.following && early.vehicle.seen && early.charts >= 6, JSON.stringify(early));
+
+  await press("Pause");
+  await until(({ said }) => said.includes("paused"));
+  await press("Pause");
+  await until(({ said }) => said.includes("is paused already"));
+  await press("Take off"); // guidance's own guard
+  await until(({ said }) => said.includes("does not rest on the wall"));
+  await new Promise((passed) => setTimeout(passed, 300));
+  const held = await shown();
+  assert.ok(held.time > early.time && held.time === held.end, JSON.stringify(held));
+  assert.match((await live()).told, /^perch_concrete · \d+\.\d s · \w+/);
+  await picture("lab_live.png");
+  assert.deepEqual(await unreadable(), []);
+
+  // What was is looked at while it flies on; then it is followed again.
+  await page.$eval("#timeline input", (slider) => {
+    (slider as HTMLInputElement).value = "0.5";
+    slider.dispatchEvent(new Event("input"));
+  });
+  assert.equal((await shown()).following, false);
+  await press("Resume");
+  await page.waitForFunction(
+    (end) =>
+      (window as unknown as { limpet: { state(): { end: number } } }).limpet.state().end > end + 1,
+    {},
+    held.end,
+  );
+  assert.equal((await shown()).time, 0.5);
+  await press("Now");
+  const again = await shown();
+  assert.ok(again.following && again.end > held.end);
+  await press("Abort");
+  const result = await ended;
+  assert.equal(result.outcome, "aborted");
+  await until(({ watching }) => !watching);
+  const last = await live();
+  assert.equal(last.told, "the flight is no longer there");
+  assert.ok(last.said.includes("aborted: a viewer asked for it"), JSON.stringify(last.said));
+});
+
+test(
+  "it is watched to its end, from the wall to the wall, and no other for it",
+  { skip },
+  async () => {
+    const { line, ended } = await fly(4);
+    await watch(line);
+    const { outcome, hash } = await ended;
+    await until(({ watching }) => !watching);
+    const { end } = await shown();
+    const events = await page.$$eval("#events li", (all) =>
+      all.map((one) => one.textContent ?? ""),
+    );
+    for (const wanted of ["attached", "perched"]) {
+      assert.ok(
+        events.some((text) => text.includes(wanted)),
+        `${wanted}: ${events}`,
+      );
+    }
+    const alone = spawn(program, ["fly", "perch_concrete", "--no-record", "--json"]);
+    let text = "";
+    alone.stdout.on("data", (part) => {
+      text += part;
+    });
+    await new Promise((done) => alone.on("close", done));
+    const plain = JSON.parse(text);
+    assert.equal(outcome, plain.outcome);
+    assert.equal(hash, plain.hash);
+    assert.ok(Math.abs(end - plain.performance.simulated_s) < 0.1, `${end}`);
+    await watch(line);
+    await until(({ told }) => told === "no flight answers there, or its token is another one");
+    assert.deepEqual(
+      said.filter((one) => !/WebSocket connection to/.test(one)),
+      [],
+    );
+  },
+);
