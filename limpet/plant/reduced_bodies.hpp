@@ -24,11 +24,8 @@ public:
 
     /// After every change of numbers or state.
     void refresh() {
-        step_.start(numbers.mechanism, state.bodies);
-        if (numbers.mechanism.has_cup) {
-            cup_ = motion(Body::cup);
-        }
-        news_ = true;
+        pushes_.fill(true);
+        find_place();
     }
     [[nodiscard]] MechanismStep<T>& step() { return step_; }
     [[nodiscard]] const Mechanism<T>& at() const { return step_.at(); }
@@ -36,7 +33,9 @@ public:
     void apply(int lane, Body body, const Wrench& wrench_W, const Vector3& p_W_m) {
         const Vector3 arm_m = p_W_m - in_lane(state.bodies.p_WB_m, lane);
         const Vector3 moment_N_m = wrench_W.moment_N_m + arm_m.cross(wrench_W.force_N);
-        PushedOn<T>& on = state.pushed[static_cast<std::size_t>(body)];
+        const auto k = static_cast<std::size_t>(body);
+        PushedOn<T>& on = state.pushed[k];
+        pushes_[k] = true;
         set_lane(on.force_W_N, lane, in_lane(on.force_W_N, lane) + wrench_W.force_N);
         set_lane(on.moment_W_N_m, lane, in_lane(on.moment_W_N_m, lane) + moment_N_m);
         news_ = true;
@@ -68,7 +67,8 @@ public:
         take_contacts(change, step_s);
         integrate(change, step_s);
         state.pushed = {};
-        refresh();
+        pushes_.fill(false);
+        find_place();
     }
 
     [[nodiscard]] Kinematics kinematics(int lane, Body body) const {
@@ -100,6 +100,14 @@ private:
         Vec3<T> rate_m_s = Vec3<T>::Zero();
     };
 
+    void find_place() {
+        step_.start(numbers.mechanism, state.bodies);
+        if (numbers.mechanism.has_cup) {
+            cup_ = motion(Body::cup);
+        }
+        news_ = true;
+    }
+
     [[nodiscard]] Motion<T> motion(Body body) const {
         const MechanismState<T>& base = state.bodies;
         const Mechanism<T>& now = at();
@@ -120,9 +128,12 @@ private:
     void push_all() {
         MechanismForces<T>& all = step_.pushed();
         all = at().force;
-        push(state.pushed[0], all.base);
-        push(state.pushed[1], all.carriage);
-        push(state.pushed[2], all.cup);
+        Spatial<T>* const on[] = {&all.base, &all.carriage, &all.cup};
+        for (std::size_t k = 0; k < kBodies; ++k) {
+            if (pushes_[k]) {
+                push(state.pushed[k], *on[k]);
+            }
+        }
     }
     void push(const PushedOn<T>& by, Spatial<T>& on) const {
         const Mat3<T>& R_WB = at().R_WB;
@@ -325,7 +336,8 @@ private:
     Motion<T> cup_;
     std::array<std::array<Touch, kFaces>, kTips> touches_;
     bool touching_ = false;
-    bool news_ = true;  ///< pushes that step_ does not know
+    std::array<bool, kBodies> pushes_{};  ///< bodies that something may push
+    bool news_ = true;                    ///< pushes that step_ does not know
 };
 
 template <class T>
