@@ -21,7 +21,7 @@ Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
         throw InputError(fmt::format("{}: the swing on the cup asks for {}", waits.name, lacks));
     }
     waits.engine = &plant::kReducedEngine;  // whose bodies can be displaced
-    return pitch_mode(LevelOnCup(simulation::build_model(std::move(waits))).modes());
+    return pitch_mode(LevelOnCup(simulation::build_model(waits)).modes());
 }
 
 Overrides StabilityMap::point(std::size_t i) const {
