@@ -69,6 +69,7 @@ struct StudyPart {
 [[nodiscard]] StudyPart suction_part();      ///< Table II, Fig. 2
 [[nodiscard]] StudyPart trials_part();       ///< Fig. 3
 [[nodiscard]] StudyPart flights_part();      ///< Figs. 9 to 15
+[[nodiscard]] StudyPart recorded_part();     ///< Figs. 4, 5
 [[nodiscard]] StudyPart oscillation_part();  ///< the open question
 [[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
 /// In the paper's order.

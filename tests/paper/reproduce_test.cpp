@@ -85,6 +85,44 @@ TEST(ReproduceOnly, APartAloneJudgesWhatItBearsOn) {
     EXPECT_EQ(json["claims"].size(), 6U);
 }
 
+TEST(ReproduceOnly, FlightsThatWereRecordedElsewhere) {
+    const Bench bench;
+    const Finished done = bench.run({"reproduce", "--only", "recorded", "--out", "page"});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const Json json = Json::parse(text_of(bench.folder() / "page" / "results.json"));
+    ASSERT_EQ(json["claims"].size(), 3U);
+    for (const Json& claim : json["claims"]) {
+        EXPECT_EQ(claim["verdict"], "reproduced") << claim;
+    }
+    const fs::path source = LIMPET_SOURCE_DIR;
+    for (const char* name : {"px4", "companion"}) {
+        const Json kept =
+            Json::parse(text_of(source / "paper/recorded" / (std::string(name) + ".json")));
+        EXPECT_EQ(kept["peer"].get<std::string>().substr(0, 5), "PX4 1") << "no stand-in";
+        EXPECT_NEAR(kept["metrics"]["perched_pitch_deg"].get<double>(), 66.8, 1.0);
+    }
+}
+
+/// Data of one's own, but for one file.
+TEST(ReproduceBadInput, ARecordedFlightThatIsNoneIsNamed) {
+    const Bench bench;
+    const fs::path source = LIMPET_SOURCE_DIR, data = bench.folder() / "data";
+    fs::create_directories(data / "paper/recorded");
+    for (const char* name : {"scenarios", "vehicles", "campaigns", "surfaces.yaml",
+                             "paper/page.yaml", "paper/statements.yaml"}) {
+        fs::create_symlink(source / name, data / name);
+    }
+    for (const char* text : {"{", "{}", R"({"outcome": 1})"}) {
+        std::ofstream(data / "paper/recorded/px4.json") << text;
+        ::setenv("LIMPET_DATA", data.c_str(), 1);
+        const Finished done = bench.run({"reproduce", "--only", "recorded", "--out", "page"});
+        ::unsetenv("LIMPET_DATA");
+        EXPECT_EQ(done.exit_code, 2) << done.err;
+        EXPECT_TRUE(done.one_line_of_error()) << done.err;
+        EXPECT_NE(done.err.find("paper/recorded/px4.json: "), std::string::npos) << done.err;
+    }
+}
+
 TEST(ReproduceBadInput, IsOneLineAndTouchesNothing) {
     const Bench bench;
     (void)bench.write("file", "");
