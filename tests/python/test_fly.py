@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -103,7 +102,11 @@ def test_threads_fly_beside_each_other():
 def test_ctrl_c_ends_a_flight():
     script = """import limpet
 class Stay:
+    flies = False
     def update(self, *_):
+        if not self.flies:
+            self.flies = True
+            print("flies", flush=True)
         return limpet.Setpoint.position([0, 0, 0])
 try:
     limpet.fly("hover", {"simulation.time_limit_s": 3600}, guidance=Stay())
@@ -111,9 +114,8 @@ except KeyboardInterrupt:
     print("ended")
 """
     child = subprocess.Popen([sys.executable, "-c", "import signal; signal.signal(signal.SIGINT, "
-                              "signal.default_int_handler); print('begun', flush=True)\n" + script],
+                              "signal.default_int_handler)\n" + script],
                              stdout=subprocess.PIPE, text=True, env=dict(os.environ))
-    assert child.stdout.readline() == "begun\n"
-    time.sleep(1.0)  # no harm when it has not begun to fly
+    assert child.stdout.readline() == "flies\n"
     child.send_signal(signal.SIGINT)
     assert child.communicate(timeout=60)[0] == "ended\n"

@@ -3,7 +3,7 @@
 
 namespace limpet {
 
-/// @return calls of operator new since the test program began
+/// @return calls of operator new by this thread, since it began
 [[nodiscard]] long allocations();
 
 }  // namespace limpet
