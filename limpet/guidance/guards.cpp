@@ -196,6 +196,14 @@ bool pressure_implausible(const Scene& s) {
 bool wall_hit(const Scene& s) {
     return s.readings.force.value.axial_N < -s.parameters.impact_force_N;
 }
+/// Where the force sensor is stuck: the wall has stopped it, and the cup holds.
+bool caught(const Scene& s) {
+    constexpr double kNear = 0.5, kSlow = 0.25;
+    const WallSeen& wall = s.memory.wall;
+    return sealed(s) &&
+           wall.distance_m(s.parameters, s.estimate.p_WB_m) < kNear * s.parameters.pre_distance_m &&
+           wall.into_wall_W().dot(s.estimate.v_WB_m_s) < kSlow * s.parameters.dock_speed_m_s;
+}
 bool approach_too_long(const Scene& s) {
     return s.elapsed_s() > s.parameters.approach_limit_s;
 }

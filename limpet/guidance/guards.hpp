@@ -56,6 +56,7 @@ struct Scene {
 /// A free cup is at atmospheric pressure: a sensor that says otherwise, or nothing, is broken.
 [[nodiscard]] bool pressure_implausible(const Scene& s);
 [[nodiscard]] bool wall_hit(const Scene& s);
+[[nodiscard]] bool caught(const Scene& s);
 [[nodiscard]] bool approach_too_long(const Scene& s);
 [[nodiscard]] bool hold_is_over(const Scene& s);
 [[nodiscard]] bool sealed(const Scene& s);

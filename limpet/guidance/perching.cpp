@@ -61,6 +61,8 @@ constexpr std::array kTable = {
 
     Transition{S::approaching, estimate_lost, S::braking, "position estimate lost", E::aborted},
     Transition{S::approaching, wall_hit, S::holding, "pressed on the wall", E::impact},
+    Transition{S::approaching, caught, S::holding, "the wall stops it, and the cup holds",
+               E::impact},
     Transition{S::approaching, wall_lost, S::retreating, "LiDAR lost", E::aborted},
     Transition{S::approaching, force_lost, S::retreating, "force sensor silent", E::aborted},
     Transition{S::approaching, approach_too_long, S::retreating, "no impact in time", E::aborted},

@@ -58,6 +58,22 @@ TEST(FaultsInTheLoop, PosesThatLieAreNotFlownBy) {
     }
 }
 
+/// The impact is not felt, but the wall stops it and the pressure falls. A pressure that falls by
+/// itself, on the way, is no wall.
+TEST(FaultsInTheLoop, ATouchIsKnownByItsVacuumWhereTheForceIsStuck) {
+    for (const char* scenario : {"perch_concrete", "perch_metal_valve"}) {
+        const Trace trace = with_fault(scenario, "fault: force_stuck, phase: approaching");
+        EXPECT_EQ(trace.result.outcome, Outcome::released) << scenario << trace.result.reason;
+        EXPECT_EQ(trace.result.attempts, 1) << scenario;
+    }
+    const Trace drifts =
+        with_fault("perch_concrete", "fault: pressure_drifts, phase: approaching, size: -50000");
+    const auto approach_s = drifts.times(EventName::approach_started);
+    const auto impact_s = drifts.times(EventName::impact);
+    ASSERT_FALSE(impact_s.empty());
+    EXPECT_NEAR(impact_s[0] - approach_s[0], 1.66, 0.1);
+}
+
 TEST(FaultsInTheLoop, WithoutAnImuItStaysOnTheWallThatItRestsOn) {
     for (const char* scenario : {"perch_concrete", "perch_metal"}) {
         const Trace trace = with_fault(scenario, "fault: imu_lost, phase: resting");
