@@ -75,7 +75,9 @@ public:
     /// @throws InputError when the file cannot be written
     void record(const std::filesystem::path& file);
 
-    /// 1 ms of the loop; nothing once the flight has ended.
+    /// The loop to the next instant at which a sensor, guidance or a recording looks at the bodies:
+    /// 1 to 4 ms; 1 ms with stations of one's own, or with simulation.longest_step_s = 0.001.
+    /// Nothing once the flight has ended.
     /// @return whether it goes on
     bool tick();
     /// To the end: the mission's, a crash, or the scenario's time limit.

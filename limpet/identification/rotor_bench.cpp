@@ -40,7 +40,7 @@ std::vector<ThrustStandRow> static_thrust_stand(const vehicle::RotorParameters& 
     std::vector<ThrustStandRow> rows;
     for (const double asked_rpm : speeds_rpm) {
         const vehicle::RotorsState state = spun_up(rotor, asked_rpm);
-        const Wrench weighed = rotor_wrench_B(bench, state, {}, Vector3::Zero());
+        const Wrench weighed = rotor_wrench_B(bench, state.speed_rad_s, {}, Vector3::Zero());
         ThrustStandRow row;
         row.speed_rad_s = state.speed_rad_s[0];
         row.thrust_N = -weighed.force_N.z();
@@ -65,7 +65,8 @@ CrossWindResult cross_wind_tunnel(const vehicle::RotorParameters& rotor, double 
     double squares = 0.0;
     double products = 0.0;
     for (const double wind_m_s : winds_m_s) {
-        const Wrench weighed = rotor_wrench_B(bench, state, {}, wind_m_s * Vector3::UnitX());
+        const Wrench weighed =
+            rotor_wrench_B(bench, state.speed_rad_s, {}, wind_m_s * Vector3::UnitX());
         result.rows.push_back({.wind_m_s = wind_m_s, .drag_N = weighed.force_N.x()});
         squares += wind_m_s * wind_m_s;
         products += wind_m_s * weighed.force_N.x();

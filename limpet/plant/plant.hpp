@@ -91,6 +91,8 @@ public:
     /// A plant at its first state: B at the origin of W, level, at rest, unless the engine holds
     /// it elsewhere already.
     [[nodiscard]] virtual std::unique_ptr<Plant> make() const = 0;
+    /// Steps longer than 1 ms are as good to it, where nothing is about to touch.
+    [[nodiscard]] virtual bool takes_long_steps() const { return false; }
 };
 
 }  // namespace limpet::plant

@@ -16,6 +16,8 @@ class ReducedModel final : public PlantModel, public std::enable_shared_from_thi
 public:
     ReducedModel(const vehicle::Airframe& airframe, const models::Scene& scene);
     [[nodiscard]] std::unique_ptr<Plant> make() const override;
+    /// Its springs act within the step (decision 0020), its rates belong to the middle of steps.
+    [[nodiscard]] bool takes_long_steps() const override { return true; }
 
     [[nodiscard]] const MechanismModel& mechanism() const { return mechanism_; }
     [[nodiscard]] const ReducedNumbers<double>& numbers() const { return numbers_; }

@@ -72,6 +72,11 @@ void check_steps(const SimulationParameters& simulation, const YamlNode& root) {
                 fmt::format("{} does not divide the tick of {} s", number_text(simulation.step_s),
                             number_text(kTick_s)));
     }
+    if (!is_whole(simulation.longest_step_s / kTick_s)) {
+        fail_at(root, "simulation.longest_step_s",
+                fmt::format("{} is not whole ticks of {} s", number_text(simulation.longest_step_s),
+                            number_text(kTick_s)));
+    }
     if (!is_whole(simulation.step_s / simulation.touch_step_s)) {
         fail_at(root, "simulation.touch_step_s",
                 fmt::format("{} does not divide step_s, {} s", number_text(simulation.touch_step_s),

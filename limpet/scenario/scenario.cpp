@@ -36,6 +36,11 @@ const ParameterTable<SimulationParameters>& simulation_table() {
         {"step_s", "s", 1e-5, kTick_s, &S::step_s,
          "plant step in free flight and while hanging; divides the tick of 1 ms",
          "physics.md: converged at 1 ms; stable at any (decision 0020)"},
+        {"longest_step_s", "s", kTick_s, 4.0 * kTick_s, &S::longest_step_s,
+         "plant step of engine reduced until the next sample or decision, where nothing is about "
+         "to "
+         "touch; whole ticks",
+         "decision 0039: as at an eighth of it; an IMU's interval"},
         {"touch_step_s", "s", 1e-5, kTick_s, &S::touch_step_s,
          "plant step around a touch; divides step_s",
          "lip and slider peaks within 1 % (decision 0004)"},

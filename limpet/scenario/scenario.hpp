@@ -48,6 +48,7 @@ struct SimulationParameters {
     double touch_range_m = 0.02;     ///< lip closer than this and closing: sub-steps on
     double touch_transient_s = 0.3;  ///< sub-steps for so long after a touch or a release
     double step_s = 1e-3;            ///< plant step in free flight and while hanging
+    double longest_step_s = 4e-3;    ///< plant step where nothing meets anything and nobody looks
     double touch_step_s = 2.5e-4;    ///< plant step around a touch
     int record_rate_Hz = 100;        ///< of true states; sensors are recorded as they come
     int guidance_rate_Hz = 50;

@@ -24,4 +24,11 @@ std::vector<BoundParameter> sensor_rows(SensorParameters& sensors) {
     return bind_all(Sensors{}, sensors);
 }
 
+std::vector<int> rates_Hz(const SensorParameters& sensors) {
+    std::vector<int> rates;
+    for_each_type(Sensors{},
+                  [&](auto sensor) { rates.push_back(sensors.*decltype(sensor)::type::kRate_Hz); });
+    return rates;
+}
+
 }  // namespace limpet::sensors

@@ -35,4 +35,7 @@ struct SensorParameters : ParametersOf<Sensors> {};
 /// @param sensors  must outlive what is returned
 [[nodiscard]] std::vector<BoundParameter> sensor_rows(SensorParameters& sensors);
 
+/// How often each sensor samples [Hz]; 0: not fitted.
+[[nodiscard]] std::vector<int> rates_Hz(const SensorParameters& sensors);
+
 }  // namespace limpet::sensors

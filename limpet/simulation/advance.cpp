@@ -11,15 +11,6 @@
 namespace limpet::simulation {
 namespace {
 
-/// Around a touch the plant sub-steps: impact forces converge below 0.25 ms (reference:
-/// physics.md).
-bool needs_fine_steps(const FlightModel& model, const FlightState& state) {
-    const CupStatus& cup = state.cup.status;
-    return state.tick < state.fine_until ||
-           (cup.phase == CupPhase::free && cup.gap_m < model.simulation.touch_range_m &&
-            cup.gap_m > -model.simulation.touch_range_m);
-}
-
 /// What the cup bears at one step of the plant.
 void see_contact(ContactPeaks& peaks, const SliderStatus& slider, const CupStatus& cup) {
     if (cup.phase == CupPhase::free) {
@@ -76,23 +67,31 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
     }
 }
 
+/// The base's attitude half-way through a step: a force that turns with it acts on average so.
+Matrix3 turning_R_WB(const Kinematics& base, double step_s) {
+    return (base.q_WF * quaternion_from_rotation_vector(0.5 * step_s * base.w_WF_F_rad_s))
+        .toRotationMatrix();
+}
+
 /// The air on the base: rotors in the wind, and what the wall does to their wake.
 struct AirLoad {
     Wrench wrench_W;
     double thrust_N = 0.0;
 };
 
-AirLoad load_of_air(const FlightModel& model, const FlightState& state) {
+AirLoad load_of_air(const FlightModel& model, const FlightState& state, const Stride& stride,
+                    const RotorList<double>& speeds_rad_s) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
     const Wrench rotors_B =
-        vehicle::rotor_wrench_B(airframe, state.rotors, base,
+        vehicle::rotor_wrench_B(airframe, speeds_rad_s, base,
                                 vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s);
-    AirLoad air{
-        .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
-        .thrust_N = -rotors_B.force_N.z()};
+    const Matrix3 pushed_R_WB = stride.ticks > 1 ? turning_R_WB(base, stride.step_s()) : R_WB;
+    AirLoad air{.wrench_W = {.force_N = pushed_R_WB * rotors_B.force_N,
+                             .moment_N_m = R_WB * rotors_B.moment_N_m},
+                .thrust_N = -rotors_B.force_N.z()};
     if (acting.payload_to_right_kg_m != 0.0) {
         air.wrench_W.moment_N_m +=
             (acting.payload_to_right_kg_m * R_WB.col(1)).cross(kGravity_m_s2 * Vector3::UnitZ());
@@ -116,17 +115,35 @@ void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plan
     }
 }
 
+RotorList<double> turn_rotors(const FlightModel& model, FlightState& state, int ticks) {
+    const faults::Acting& acting = state.faults.now;
+    const double voltage_share =
+        vehicle::voltage_share(model.airframe.battery, state.battery.voltage_V);
+    const auto turn = [&] {
+        vehicle::step(model.airframe.rotor, model.rotor_lag, state.rotors, state.command,
+                      voltage_share, acting.rotors_hit ? &acting.speed_share : nullptr);
+    };
+    turn();
+    RotorList<double> mean_rad_s = state.rotors.speed_rad_s;
+    for (int tick = 1; tick < ticks; ++tick) {
+        turn();
+        for (std::size_t i = 0; i < mean_rad_s.size(); ++i) {
+            mean_rad_s[i] += (state.rotors.speed_rad_s[i] - mean_rad_s[i]) / (tick + 1);
+        }
+    }
+    return mean_rad_s;
+}
+
 LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, FlightState& state,
-                                                  plant::Plant& plant, TickReport& report,
-                                                  ExternalCup* external_cup) {
+                                                  plant::Plant& plant, const Stride& stride,
+                                                  const RotorList<double>& speeds_rad_s,
+                                                  TickReport& report, ExternalCup* external_cup) {
     const bool has_cup = model.airframe.has_cup;
-    const bool fine = has_cup && needs_fine_steps(model, state);
-    const int steps = fine ? model.touch_steps_a_tick : model.steps_a_tick;
-    const plant::StepMode mode{.step_s = kTick_s / steps,
-                               .contacts = legs_can_touch(model, state.truth.base),
+    const plant::StepMode mode{.step_s = stride.step_s(),
+                               .contacts = stride.contacts,
                                .legs_lost = state.faults.now.legs_lost};
-    const AirLoad air = load_of_air(model, state);
-    for (int k = 0; k < steps; ++k) {
+    const AirLoad air = load_of_air(model, state, stride, speeds_rad_s);
+    for (int k = 0; k < stride.steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {
             see_motion(model, state.truth, plant);
@@ -147,7 +164,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
             see_contact(report.contact, state.truth.slider, state.cup.status);
         }
     }
-    report.physics_steps += steps;
+    report.physics_steps += stride.steps;
     state.truth.thrust_N = air.thrust_N;
 }
 

@@ -3,15 +3,21 @@
 
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/stride.hpp"
 #include "limpet/simulation/tick_report.hpp"
 
 namespace limpet::simulation {
 
-/// One base tick of rigid-body truth, in one step of the plant or, around a touch, in several:
-/// rotors and cup push, the plant moves.
+/// Rotors over a stride.
+/// @return what their speeds were on average over its ticks
+RotorList<double> turn_rotors(const FlightModel& model, FlightState& state, int ticks);
+
+/// A stride of rigid-body truth: rotors and cup push, the plant moves.
+/// @param speeds_rad_s  of the rotors, the mean over the stride
 /// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
-void advance(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,
+void advance(const FlightModel& model, FlightState& state, plant::Plant& plant,
+             const Stride& stride, const RotorList<double>& speeds_rad_s, TickReport& report,
              ExternalCup* external_cup = nullptr);
 
 /// Where base and cup are now.

@@ -6,6 +6,7 @@
 
 #include "limpet/scenario/derived.hpp"
 #include "limpet/simulation/advance.hpp"
+#include "limpet/simulation/stride.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -33,7 +34,8 @@ Vector3 trim_W_m_s2(const FlightModel& model) {
     const vehicle::RotorsState rotors = spinning(model.airframe.rotor, model.airframe.rotors.size(),
                                                  vehicle::hover_command(model.airframe));
     const Vector3 force_B_N =
-        vehicle::rotor_wrench_B(model.airframe, rotors, level, model.wind.mean_W_m_s).force_N;
+        vehicle::rotor_wrench_B(model.airframe, rotors.speed_rad_s, level, model.wind.mean_W_m_s)
+            .force_N;
     return -(level.q_WF * Vector3(force_B_N.x(), force_B_N.y(), 0.0)) / model.airframe.mass_kg;
 }
 
@@ -105,6 +107,11 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->record_rate_Hz = scenario.simulation.record_rate_Hz;
     model->steps_a_tick = whole(kTick_s / scenario.simulation.step_s);
     model->touch_steps_a_tick = whole(kTick_s / scenario.simulation.touch_step_s);
+    // Where everybody takes single ticks that is the whole of it.
+    const bool strides = model->plant->takes_long_steps() && model->steps_a_tick == 1 &&
+                         model->mount == vehicle::Mount::free && !model->faults.any();
+    model->strides =
+        strides_of(*model, strides ? whole(scenario.simulation.longest_step_s / kTick_s) : 1);
     return model;
 }
 

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "limpet/core/time.hpp"
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/simulation/state.hpp"
 
 namespace limpet::simulation {
+
+/// Of each tick in a second, as rates repeat.
+using Strides = std::array<std::uint8_t, kTicksPerSecond>;
 
 /// What a flight is made of. Immutable once built: many runs in many threads share one.
 struct FlightModel {
@@ -44,9 +49,10 @@ struct FlightModel {
     scenario::SimulationParameters simulation;
     int control_rate_Hz = 250;  ///< that of the IMU
     int guidance_rate_Hz = 50;
-    int steps_a_tick = 1;        ///< of the plant in free flight and while hanging
+    int steps_a_tick = 1;        ///< of the plant, where it takes any in a tick
     int touch_steps_a_tick = 4;  ///< around a touch
     int record_rate_Hz = 100;
+    Strides strides{};  ///< how far the bodies may go in a step of the plant (stride.hpp)
     /// What the above is made of, with its texts: for logs and results, no station reads it.
     std::shared_ptr<const scenario::Scenario> scenario;
 };

@@ -122,9 +122,6 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
     }
 }
 
-/// How often a flight is digested: a difference between two runs does not heal within 10 ms.
-constexpr int kDigestRate_Hz = 100;
-
 /// A point of the trajectory: what is true and what the autopilot believes. Everything else that a
 /// flight does shows up in these within a few ticks.
 void digest(std::uint64_t& hash, const Truth& truth, const Estimate& estimate) {

@@ -9,6 +9,9 @@
 
 namespace limpet::simulation {
 
+/// How often a flight is digested: a difference between two runs does not heal within 10 ms.
+inline constexpr int kDigestRate_Hz = 100;
+
 /// What a flight has looked like from outside so far. No station reads it.
 struct Observations {
     Metrics metrics;

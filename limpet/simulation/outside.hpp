@@ -48,6 +48,11 @@ struct Outside {
     autopilot::ExternalAutopilot* autopilot = nullptr;
     ExternalGuidance* guidance = nullptr;
     ExternalCup* cup = nullptr;
+
+    /// What is outside is met at every tick.
+    [[nodiscard]] bool any() const {
+        return autopilot != nullptr || guidance != nullptr || cup != nullptr;
+    }
 };
 
 }  // namespace limpet::simulation

@@ -125,20 +125,21 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     if (controls) {
         state.command = control(model, state, outside.autopilot);
     }
-    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                  vehicle::voltage_share(airframe.battery, state.battery.voltage_V),
-                  acting.rotors_hit ? &acting.speed_share : nullptr);
+    const Stride stride = outside.any() ? one_tick(model, state) : next_stride(model, state);
+    const RotorList<double> speeds_rad_s = turn_rotors(model, state, stride.ticks);
     if (acting.charge_at_most < 1.0) {
         vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
     }
     vehicle::step(airframe.battery, state.battery,
                   vehicle::mechanical_power_W(airframe.rotor, state.rotors),
-                  state.cup.status.pump_running, state.command.armed, kTick_s);
-    vehicle::step(model.wind, state.wind);
-    vehicle::step(model.wall_air, state.wall_air);
-    advance(model, state, plant, report, outside.cup);
+                  state.cup.status.pump_running, state.command.armed, stride.ticks * kTick_s);
+    for (int tick = 0; tick < stride.ticks; ++tick) {
+        vehicle::step(model.wind, state.wind);
+        vehicle::step(model.wall_air, state.wall_air);
+    }
+    advance(model, state, plant, stride, speeds_rad_s, report, outside.cup);
 
-    ++state.tick;
+    state.tick += stride.ticks;
     see_truth(model, state, plant);
     if (!state.ending) {
         const std::optional<guidance::Ending> hit = collision(model, state.truth);

@@ -7,7 +7,8 @@
 
 namespace limpet::simulation {
 
-/// One base tick of the loop, from the truth at this tick to the truth at the next.
+/// The loop from the truth at this tick to the truth where it is looked at again: the next tick, or
+/// a few on (stride.hpp).
 /// @param report   what happened in it, for observe() and others; made anew
 /// @param outside  stations that are not ours
 void step(const FlightModel& model, FlightState& state, plant::Plant& plant, TickReport& report,

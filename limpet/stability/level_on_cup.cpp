@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
@@ -31,7 +32,11 @@ LevelOnCup::LevelOnCup(std::shared_ptr<const simulation::FlightModel> model)
       plant_(plant::kReducedEngine.make(model_->scenario->airframe,
                                         scenario::scene_of(*model_->scenario))),
       state_(start(*model_, plant_)),
-      ticks_(kTicksPerSecond / model_->control_rate_Hz) {
+      ticks_(kTicksPerSecond / model_->control_rate_Hz),
+      // As flights do it, but for the sensors that make some strides shorter.
+      ticks_a_stride_(std::gcd(
+          static_cast<int>(*std::max_element(model_->strides.begin(), model_->strides.end())),
+          ticks_)) {
     require(model_->airframe.has_cup && model_->has_wall, "a cup and a wall to be level on");
     require(kTicksPerSecond % model_->control_rate_Hz == 0,
             "a control rate that divides the tick's");
@@ -63,17 +68,18 @@ void LevelOnCup::put_on_wall() {
 
 /// As the loop does it: control, rotors, bodies and cup.
 void LevelOnCup::period() {
-    const vehicle::AirframeNumbers& airframe = model_->airframe;
     const Quaternion before = state_.truth.base.q_WF;
     state_.autopilot.estimate.q_WB = before;
     state_.command = control(model_->autopilot, state_.autopilot, state_.guidance.setpoint,
                              seconds(state_.tick));
     simulation::TickReport report;
-    for (int k = 0; k < ticks_; ++k) {
-        step(airframe.rotor, model_->rotor_lag, state_.rotors, state_.command);
+    simulation::Stride stride = one_tick(*model_, state_);
+    stride.ticks = ticks_a_stride_;
+    for (int left = ticks_; left > 0; left -= stride.ticks) {
+        const RotorList<double> speeds_rad_s = turn_rotors(*model_, state_, stride.ticks);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
-        advance(*model_, state_, plant_, report);
-        ++state_.tick;
+        advance(*model_, state_, plant_, stride, speeds_rad_s, report);
+        state_.tick += stride.ticks;
         see_motion(*model_, state_.truth, plant_);
     }
     state_.autopilot.estimate.w_WB_B_rad_s =

@@ -108,7 +108,7 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
 }
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
-                                                           const RotorsState& state,
+                                                           const RotorList<double>& speeds_rad_s,
                                                            const Kinematics& base,
                                                            const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
@@ -117,12 +117,12 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
     double sum_mx_N_m = 0.0, sum_my_N_m = 0.0, sum_mz_N_m = 0.0;
     const Vector3& w = base.w_WF_F_rad_s;
     // Several at once, one a lane; a lane without a rotor stands still and adds nothing.
-    for (std::size_t first = 0; first < state.speed_rad_s.size(); first += kAbreast) {
+    for (std::size_t first = 0; first < speeds_rad_s.size(); first += kAbreast) {
         EachRotor speed_rad_s, direction, share, x_m, y_m, z_m;
         for (std::size_t i = 0; i < kAbreast; ++i) {
             const int lane = static_cast<int>(i);
             const Rotor& place = airframe.rotors[first + i];
-            speed_rad_s.set(lane, state.speed_rad_s[first + i]);
+            speed_rad_s.set(lane, speeds_rad_s[first + i]);
             direction.set(lane, place.direction);
             share.set(lane, place.thrust_share);
             x_m.set(lane, place.p_B_m.x());

@@ -94,11 +94,13 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
           const RotorList<double>* speed_share = nullptr);
 
 /// Sum over the rotors.
+/// @param speed_rad_s  of each
 /// @param base         frame B
 /// @param wind_W_m_s   velocity of the air
 /// @return force and moment about B's origin, in B; -force.z is the total thrust, as drag has no z
-[[nodiscard]] Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorsState& state,
-                                    const Kinematics& base, const Vector3& wind_W_m_s);
+[[nodiscard]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
+                                    const RotorList<double>& speed_rad_s, const Kinematics& base,
+                                    const Vector3& wind_W_m_s);
 
 /// @return power of all shafts, torque times speed [W]
 [[nodiscard]] double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state);

@@ -3,8 +3,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "channels.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/limpet.hpp"
 #include "stations.hpp"
 
@@ -59,7 +61,13 @@ private:
     unsigned calls_ = 0;
 };
 
-/// @param rate_Hz  of the channels' samples; each instant is a whole tick
+Tick tick_of(const Flight& flight) {
+    return std::llround(flight.time_s() * kTicksPerSecond);
+}
+
+/// @param rate_Hz  of the channels' samples: the first instant at which the loop looks at the
+/// bodies
+///                 in each interval
 std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
     if (rate_Hz < 1 || rate_Hz > kTicksPerSecond) {
         throw py::value_error("rate_Hz: 1..1000");
@@ -69,11 +77,11 @@ std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
     const int every = kTicksPerSecond / rate_Hz;
     Patience patience;
     flown->log.sample(flight);
-    for (long long tick = 1; flight.tick(); ++tick) {
-        if (tick % every == 0) {
+    for (Tick next = tick_of(flight) + every; flight.tick(); patience.wait()) {
+        if (tick_of(flight) >= next) {
             flown->log.sample(flight);
+            next += every * ((tick_of(flight) - next) / every + 1);
         }
-        patience.wait();
     }
     flown->result = flight.result();
     return flown;
@@ -83,7 +91,7 @@ bool ticks(Flight& flight, long long count) {
     const py::gil_scoped_release fly_freely;
     Patience patience;
     bool goes_on = !flight.ended();
-    for (long long i = 0; i < count && goes_on; ++i) {
+    for (const Tick end = tick_of(flight) + count; goes_on && tick_of(flight) < end;) {
         goes_on = flight.tick();
         patience.wait();
     }
@@ -172,7 +180,9 @@ void add_flight_class(py::module_& module) {
         .def("record", &Flight::record, py::arg("file"),
              "Writes all signals from here on into an MCAP file.")
         .def("tick", &ticks, py::arg("count") = 1,
-             "Milliseconds of the loop. Returns whether the flight goes on.")
+             "So many milliseconds of the loop, to the next instant at which it looks at the "
+             "bodies. "
+             "Returns whether the flight goes on.")
         .def("fly", &fly, py::arg("rate_Hz") = 100, "To the end; channels at this rate.")
         .def_property_readonly("ended", &Flight::ended)
         .def_property_readonly("time_s", &Flight::time_s, "[s]")

@@ -51,7 +51,7 @@ TEST(Rotor, HoversAt560RadiansPerSecond) {
         step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
              armed(hover_command(airframe)));
     }
-    const Wrench wrench = rotor_wrench_B(airframe, state, {}, kNoWind);
+    const Wrench wrench = rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind);
     EXPECT_NEAR(-wrench.force_N.z(), 3.2 * kGravity_m_s2, 1e-9);
     for (const double speed_rad_s : state.speed_rad_s) {
         EXPECT_NEAR(speed_rad_s, 560.0, 5.6);
@@ -67,15 +67,16 @@ TEST(Rotor, DragAtHoverIs179NewtonsPerMetrePerSecond) {
     const Airframe airframe;
     const RotorsState hover = at_speed(560.0);
     for (const Vector3& along : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0)}) {
-        const Wrench wrench = rotor_wrench_B(airframe, hover, moving(along), kNoWind);
+        const Wrench wrench = rotor_wrench_B(airframe, hover.speed_rad_s, moving(along), kNoWind);
         EXPECT_NEAR(wrench.force_N.dot(along), -1.79, 0.005);
         // wind is motion the other way
-        const Wrench blown = rotor_wrench_B(airframe, hover, {}, -along);
+        const Wrench blown = rotor_wrench_B(airframe, hover.speed_rad_s, {}, -along);
         EXPECT_TRUE(blown.force_N.isApprox(wrench.force_N, 1e-14));
         EXPECT_TRUE(blown.moment_N_m.isApprox(wrench.moment_N_m, 1e-14));
     }
     // 0.04 m above the centre of mass: moving forward the drag lifts the nose, M_y = z F_x
-    const Wrench forward = rotor_wrench_B(airframe, hover, moving({1.0, 0.0, 0.0}), kNoWind);
+    const Wrench forward =
+        rotor_wrench_B(airframe, hover.speed_rad_s, moving({1.0, 0.0, 0.0}), kNoWind);
     EXPECT_NEAR(forward.moment_N_m.y(), 0.04 * 1.792, 1e-9);
 }
 
@@ -83,7 +84,7 @@ TEST(Rotor, DragFollowsTheHubsOwnVelocity) {
     const Airframe airframe;
     Kinematics spin;
     spin.w_WF_F_rad_s = {0.0, 0.0, 2.0};
-    const Wrench wrench = rotor_wrench_B(airframe, at_speed(560.0), spin, kNoWind);
+    const Wrench wrench = rotor_wrench_B(airframe, at_speed(560.0).speed_rad_s, spin, kNoWind);
     // each hub moves at w r, drag lambda w_rotor w r at the arm r: -4 lambda w_rotor r^2 w
     const double squared_arm_m2 = 2.0 * 0.205 * 0.205;
     EXPECT_NEAR(wrench.moment_N_m.z(), -4.0 * 8e-4 * 560.0 * squared_arm_m2 * 2.0, 1e-12);
@@ -96,8 +97,9 @@ TEST(Rotor, WorksInTheBodysAxes) {
     base.q_WF = quaternion_from_euler({.roll_rad = 0.3, .pitch_rad = -0.7, .yaw_rad = 2.0});
     const Vector3 v_B_m_s(0.4, -0.3, 0.9);
     base.v_WF_W_m_s = base.q_WF * v_B_m_s;
-    const Wrench turned = rotor_wrench_B(airframe, at_speed(500.0), base, kNoWind);
-    const Wrench level = rotor_wrench_B(airframe, at_speed(500.0), moving(v_B_m_s), kNoWind);
+    const Wrench turned = rotor_wrench_B(airframe, at_speed(500.0).speed_rad_s, base, kNoWind);
+    const Wrench level =
+        rotor_wrench_B(airframe, at_speed(500.0).speed_rad_s, moving(v_B_m_s), kNoWind);
     EXPECT_TRUE(turned.force_N.isApprox(level.force_N, 1e-12));
     EXPECT_TRUE(turned.moment_N_m.isApprox(level.moment_N_m, 1e-12));
 }
@@ -112,7 +114,7 @@ TEST(Rotor, PitchMomentPerUnitCommandIsElevenNewtonMetres) {
             step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state,
                  armed(hover + mix, hover - mix, hover + mix, hover - mix));
         }
-        return rotor_wrench_B(airframe, state, {}, kNoWind).moment_N_m.y();
+        return rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind).moment_N_m.y();
     };
     const double slope = (pitch_moment_N_m(1e-3) - pitch_moment_N_m(-1e-3)) / 2e-3;
     EXPECT_NEAR(slope, 11.4, 0.1);  // nose up when the front rotors are faster
@@ -121,7 +123,7 @@ TEST(Rotor, PitchMomentPerUnitCommandIsElevenNewtonMetres) {
 TEST(Rotor, RollsRightWhenTheLeftRotorsAreFaster) {
     RotorsState state = at_speed(560.0);
     state.speed_rad_s = {540.0, 580.0, 580.0, 540.0};
-    EXPECT_GT(rotor_wrench_B(Airframe{}, state, {}, kNoWind).moment_N_m.x(), 0.0);
+    EXPECT_GT(rotor_wrench_B(Airframe{}, state.speed_rad_s, {}, kNoWind).moment_N_m.x(), 0.0);
 }
 
 TEST(Rotor, CounterClockwiseRotorTurnsTheBodyClockwise) {
@@ -129,10 +131,11 @@ TEST(Rotor, CounterClockwiseRotorTurnsTheBodyClockwise) {
     const Airframe airframe;
     RotorsState state = standing(4);
     state.speed_rad_s[0] = 560.0;  // front right, counter-clockwise
-    const double yaw_N_m = rotor_wrench_B(airframe, state, {}, kNoWind).moment_N_m.z();
+    const double yaw_N_m = rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind).moment_N_m.z();
     EXPECT_NEAR(yaw_N_m, 0.149, 0.001);
     state.speed_rad_s = {0.0, 0.0, 560.0, 0.0};  // front left, clockwise
-    EXPECT_DOUBLE_EQ(rotor_wrench_B(airframe, state, {}, kNoWind).moment_N_m.z(), -yaw_N_m);
+    EXPECT_DOUBLE_EQ(rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind).moment_N_m.z(),
+                     -yaw_N_m);
 }
 
 TEST(Rotor, AdvancingBladeRollsTheHub) {
@@ -146,10 +149,12 @@ TEST(Rotor, AdvancingBladeRollsTheHub) {
     RotorsState state = standing(4);
     state.speed_rad_s[0] = 560.0;
     const double roll_N_m =
-        rotor_wrench_B(airframe, state, moving({3.0, 0.0, 0.0}), kNoWind).moment_N_m.x();
+        rotor_wrench_B(airframe, state.speed_rad_s, moving({3.0, 0.0, 0.0}), kNoWind)
+            .moment_N_m.x();
     EXPECT_NEAR(roll_N_m, -560.0 * 1e-6 * 3.0, 1e-15);
     state.speed_rad_s[2] = 560.0;
-    EXPECT_NEAR(rotor_wrench_B(airframe, state, moving({3.0, 0.0, 0.0}), kNoWind).moment_N_m.x(),
+    EXPECT_NEAR(rotor_wrench_B(airframe, state.speed_rad_s, moving({3.0, 0.0, 0.0}), kNoWind)
+                    .moment_N_m.x(),
                 0.0, 1e-15);
 }
 
@@ -159,12 +164,12 @@ TEST(Rotor, SixHoverAndALowerOneLiftsItsShare) {
     airframe.rotors[4] = {.p_B_m = {0.1, 0.3, 0.04}, .direction = -1, .thrust_share = 0.7};
     airframe.rotors[5] = {.p_B_m = {-0.1, -0.3, 0.04}, .direction = +1, .thrust_share = 0.7};
     const RotorsState hover = spinning(airframe.rotor, 6, hover_command(airframe));
-    EXPECT_NEAR(-rotor_wrench_B(airframe, hover, {}, kNoWind).force_N.z(),
+    EXPECT_NEAR(-rotor_wrench_B(airframe, hover.speed_rad_s, {}, kNoWind).force_N.z(),
                 airframe.mass_kg * kGravity_m_s2, 1e-9);
     // by itself: its thrust is less, its torque is not
     RotorsState one = standing(6);
     one.speed_rad_s[4] = 560.0;
-    const Wrench wrench = rotor_wrench_B(airframe, one, {}, kNoWind);
+    const Wrench wrench = rotor_wrench_B(airframe, one.speed_rad_s, {}, kNoWind);
     EXPECT_NEAR(-wrench.force_N.z(), 0.7 * 2.5e-5 * 560.0 * 560.0, 1e-12);
     EXPECT_NEAR(wrench.moment_N_m.x(), 0.3 * wrench.force_N.z(), 1e-12);
     EXPECT_NEAR(wrench.moment_N_m.z(), -0.019 * 2.5e-5 * 560.0 * 560.0, 1e-12);
@@ -174,7 +179,8 @@ TEST(Rotor, LosesThrustAlongItsAxisBothWays) {
     const Airframe airframe;
     const RotorsState hover = at_speed(560.0);
     const auto thrust_N = [&](double down_m_s) {
-        return -rotor_wrench_B(airframe, hover, moving({0.0, 0.0, down_m_s}), kNoWind).force_N.z();
+        return -rotor_wrench_B(airframe, hover.speed_rad_s, moving({0.0, 0.0, down_m_s}), kNoWind)
+                    .force_N.z();
     };
     const double still_N = thrust_N(0.0);
     EXPECT_NEAR(thrust_N(-5.0), 0.8 * still_N, 1e-12);
