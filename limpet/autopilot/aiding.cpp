@@ -37,7 +37,7 @@ void open_up(Fusion& fusion, int block, double deviation) {
 /// gone on to move it.
 void know_from_then(Covariance& covariance, const Measurement& measurement) {
     for (int i = 0; i < measurement.rows; ++i) {
-        const ErrorVector& h = measurement.jacobian[static_cast<std::size_t>(i)];
+        const JacobianRow& h = measurement.jacobian[static_cast<std::size_t>(i)];
         for (int axis = 0; axis < 3; ++axis) {
             const int p = kPosition + axis;
             const int v = kVelocity + axis;
@@ -89,9 +89,9 @@ Measurement measure_position(const Instant& at, const Vector3& p_WB_m, const Vec
     Measurement measurement;
     for (int axis = 0; axis < 3; ++axis) {
         if (axes[static_cast<std::size_t>(axis)]) {
-            ErrorVector h = ErrorVector::Zero();
-            h[kPosition + axis] = 1.0;
-            h[kVelocity + axis] = -at.age_s;
+            JacobianRow h;
+            h.put(kPosition + axis, 1.0);
+            h.put(kVelocity + axis, -at.age_s);
             add_row(measurement, h, p_WB_m[axis] - at.then.p_WB_m[axis], square(noise_m[axis]));
         }
     }
@@ -103,10 +103,10 @@ Measurement measure_velocity(const Instant& at, const Vector3& v_WB_m_s, const V
     const Matrix3 by_attitude = skew(force_gain_W(at)) * R_WB;
     Measurement measurement;
     for (int axis = 0; axis < 3; ++axis) {
-        ErrorVector h = ErrorVector::Zero();
-        h[kVelocity + axis] = 1.0;
-        h.segment<3>(kAttitude) = by_attitude.row(axis);
-        h.segment<3>(kAccelerometerBias) = at.age_s * R_WB.row(axis);
+        JacobianRow h;
+        h.put(kVelocity + axis, 1.0);
+        h.put(kAttitude, Vector3(by_attitude.row(axis)));
+        h.put(kAccelerometerBias, Vector3(at.age_s * R_WB.row(axis)));
         add_row(measurement, h, v_WB_m_s[axis] - at.then.v_WB_m_s[axis], square(noise_m_s[axis]));
     }
     return measurement;
@@ -117,9 +117,9 @@ Measurement measure_attitude(const Instant& at, const Quaternion& q_WB, double n
         at, rotation_vector_from_quaternion(at.then.q_WB.conjugate() * q_WB.normalized()));
     Measurement measurement;
     for (int axis = 0; axis < 3; ++axis) {
-        ErrorVector h = ErrorVector::Zero();
-        h[kAttitude + axis] = 1.0;
-        h[kGyroBias + axis] = at.age_s;
+        JacobianRow h;
+        h.put(kAttitude + axis, 1.0);
+        h.put(kGyroBias + axis, at.age_s);
         add_row(measurement, h, error[axis], square(noise_rad));
     }
     return measurement;
@@ -132,9 +132,9 @@ Measurement measure_field(const Instant& at, const Vector3& field_B_gauss,
     const Matrix3 by_attitude = skew(expected_gauss);
     Measurement measurement;
     for (int axis = 0; axis < 3; ++axis) {
-        ErrorVector h = ErrorVector::Zero();
-        h.segment<3>(kAttitude) = by_attitude.row(axis);
-        h.segment<3>(kGyroBias) = at.age_s * by_attitude.row(axis);
+        JacobianRow h;
+        h.put(kAttitude, Vector3(by_attitude.row(axis)));
+        h.put(kGyroBias, Vector3(at.age_s * by_attitude.row(axis)));
         add_row(measurement, h, error_gauss[axis], square(noise_gauss));
     }
     return measurement;

@@ -53,54 +53,6 @@ void add_noise(Covariance& covariance, int first, double density, double dt_s) {
     covariance.diagonal().segment<3>(first).array() += density * density * dt_s;
 }
 
-/// Where a row of a Jacobian, that is mostly zeros, has none.
-class Row {
-public:
-    explicit Row(const ErrorVector& h) : h_(h) {
-        for (int i = 0; i < kErrors; ++i) {
-            at_[count_] = i;
-            count_ += h[i] != 0.0 ? 1 : 0;
-        }
-    }
-    [[nodiscard]] double dot(const ErrorVector& v) const {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < count_; ++k) {
-            sum += h_[at_[k]] * v[at_[k]];
-        }
-        return sum;
-    }
-    /// P h
-    [[nodiscard]] ErrorVector times(const Covariance& covariance) const {
-        ErrorVector product = ErrorVector::Zero();
-        for (std::size_t k = 0; k < count_; ++k) {
-            const double factor = h_[at_[k]];
-            const double* column = covariance.col(at_[k]).data();
-            for (int i = 0; i < kErrors; ++i) {
-                product[i] += factor * column[i];
-            }
-        }
-        return product;
-    }
-    /// h' P h
-    [[nodiscard]] double variance(const Covariance& covariance) const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const double* column = covariance.col(at_[i]).data();
-            double cross = 0.0;
-            for (std::size_t k = 0; k < i; ++k) {
-                cross += column[at_[k]] * h_[at_[k]];
-            }
-            sum += h_[at_[i]] * (2.0 * cross + column[at_[i]] * h_[at_[i]]);
-        }
-        return sum;
-    }
-
-private:
-    const ErrorVector& h_;
-    std::array<int, kErrors + 1> at_;
-    std::size_t count_ = 0;
-};
-
 /// P -= the squares of some vectors, all in one pass; symmetric to the last bit.
 template <std::size_t kRows>
 void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& vectors) {
@@ -117,6 +69,56 @@ void subtract_squares(Covariance& covariance, const std::array<ErrorVector, 3>& 
 }
 
 }  // namespace
+
+JacobianRow::JacobianRow(const ErrorVector& all) {
+    for (int error = 0; error < kErrors; ++error) {
+        if (all[error] != 0.0) {
+            put(error, all[error]);
+        }
+    }
+}
+
+double JacobianRow::operator[](int error) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+        if (at_[k] == error) {
+            return factor_[k];
+        }
+    }
+    return 0.0;
+}
+
+double JacobianRow::dot(const ErrorVector& v) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count_; ++k) {
+        sum += factor_[k] * v[at_[k]];
+    }
+    return sum;
+}
+
+ErrorVector JacobianRow::times(const Covariance& covariance) const {
+    ErrorVector product = ErrorVector::Zero();
+    for (std::size_t k = 0; k < count_; ++k) {
+        const double factor = factor_[k];
+        const double* column = covariance.col(at_[k]).data();
+        for (int i = 0; i < kErrors; ++i) {
+            product[i] += factor * column[i];
+        }
+    }
+    return product;
+}
+
+double JacobianRow::variance(const Covariance& covariance) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const double* column = covariance.col(at_[i]).data();
+        double cross = 0.0;
+        for (std::size_t k = 0; k < i; ++k) {
+            cross += column[at_[k]] * factor_[k];
+        }
+        sum += factor_[i] * (2.0 * cross + column[at_[i]] * factor_[i]);
+    }
+    return sum;
+}
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
                                                     const Transition& transition,
@@ -135,7 +137,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
     add_noise(covariance, kAccelerometerBias, noise.accelerometer_bias_m_s3_rtHz, transition.dt_s);
 }
 
-void add_row(Measurement& measurement, const ErrorVector& jacobian, double innovation,
+void add_row(Measurement& measurement, const JacobianRow& jacobian, double innovation,
              double variance) {
     const auto row = static_cast<std::size_t>(measurement.rows++);
     measurement.jacobian[row] = jacobian;
@@ -148,7 +150,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] bool passes(const Covariance& covariance,
                                                  const Measurement& measurement, double gate) {
     for (int i = 0; i < measurement.rows; ++i) {
         const auto row = static_cast<std::size_t>(i);
-        const Row h(measurement.jacobian[row]);
+        const JacobianRow& h = measurement.jacobian[row];
         const double innovation = measurement.innovation[row] - h.dot(correction);
         const double variance = h.variance(covariance) + measurement.variance[row];
         if (!(innovation * innovation <= gate * gate * variance)) {
@@ -163,7 +165,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void update(Covariance& covariance, ErrorVe
     std::array<ErrorVector, 3> scaled;
     const auto rows = static_cast<std::size_t>(measurement.rows);
     for (std::size_t row = 0; row < rows; ++row) {
-        const Row h(measurement.jacobian[row]);
+        const JacobianRow& h = measurement.jacobian[row];
         ErrorVector Ph = h.times(covariance);
         for (std::size_t earlier = 0; earlier < row; ++earlier) {
             Ph -= scaled[earlier] * h.dot(scaled[earlier]);

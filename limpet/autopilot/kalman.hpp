@@ -39,15 +39,47 @@ struct ProcessNoise {
 /// P = F P F' + Q, exactly symmetric.
 void propagate(Covariance& covariance, const Transition& transition, const ProcessNoise& noise);
 
+/// A row of a Jacobian: the errors that it has a factor for, seven at most of ours; 0 for all
+/// others.
+class JacobianRow {
+public:
+    JacobianRow() = default;
+    /// Of a whole row: what is not 0 in it.
+    explicit JacobianRow(const ErrorVector& all);
+    /// @param error  that has no factor yet
+    void put(int error, double factor) {
+        at_[count_] = error;
+        factor_[count_++] = factor;
+    }
+    /// Three that follow each other.
+    void put(int error, const Vector3& factors) {
+        for (int k = 0; k < 3; ++k) {
+            put(error + k, factors[k]);
+        }
+    }
+    [[nodiscard]] double operator[](int error) const;
+
+    [[nodiscard]] double dot(const ErrorVector& v) const;
+    /// P h
+    [[nodiscard]] ErrorVector times(const Covariance& covariance) const;
+    /// h' P h
+    [[nodiscard]] double variance(const Covariance& covariance) const;
+
+private:
+    std::array<int, kErrors> at_;
+    std::array<double, kErrors> factor_;
+    std::size_t count_ = 0;
+};
+
 /// Up to three scalars measured at once with independent noise.
 struct Measurement {
     int rows = 0;
-    std::array<ErrorVector, 3> jacobian;  ///< of the innovation with respect to the errors
+    std::array<JacobianRow, 3> jacobian;  ///< of the innovation with respect to the errors
     std::array<double, 3> innovation{};   ///< measured less predicted
     std::array<double, 3> variance{};
 };
 
-void add_row(Measurement& measurement, const ErrorVector& jacobian, double innovation,
+void add_row(Measurement& measurement, const JacobianRow& jacobian, double innovation,
              double variance);
 
 /// Chi-square test with one degree of freedom on each row, as PX4's gates.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/signing.hpp"
 
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
+#include <nettle/memops.h>
+#include <nettle/sha2.h>
 
 #include <algorithm>
 #include <span>
@@ -17,16 +17,7 @@ constexpr std::uint64_t kEpoch_us = 1'420'070'400'000'000;
 constexpr std::size_t kTimestamp_bytes = 6;
 constexpr std::size_t kDigest_bytes = 6;
 
-struct FreeContext {
-    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-};
-
 }  // namespace
-
-/// A context made once: a frame then costs no allocation.
-struct Signing::Hasher {
-    std::unique_ptr<EVP_MD_CTX, FreeContext> context{EVP_MD_CTX_new()};
-};
 
 std::uint64_t signing_time(std::uint64_t unix_us) {
     return unix_us > kEpoch_us ? (unix_us - kEpoch_us) / 10 : 0;
@@ -40,28 +31,15 @@ std::uint64_t stamp_of(const Frame& frame) {
     return boost::endian::load_little_u48(&frame.bytes.last(kSignature_bytes)[1]);
 }
 
-Signing::Signing(const SigningKey& key, std::uint8_t link_id)
-    : key_(key), link_id_(link_id), hasher_(std::make_unique<Hasher>()) {
-    require(hasher_->context != nullptr &&
-                EVP_DigestInit_ex(hasher_->context.get(), EVP_sha256(), nullptr) == 1,
-            "libcrypto has SHA-256");
-}
-
-Signing::~Signing() = default;
-Signing::Signing(Signing&&) noexcept = default;
-Signing& Signing::operator=(Signing&&) noexcept = default;
+Signing::Signing(const SigningKey& key, std::uint8_t link_id) : key_(key), link_id_(link_id) {}
 
 Signing::Digest Signing::digest(ByteView up_to_timestamp) {
-    std::array<std::uint8_t, EVP_MAX_MD_SIZE> whole = {};
-    EVP_MD_CTX* context = hasher_->context.get();
-    const bool done =
-        EVP_DigestInit_ex(context, nullptr, nullptr) == 1 &&
-        EVP_DigestUpdate(context, key_.data(), key_.size()) == 1 &&
-        EVP_DigestUpdate(context, up_to_timestamp.data(), up_to_timestamp.size()) == 1 &&
-        EVP_DigestFinal_ex(context, whole.data(), nullptr) == 1;
-    require(done, "libcrypto hashes");
+    sha256_ctx sha;
+    sha256_init(&sha);
+    sha256_update(&sha, key_.size(), key_.data());
+    sha256_update(&sha, up_to_timestamp.size(), up_to_timestamp.data());
     Digest first = {};
-    std::copy_n(whole.begin(), first.size(), first.begin());
+    sha256_digest(&sha, first.size(), first.data());
     return first;
 }
 
@@ -121,7 +99,7 @@ Verdict Signing::judge(const Frame& frame, std::uint64_t now) {
     }
     const std::size_t hashed = frame.bytes.size() - kDigest_bytes;
     const Digest expected = digest(frame.bytes.first(hashed));
-    if (CRYPTO_memcmp(expected.data(), frame.bytes.data() + hashed, kDigest_bytes) != 0) {
+    if (memeql_sec(expected.data(), frame.bytes.data() + hashed, kDigest_bytes) == 0) {
         return Verdict::wrong_signature;
     }
     const std::uint64_t stamped = stamp_of(frame);

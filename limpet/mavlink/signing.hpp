@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
 #include "limpet/mavlink/codec.hpp"
 
@@ -68,9 +67,6 @@ public:
 
     /// @param link_id  0..255, the same sender's links apart
     Signing(const SigningKey& key, std::uint8_t link_id);
-    ~Signing();
-    Signing(Signing&&) noexcept;
-    Signing& operator=(Signing&&) noexcept;
 
     /// @param buffer  holds a frame that encode has made
     /// @param frame   that frame
@@ -93,7 +89,6 @@ public:
 
 private:
     using Digest = std::array<std::uint8_t, 6>;
-    struct Hasher;
     using Heard = SigningStamps::Heard;
 
     [[nodiscard]] Digest digest(ByteView up_to_timestamp);
@@ -106,7 +101,6 @@ private:
     SigningKey key_;
     std::uint8_t link_id_;
     SigningStamps stamps_;
-    std::unique_ptr<Hasher> hasher_;
 };
 
 }  // namespace limpet::mavlink

@@ -2,11 +2,9 @@
 #include "limpet/scenario/yaml_tree.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/yaml.h>
+#include <yaml.h>
 
 #include <algorithm>
-#include <sstream>
 #include <unordered_set>
 
 #include "limpet/core/errors.hpp"
@@ -25,8 +23,8 @@ constexpr std::size_t kLongestKey = 100;
 constexpr std::size_t kLongestShown = 60;
 
 /// A command line has no lines worth counting.
-std::string place_of(const std::string& name, const YAML::Mark& mark) {
-    return name.rfind(kSet, 0) == 0 ? name : fmt::format("{}:{}", name, std::max(mark.line, 0) + 1);
+std::string place_of(const std::string& name, const yaml_mark_t& mark) {
+    return name.rfind(kSet, 0) == 0 ? name : fmt::format("{}:{}", name, mark.line + 1);
 }
 
 std::string one_line(std::string text) {
@@ -35,52 +33,78 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// Builds the tree from yaml-cpp's events, which keep duplicate keys and marks apart.
-class TreeBuilder : public YAML::EventHandler {
+std::string text_of(const yaml_char_t* text) {
+    return text == nullptr ? std::string() : reinterpret_cast<const char*>(text);
+}
+
+/// What stands where a value is, and means none.
+bool is_null(std::string_view plain) {
+    return plain.empty() || plain == "~" || plain == "null" || plain == "Null" || plain == "NULL";
+}
+
+/// Builds the tree from libyaml's events, which keep duplicate keys and marks apart.
+class TreeBuilder {
 public:
     explicit TreeBuilder(std::string name) : name_(std::move(name)) {}
 
-    void OnDocumentStart(const YAML::Mark& mark) override {
-        if (documents_++ > 0) {
-            refuse(mark, "holds more than one document");
+    void take(const yaml_event_t& event) {
+        const yaml_mark_t& mark = event.start_mark;
+        switch (event.type) {
+            case YAML_DOCUMENT_START_EVENT:
+                if (documents_++ > 0) {
+                    refuse(mark, "holds more than one document");
+                }
+                break;
+            case YAML_ALIAS_EVENT: refuse(mark, "aliases (*name) are not supported");
+            case YAML_SCALAR_EVENT: take_scalar(mark, event.data.scalar); break;
+            case YAML_SEQUENCE_START_EVENT: {
+                const auto& list = event.data.sequence_start;
+                refuse_anchor(mark, list.anchor);
+                enter(mark, open(mark, YamlNode::Kind::list, text_of(list.tag)));
+                break;
+            }
+            case YAML_MAPPING_START_EVENT: {
+                const auto& map = event.data.mapping_start;
+                refuse_anchor(mark, map.anchor);
+                enter(mark, open(mark, YamlNode::Kind::map, text_of(map.tag)));
+                break;
+            }
+            case YAML_SEQUENCE_END_EVENT:
+            case YAML_MAPPING_END_EVENT: close_top(); break;
+            case YAML_NO_EVENT:
+            case YAML_STREAM_START_EVENT:
+            case YAML_STREAM_END_EVENT:
+            case YAML_DOCUMENT_END_EVENT: break;
         }
     }
-    void OnDocumentEnd() override {}
-    void OnAnchor(const YAML::Mark& mark, const std::string& /*anchor*/) override {
-        refuse(mark, "anchors (&name) are not supported");
-    }
-    void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-        refuse(mark, "aliases (*name) are not supported");
-    }
-    void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
-        close(open(mark, YamlNode::Kind::null));
-    }
-    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
-                  const std::string& value) override {
-        if (expects_key()) {
-            take_key(mark, value);
-            return;
-        }
-        YamlNode node = open(mark, YamlNode::Kind::scalar, tag);
-        node.text = value;
-        node.quoted = tag == "!";
-        close(std::move(node));
-    }
-    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
-                         YAML::EmitterStyle::value /*style*/) override {
-        enter(mark, open(mark, YamlNode::Kind::list, tag));
-    }
-    void OnSequenceEnd() override { close_top(); }
-    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t /*anchor*/,
-                    YAML::EmitterStyle::value /*style*/) override {
-        enter(mark, open(mark, YamlNode::Kind::map, tag));
-    }
-    void OnMapEnd() override { close_top(); }
 
     [[nodiscard]] YamlNode take() { return std::move(root_); }
 
 private:
-    [[noreturn]] void refuse(const YAML::Mark& mark, std::string_view what) const {
+    void take_scalar(const yaml_mark_t& mark, const decltype(yaml_event_t{}.data.scalar) & scalar) {
+        refuse_anchor(mark, scalar.anchor);
+        std::string value(reinterpret_cast<const char*>(scalar.value), scalar.length);
+        const bool quoted = scalar.style != YAML_PLAIN_SCALAR_STYLE;
+        if (expects_key() && (quoted || !is_null(value))) {
+            take_key(mark, value);
+            return;
+        }
+        const bool null = !quoted && scalar.tag == nullptr && is_null(value);
+        YamlNode node =
+            open(mark, null ? YamlNode::Kind::null : YamlNode::Kind::scalar, text_of(scalar.tag));
+        if (!null) {
+            node.text = std::move(value);
+            node.quoted = quoted;
+        }
+        close(std::move(node));
+    }
+
+    void refuse_anchor(const yaml_mark_t& mark, const yaml_char_t* anchor) const {
+        if (anchor != nullptr) {
+            refuse(mark, "anchors (&name) are not supported");
+        }
+    }
+    [[noreturn]] void refuse(const yaml_mark_t& mark, std::string_view what) const {
         throw InputError(fmt::format("{}: {}", place_of(name_, mark), what));
     }
 
@@ -88,7 +112,7 @@ private:
         return !stack_.empty() && stack_.back().kind == YamlNode::Kind::map && key_.empty();
     }
 
-    void take_key(const YAML::Mark& mark, const std::string& key) {
+    void take_key(const yaml_mark_t& mark, const std::string& key) {
         const YamlNode& map = stack_.back();
         if (key.empty()) {
             refuse(mark, "a key is empty");
@@ -106,11 +130,11 @@ private:
         key_place_ = place_of(name_, mark);
     }
 
-    YamlNode open(const YAML::Mark& mark, YamlNode::Kind kind, const std::string& tag = "?") {
+    YamlNode open(const yaml_mark_t& mark, YamlNode::Kind kind, const std::string& tag) {
         if (expects_key()) {
             refuse(mark, "a key must be a plain word, not a list or a section");
         }
-        if (!tag.empty() && tag != "?" && tag != "!") {
+        if (!tag.empty()) {
             refuse(mark, fmt::format("tags ({}) are not supported", shown(tag)));
         }
         if (++values_ > kMostValues) {
@@ -131,7 +155,7 @@ private:
         return node;
     }
 
-    void enter(const YAML::Mark& mark, YamlNode node) {
+    void enter(const yaml_mark_t& mark, YamlNode node) {
         if (stack_.size() >= kMostDepth) {
             refuse(mark,
                    fmt::format("more than {} sections and lists within each other", kMostDepth));
@@ -165,6 +189,44 @@ private:
     int documents_ = 0;
 };
 
+/// libyaml's parser and the event that it is at.
+class Parser {
+public:
+    /// @param text  outlives it
+    explicit Parser(const std::string& text) {
+        require(yaml_parser_initialize(&parser_) != 0, "memory for a YAML parser");
+        yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
+        yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()),
+                                     text.size());
+    }
+    ~Parser() {
+        yaml_event_delete(&event_);
+        yaml_parser_delete(&parser_);
+    }
+    Parser(const Parser&) = delete;
+    Parser& operator=(const Parser&) = delete;
+
+    /// @return null at the end
+    /// @throws InputError for what is not YAML
+    [[nodiscard]] const yaml_event_t* next(const std::string& name) {
+        if (event_.type == YAML_STREAM_END_EVENT) {
+            return nullptr;
+        }
+        yaml_event_delete(&event_);
+        if (yaml_parser_parse(&parser_, &event_) == 0) {
+            throw InputError(fmt::format("{}: is not valid YAML: {} (column {})",
+                                         place_of(name, parser_.problem_mark),
+                                         parser_.problem != nullptr ? parser_.problem : "not read",
+                                         parser_.problem_mark.column + 1));
+        }
+        return &event_;
+    }
+
+private:
+    yaml_parser_t parser_{};
+    yaml_event_t event_{};
+};
+
 /// Control characters, among them the zeros of a binary file, are in no text that a human wrote.
 bool is_text(const std::string& text) {
     return std::all_of(text.begin(), text.end(), [](char c) {
@@ -190,15 +252,9 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
         throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
     }
     TreeBuilder builder(name);
-    try {
-        std::istringstream stream(text);
-        YAML::Parser parser(stream);
-        while (parser.HandleNextDocument(builder)) {
-        }
-    } catch (const YAML::Exception& error) {
-        throw InputError(fmt::format("{}: is not valid YAML: {} (column {})",
-                                     place_of(name, error.mark), error.msg,
-                                     std::max(error.mark.column, 0) + 1));
+    Parser parser(text);
+    while (const yaml_event_t* event = parser.next(name)) {
+        builder.take(*event);
     }
     YamlNode root = builder.take();
     if (root.kind == YamlNode::Kind::null) {

@@ -75,10 +75,16 @@ std::optional<ImuReading> ImuSensor::measure(const Parameters& p, State& state,
                                              const SensorView& view) {
     const double interval_s = view.truth.time_s - state.time_s;
     const Reading mean = mean_motion(state, view.truth.base, interval_s);
-    wander(state.gyro_bias_rad_s,
-           gauss_markov(p.gyro_bias_walk_rad_s2_rtHz, p.gyro_bias_tau_s, interval_s), state.random);
-    wander(state.accel_bias_m_s2,
-           gauss_markov(p.accel_bias_walk_m_s3_rtHz, p.accel_bias_tau_s, interval_s), state.random);
+    constexpr double kRoundOff_s = 1e-9;  // of differences between times
+    if (std::abs(interval_s - state.interval_s) > kRoundOff_s) {
+        state.interval_s = interval_s;
+        state.gyro_wander =
+            gauss_markov(p.gyro_bias_walk_rad_s2_rtHz, p.gyro_bias_tau_s, interval_s);
+        state.accel_wander =
+            gauss_markov(p.accel_bias_walk_m_s3_rtHz, p.accel_bias_tau_s, interval_s);
+    }
+    wander(state.gyro_bias_rad_s, state.gyro_wander, state.random);
+    wander(state.accel_bias_m_s2, state.accel_wander, state.random);
 
     // white noise of a density, averaged over a sample's interval; that of the rate is drawn first
     const double root_rate = std::sqrt(p.imu_rate_Hz);

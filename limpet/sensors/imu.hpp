@@ -36,6 +36,9 @@ struct ImuSensor {
         Vector3 v_WB_m_s = Vector3::Zero();         ///< at the last sample
         Quaternion q_WB = Quaternion::Identity();   ///< at the last sample
         double time_s = 0.0;                        ///< of the last sample
+        double interval_s = 0.0;                    ///< that the two below are for
+        GaussMarkov gyro_wander = {};
+        GaussMarkov accel_wander = {};
     };
     static constexpr std::array kStreams = {Stream::imu};
     static constexpr std::array kReadings = {&Readings::imu};

@@ -115,25 +115,6 @@ void see_motion(const FlightModel& model, Truth& truth, const plant::Plant& plan
     }
 }
 
-RotorList<double> turn_rotors(const FlightModel& model, FlightState& state, int ticks) {
-    const faults::Acting& acting = state.faults.now;
-    const double voltage_share =
-        vehicle::voltage_share(model.airframe.battery, state.battery.voltage_V);
-    const auto turn = [&] {
-        vehicle::step(model.airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                      voltage_share, acting.rotors_hit ? &acting.speed_share : nullptr);
-    };
-    turn();
-    RotorList<double> mean_rad_s = state.rotors.speed_rad_s;
-    for (int tick = 1; tick < ticks; ++tick) {
-        turn();
-        for (std::size_t i = 0; i < mean_rad_s.size(); ++i) {
-            mean_rad_s[i] += (state.rotors.speed_rad_s[i] - mean_rad_s[i]) / (tick + 1);
-        }
-    }
-    return mean_rad_s;
-}
-
 LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, FlightState& state,
                                                   plant::Plant& plant, const Stride& stride,
                                                   const RotorList<double>& speeds_rad_s,

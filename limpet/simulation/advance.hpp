@@ -8,10 +8,6 @@
 
 namespace limpet::simulation {
 
-/// Rotors over a stride.
-/// @return what their speeds were on average over its ticks
-RotorList<double> turn_rotors(const FlightModel& model, FlightState& state, int ticks);
-
 /// A stride of rigid-body truth: rotors and cup push, the plant moves.
 /// @param speeds_rad_s  of the rotors, the mean over the stride
 /// @param report        what the steps saw is added

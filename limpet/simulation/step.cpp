@@ -126,7 +126,10 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
         state.command = control(model, state, outside.autopilot);
     }
     const Stride stride = outside.any() ? one_tick(model, state) : next_stride(model, state);
-    const RotorList<double> speeds_rad_s = turn_rotors(model, state, stride.ticks);
+    const RotorList<double> speeds_rad_s =
+        vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
+                      vehicle::voltage_share(airframe.battery, state.battery.voltage_V),
+                      acting.rotors_hit ? &acting.speed_share : nullptr, stride.ticks);
     if (acting.charge_at_most < 1.0) {
         vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
     }

@@ -2,6 +2,7 @@
 #include "limpet/vehicle/rotor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
@@ -84,27 +85,40 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
             .keep_down = std::exp(-dt_s / rotor.time_constant_down_s)};
 }
 
-void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double voltage_share, const RotorList<double>* speed_share) {
+LIMPET_FOR_MACHINES RotorList<double> step(const RotorParameters& rotor, const RotorLag& lag,
+                                           RotorsState& state, const RotorCommand& command,
+                                           double voltage_share,
+                                           const RotorList<double>* speed_share, int steps) {
     const std::size_t count = state.speed_rad_s.size();
-    auto& newest_rad_s = state.asked_rad_s[state.next];
+    std::array<double, kMaxRotors> newest_rad_s{};
     for_each(count, [&](std::size_t i) {
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
     if (speed_share != nullptr) {
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
-    const auto& asked_rad_s =
-        state.asked_rad_s[(state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps];
-    state.next = (state.next + 1) % kCommandDelaySteps;
-
     const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
-    for_each(count, [&](std::size_t i) {
-        const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
-        const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
-        state.speed_rad_s[i] =
-            target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
-    });
+    RotorList<double> mean_rad_s(count);
+    std::size_t oldest = 0;
+    for (int k = 0; k < steps; ++k) {
+        if (k == 0 || lag.delay > 0) {
+            state.asked_rad_s[state.next] = newest_rad_s;
+            oldest = (state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps;
+            state.next = (state.next + 1) % kCommandDelaySteps;
+        }
+        const auto& asked_rad_s = state.asked_rad_s[oldest];
+        for_each(count, [&](std::size_t i) {
+            const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
+            const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
+            state.speed_rad_s[i] =
+                target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
+            mean_rad_s[i] += state.speed_rad_s[i];
+        });
+    }
+    if (steps > 1) {
+        for_each(count, [&](std::size_t i) { mean_rad_s[i] /= steps; });
+    }
+    return mean_rad_s;
 }
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,

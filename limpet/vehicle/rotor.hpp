@@ -83,15 +83,17 @@ struct RotorLag {
 /// @throws InternalError when the dead time is not less than kCommandDelaySteps steps
 [[nodiscard]] RotorLag make_lag(const RotorParameters& rotor, double dt_s);
 
-/// Turns commands into speeds, one step of the lag.
+/// Turns a command into speeds, some steps of the lag.
 /// @param lag            the same at every call
 /// @param command        beyond 0..1 it is cut; of as many rotors as the state has, what is not
 ///                       there is 0; disarmed rotors run down
 /// @param voltage_share  of the battery (battery.hpp), scales the highest speed
 /// @param speed_share    of each rotor that does not turn as it should; null: all do
-void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double voltage_share = 1.0,
-          const RotorList<double>* speed_share = nullptr);
+/// @param steps          >= 1, of the same command
+/// @return the speeds' mean over the ends of the steps
+RotorList<double> step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
+                       const RotorCommand& command, double voltage_share = 1.0,
+                       const RotorList<double>* speed_share = nullptr, int steps = 1);
 
 /// Sum over the rotors.
 /// @param speed_rad_s  of each

@@ -70,7 +70,7 @@ TEST(Kalman, SequentialUpdateEqualsTheBatch) {
             h[j] = j % 4 == i ? 0.0 : random.normal();
         }
         H.row(i) = h;
-        add_row(measurement, h, innovation[i], variance[i]);
+        add_row(measurement, JacobianRow(h), innovation[i], variance[i]);
     }
     const Matrix3 S = H * before * H.transpose() + Matrix3(variance.asDiagonal());
     const Eigen::Matrix<double, kErrors, 3> K = before * H.transpose() * S.inverse();
@@ -101,7 +101,7 @@ TEST(Kalman, GateIsInStandardDeviations) {
     h[kPosition] = 1.0;
     const auto test = [&](double innovation) {
         Measurement measurement;
-        add_row(measurement, h, innovation, 3.0);  // S = 1 + 3: deviation 2
+        add_row(measurement, JacobianRow(h), innovation, 3.0);  // S = 1 + 3: deviation 2
         return passes(covariance, ErrorVector::Zero(), measurement, 5.0);
     };
     EXPECT_TRUE(test(9.9));

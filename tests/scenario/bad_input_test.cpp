@@ -106,7 +106,7 @@ TEST_F(BadInput, DuplicateKey) {
 
 TEST_F(BadInput, SyntaxError) {
     EXPECT_EQ(hover_error("simulation: {hover_s: 5\n"),
-              "x.yaml:4: is not valid YAML: end of map flow not found (column 1)");
+              "x.yaml:4: is not valid YAML: did not find expected ',' or '}' (column 1)");
 }
 
 TEST_F(BadInput, Seed) {

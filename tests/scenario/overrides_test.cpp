@@ -97,7 +97,7 @@ TEST_F(Overrides, MustBeWrittenAsKeyAndValue) {
     EXPECT_EQ(error("=1"), "--set =1" + help);
     EXPECT_EQ(error("guidance..hold_s=1"), "--set guidance..hold_s=1: a part of the key is empty");
     EXPECT_EQ(error("seed={a: [1}"),
-              "--set seed={a: [1}: is not valid YAML: illegal flow end (column 7)");
+              "--set seed={a: [1}: is not valid YAML: did not find expected ',' or ']' (column 7)");
     EXPECT_EQ(
         error_of([&] {
             return data_.load("first",

@@ -53,13 +53,10 @@ TEST(YamlTree, RefusesWhatMeansSomethingElseThanItSeems) {
 
 TEST(YamlTree, NamesTheLineOfASyntaxError) {
     EXPECT_EQ(parse_error("a: 1\nb: [1, 2\nc: 3\n"),
-              "x.yaml:3: is not valid YAML: end of sequence flow not found (column 2)");
+              "x.yaml:3: is not valid YAML: did not find expected ',' or ']' (column 2)");
     EXPECT_EQ(parse_error("a: 1\n b: 2\n"),
-              "x.yaml:2: is not valid YAML: illegal map value (column 3)");
-    const std::string alias = parse_error("a: *one\n");  // newer yaml-cpp also names the anchor
-    EXPECT_EQ(alias.rfind("x.yaml:1: is not valid YAML: the referenced anchor is not defined", 0),
-              0U)
-        << alias;
+              "x.yaml:2: is not valid YAML: mapping values are not allowed in this context (column 3)");
+    EXPECT_EQ(parse_error("a: *one\n"), "x.yaml:1: aliases (*name) are not supported");
 }
 
 TEST(YamlTree, RefusesWhatHoldsNoYaml) {
