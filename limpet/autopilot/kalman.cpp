@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "limpet/core/machines.hpp"
+#include "limpet/core/unrolled.hpp"
 
 namespace limpet::autopilot {
 namespace {
@@ -47,6 +48,14 @@ void multiply_by_transposed(Covariance& matrix, const Transition& f) {
     const Eigen::Matrix<double, kAttitudes, 3> attitude = turned;
     turned.noalias() = attitude * f.turn.transpose();
     add_columns<kAttitudes>(matrix, kAttitude, kGyroBias, -f.dt_s);
+}
+
+/// Calls of_pair(i, j) for each place above the diagonal.
+template <class OfPair>
+[[gnu::always_inline]] inline void for_each_pair(OfPair&& of_pair) {
+    unrolled<kErrors>([&](auto j) [[gnu::always_inline]] {
+        unrolled<j.value>([&](auto i) [[gnu::always_inline]] { of_pair(i.value, j.value); });
+    });
 }
 
 void add_noise(Covariance& covariance, int first, double density, double dt_s) {
@@ -126,11 +135,11 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void propagate(Covariance& covariance,
     // P is symmetric: F P F' = ((P F')' F')', of which the upper half is found and mirrored.
     multiply_by_transposed<kErrors, kErrors, kErrors>(covariance, transition);
     const Matrix3 attitude = covariance.block<3, 3>(kAttitude, kAttitude);  // all of it turns
-    covariance.triangularView<Eigen::StrictlyUpper>() = covariance.transpose();
+    for_each_pair([&](int i, int j) { covariance(i, j) = covariance(j, i); });
     covariance.block<3, 3>(kAttitude, kAttitude) = attitude.transpose();
     // One row more than the upper half has: of an odd one Eigen's sums would go in another order.
     multiply_by_transposed<kVelocity, kAttitude, kGyroBias + 1>(covariance, transition);
-    covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();
+    for_each_pair([&](int i, int j) { covariance(j, i) = covariance(i, j); });
     add_noise(covariance, kVelocity, noise.accelerometer_m_s2_rtHz, transition.dt_s);
     add_noise(covariance, kAttitude, noise.gyro_rad_s_rtHz, transition.dt_s);
     add_noise(covariance, kGyroBias, noise.gyro_bias_rad_s2_rtHz, transition.dt_s);

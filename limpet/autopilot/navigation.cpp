@@ -34,15 +34,26 @@ Navigation advance(const Navigation& now, const ImuStep& step) {
     return next;
 }
 
-Navigation retreat(const Navigation& now, const ImuStep& step) {
+namespace {
+
+/// As retreat(), but for rounding of the attitude's length.
+Navigation step_back(const Navigation& now, const ImuStep& step) {
     const Vector3 turn_rad = (step.rate_B_rad_s - now.gyro_bias_rad_s) * step.dt_s;
     const Quaternion half_turn = quaternion_from_rotation_vector(-0.5 * turn_rad);
     const Quaternion q_WB_middle = now.q_WB * half_turn;
     const Vector3 a_W_m_s2 = acceleration_W(now, q_WB_middle, step);
     Navigation before = now;
-    before.q_WB = (q_WB_middle * half_turn).normalized();
+    before.q_WB = q_WB_middle * half_turn;
     before.v_WB_m_s -= step.dt_s * a_W_m_s2;
     before.p_WB_m -= step.dt_s * (before.v_WB_m_s + 0.5 * step.dt_s * a_W_m_s2);
+    return before;
+}
+
+}  // namespace
+
+Navigation retreat(const Navigation& now, const ImuStep& step) {
+    Navigation before = step_back(now, step);
+    before.q_WB.normalize();
     return before;
 }
 
@@ -53,7 +64,7 @@ std::optional<Navigation> past(const Navigation& now, const ImuHistory& history,
     for (int i = 0; i < history.count && left_s > 0.0; ++i) {
         ImuStep step = history.steps[static_cast<std::size_t>(index)];
         step.dt_s = std::min(step.dt_s, left_s);
-        state = retreat(state, step);
+        state = step_back(state, step);
         left_s -= step.dt_s;
         index = index == 0 ? ImuHistory::kCapacity - 1 : index - 1;
     }
@@ -61,6 +72,7 @@ std::optional<Navigation> past(const Navigation& now, const ImuHistory& history,
     if (left_s > kRoundOff_s) {
         return std::nullopt;
     }
+    state.q_WB.normalize();
     return state;
 }
 

@@ -168,6 +168,12 @@ void RandomStream::find_normals() {
 }
 
 Vector3 RandomStream::normal3() {
+    const std::uint64_t at = drawn_ - ahead_.from;
+    if (ahead_.there && ahead_.normal && at + 3 <= Ahead::kCount) {
+        drawn_ += 3;
+        const auto& normals = ahead_.normals;
+        return {normals[at ^ 1U], normals[(at + 1) ^ 1U], normals[(at + 2) ^ 1U]};
+    }
     const double x = normal();
     const double y = normal();
     const double z = normal();

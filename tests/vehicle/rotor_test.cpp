@@ -44,6 +44,28 @@ TEST(Rotor, EquationsThreeAndFourGiveTableOne) {
     EXPECT_NEAR(k_mot * std::pow(2.0 * kPi * 100.0, 2), thrust_N, 1e-12 * thrust_N);
 }
 
+TEST(Rotor, SeveralStepsAtOnceAreThoseOneByOne) {
+    Airframe airframe;
+    for (const double delay_s : {0.0, 0.002}) {
+        airframe.rotor.command_delay_s = delay_s;
+        const RotorLag lag = make_lag(airframe.rotor, kDt_s);
+        RotorsState one_by_one = at_speed(500.0), at_once = one_by_one;
+        for (const RotorCommand& command : {armed(0.9, 0.2, 0.7, 0.6), armed(0.1)}) {
+            Vector3 sum = Vector3::Zero();
+            for (int k = 0; k < 4; ++k) {
+                step(airframe.rotor, lag, one_by_one, command);
+                sum += Vector3(one_by_one.speed_rad_s[0], one_by_one.speed_rad_s[1],
+                               one_by_one.speed_rad_s[2]);
+            }
+            const auto mean = step(airframe.rotor, lag, at_once, command, 1.0, nullptr, 4);
+            EXPECT_EQ(at_once.speed_rad_s, one_by_one.speed_rad_s);
+            for (int i = 0; i < 3; ++i) {
+                EXPECT_NEAR(mean[static_cast<std::size_t>(i)], sum[i] / 4.0, 1e-9);
+            }
+        }
+    }
+}
+
 TEST(Rotor, HoversAt560RadiansPerSecond) {
     const Airframe airframe;
     RotorsState state = standing(4);

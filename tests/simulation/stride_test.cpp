@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/simulation/stride.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "flown.hpp"
+#include "limpet/plant/engines.hpp"
+
+namespace limpet::simulation {
+namespace {
+
+int longest(const FlightModel& model) {
+    return *std::max_element(model.strides.begin(), model.strides.end());
+}
+
+/// Every sample, decision and record has a tick of its own, in any second of a flight.
+TEST(Stride, EndsWhereverAnybodyLooks) {
+    const auto model = model_of("hover", {"sensors.mocap_rate_Hz=120", "sensors.force_rate_Hz=77"});
+    ASSERT_EQ(longest(*model), 4);
+    const auto rates_Hz = sensors::rates_Hz(model->sensors.parameters);
+    Tick at = 0;
+    while (at < 3 * kTicksPerSecond) {
+        const Tick next = at + model->strides[static_cast<std::size_t>(at % kTicksPerSecond)];
+        for (Tick passed = at + 1; passed < next; ++passed) {
+            for (const int rate_Hz : rates_Hz) {
+                EXPECT_FALSE(rate_Hz > 0 && due(passed, rate_Hz)) << passed << ": " << rate_Hz;
+            }
+            EXPECT_FALSE(due(passed, model->guidance_rate_Hz) ||
+                         due(passed, model->record_rate_Hz));
+        }
+        at = next;
+    }
+    EXPECT_EQ(at, 3 * kTicksPerSecond);
+}
+
+/// Who steps by ticks: other engines, a bench, a vehicle with faults, whoever asks for it.
+TEST(Stride, IsATickWhereLongStepsAreNotAsGood) {
+    EXPECT_EQ(longest(*model_of("perch_concrete")), 4);
+    EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.longest_step_s=0.002"})), 2);
+    EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.longest_step_s=0.001"})), 1);
+    EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.step_s=0.00025"})), 1);
+    EXPECT_EQ(longest(*model_of("pendulum_concrete")), 1);
+    EXPECT_EQ(longest(*model_of("perch_concrete", {"faults=[{fault: pressure_drifts, phase: "
+                                                   "holding, for_s: 3}]"})),
+              1);
+    for (const plant::Engine* engine : plant::engines()) {
+        const auto model =
+            model_of("perch_concrete", {"simulation.engine=" + std::string(engine->name)});
+        EXPECT_EQ(longest(*model), engine == &plant::kReducedEngine ? 4 : 1) << engine->name;
+    }
+}
+
+TEST(Stride, IsATickBesideAWallThatIsNotHeld) {
+    const auto model = model_of("perch_concrete");
+    const auto plant = model->plant->make();
+    FlightState state = start(*model, *plant);
+    state.tick = 200;  // a look at 204, none before
+    state.cup.status = {.phase = CupPhase::free, .gap_m = 1.0};
+    EXPECT_EQ(next_stride(*model, state).ticks, 4);
+    state.cup.status.gap_m = 0.2;
+    EXPECT_EQ(next_stride(*model, state).ticks, 1);
+    state.cup.status.gap_m = 0.01;
+    EXPECT_EQ(next_stride(*model, state).ticks, 1);
+    EXPECT_EQ(next_stride(*model, state).steps, 4);
+    state.cup.status = {.phase = CupPhase::touching, .gap_m = -0.001};
+    EXPECT_EQ(next_stride(*model, state).ticks, 1);
+    state.cup.status.phase = CupPhase::attached;
+    EXPECT_EQ(next_stride(*model, state).ticks, 4);
+    state.fine_until = 300;
+    EXPECT_EQ(next_stride(*model, state).ticks, 1);
+}
+
+/// The same decisions at the same instants, loads within a hundredth: on every surface, and with
+/// the motors that swing.
+TEST(Stride, EndsAsTickByTick) {
+    for (const char* name : {"perch_concrete", "perch_metal_valve", "perch_cinder_block",
+                             "failed_perch", "slow_motors_concrete"}) {
+        const FlightResult strides = fly(model_of(name));
+        const FlightResult ticks = fly(model_of(name, {"simulation.longest_step_s=0.001"}));
+        EXPECT_EQ(strides.outcome, ticks.outcome) << name;
+        EXPECT_LT(strides.performance.physics_steps, 7 * ticks.performance.physics_steps / 10);
+        ASSERT_EQ(strides.events.size(), ticks.events.size()) << name;
+        for (std::size_t i = 0; i < ticks.events.size(); ++i) {
+            EXPECT_EQ(strides.events[i].name, ticks.events[i].name);
+            EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, 0.045) << name << i;
+        }
+        const auto near = [&](double Metrics::*metric, double share) {
+            EXPECT_NEAR(strides.metrics.*metric / (ticks.metrics.*metric), 1.0, share) << name;
+        };
+        near(&Metrics::impact_force_N, 0.01);
+        near(&Metrics::cup_press_max_N, 0.01);
+        near(&Metrics::perched_pitch_deg, 0.001);
+    }
+}
+
+}  // namespace
+}  // namespace limpet::simulation
