@@ -64,7 +64,8 @@ install_packages() {
     missing=$(known_packages $missing)
     [ -n "$missing" ] || return 0
     # shellcheck disable=SC2086  # a list of words
-    step "  installing ..." as_root apt-get install -y --no-install-recommends $missing
+    # Another program may be installing, as a machine does by itself at night: it is waited for.
+    step "  installing ..." as_root apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends $missing
 }
 
 # install_node: for the pages; another Node than the distribution's will do
