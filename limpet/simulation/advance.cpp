@@ -67,19 +67,13 @@ void apply_cup(const FlightModel& model, FlightState& state, plant::Plant& plant
     }
 }
 
-/// The base's attitude half-way through a step: a force that turns with it acts on average so.
-Matrix3 turning_R_WB(const Kinematics& base, double step_s) {
-    return (base.q_WF * quaternion_from_rotation_vector(0.5 * step_s * base.w_WF_F_rad_s))
-        .toRotationMatrix();
-}
-
 /// The air on the base: rotors in the wind, and what the wall does to their wake.
 struct AirLoad {
     Wrench wrench_W;
     double thrust_N = 0.0;
 };
 
-AirLoad load_of_air(const FlightModel& model, const FlightState& state, const Stride& stride,
+AirLoad load_of_air(const FlightModel& model, const FlightState& state,
                     const RotorList<double>& speeds_rad_s) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
@@ -88,10 +82,9 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state, const St
     const Wrench rotors_B =
         vehicle::rotor_wrench_B(airframe, speeds_rad_s, base,
                                 vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s);
-    const Matrix3 pushed_R_WB = stride.ticks > 1 ? turning_R_WB(base, stride.step_s()) : R_WB;
-    AirLoad air{.wrench_W = {.force_N = pushed_R_WB * rotors_B.force_N,
-                             .moment_N_m = R_WB * rotors_B.moment_N_m},
-                .thrust_N = -rotors_B.force_N.z()};
+    AirLoad air{
+        .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
+        .thrust_N = -rotors_B.force_N.z()};
     if (acting.payload_to_right_kg_m != 0.0) {
         air.wrench_W.moment_N_m +=
             (acting.payload_to_right_kg_m * R_WB.col(1)).cross(kGravity_m_s2 * Vector3::UnitZ());
@@ -123,7 +116,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
     const plant::StepMode mode{.step_s = stride.step_s(),
                                .contacts = stride.contacts,
                                .legs_lost = state.faults.now.legs_lost};
-    const AirLoad air = load_of_air(model, state, stride, speeds_rad_s);
+    const AirLoad air = load_of_air(model, state, speeds_rad_s);
     for (int k = 0; k < stride.steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {

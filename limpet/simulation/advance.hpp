@@ -9,7 +9,7 @@
 namespace limpet::simulation {
 
 /// A stride of rigid-body truth: rotors and cup push, the plant moves.
-/// @param speeds_rad_s  of the rotors, the mean over the stride
+/// @param speeds_rad_s  with which the rotors push
 /// @param report        what the steps saw is added
 /// @param external_cup  nullptr: ours
 void advance(const FlightModel& model, FlightState& state, plant::Plant& plant,

@@ -109,7 +109,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->touch_steps_a_tick = whole(kTick_s / scenario.simulation.touch_step_s);
     // Where everybody takes single ticks that is the whole of it.
     const bool strides = model->plant->takes_long_steps() && model->steps_a_tick == 1 &&
-                         model->mount == vehicle::Mount::free && !model->faults.any();
+                         model->mount == vehicle::Mount::free;
     model->strides =
         strides_of(*model, strides ? whole(scenario.simulation.longest_step_s / kTick_s) : 1);
     return model;

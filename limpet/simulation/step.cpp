@@ -126,10 +126,12 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
         state.command = control(model, state, outside.autopilot);
     }
     const Stride stride = outside.any() ? one_tick(model, state) : next_stride(model, state);
-    const RotorList<double> speeds_rad_s =
-        vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                      vehicle::voltage_share(airframe.battery, state.battery.voltage_V),
-                      acting.rotors_hit ? &acting.speed_share : nullptr, stride.ticks);
+    // Over a tick the rotors push as they turn at its end. In a longer step the bodies' rates are
+    // those of its middle: a force must be that of its beginning, or it comes half a step too soon.
+    const RotorList<double> before_rad_s = state.rotors.speed_rad_s;
+    vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
+                  vehicle::voltage_share(airframe.battery, state.battery.voltage_V),
+                  acting.rotors_hit ? &acting.speed_share : nullptr, stride.ticks);
     if (acting.charge_at_most < 1.0) {
         vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
     }
@@ -140,7 +142,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
         vehicle::step(model.wind, state.wind);
         vehicle::step(model.wall_air, state.wall_air);
     }
-    advance(model, state, plant, stride, speeds_rad_s, report, outside.cup);
+    advance(model, state, plant, stride, stride.ticks > 1 ? before_rad_s : state.rotors.speed_rad_s,
+            report, outside.cup);
 
     state.tick += stride.ticks;
     see_truth(model, state, plant);

@@ -76,11 +76,12 @@ void LevelOnCup::period() {
     simulation::Stride stride = one_tick(*model_, state_);
     stride.ticks = ticks_a_stride_;
     for (int left = ticks_; left > 0; left -= stride.ticks) {
-        const RotorList<double> speeds_rad_s =
-            step(model_->airframe.rotor, model_->rotor_lag, state_.rotors, state_.command, 1.0,
-                 nullptr, stride.ticks);
+        const RotorList<double> before_rad_s = state_.rotors.speed_rad_s;
+        step(model_->airframe.rotor, model_->rotor_lag, state_.rotors, state_.command, 1.0, nullptr,
+             stride.ticks);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
-        advance(*model_, state_, plant_, stride, speeds_rad_s, report);
+        advance(*model_, state_, plant_, stride,
+                stride.ticks > 1 ? before_rad_s : state_.rotors.speed_rad_s, report);
         state_.tick += stride.ticks;
         see_motion(*model_, state_.truth, plant_);
     }

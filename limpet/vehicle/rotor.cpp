@@ -85,10 +85,9 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
             .keep_down = std::exp(-dt_s / rotor.time_constant_down_s)};
 }
 
-LIMPET_FOR_MACHINES RotorList<double> step(const RotorParameters& rotor, const RotorLag& lag,
-                                           RotorsState& state, const RotorCommand& command,
-                                           double voltage_share,
-                                           const RotorList<double>* speed_share, int steps) {
+LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
+                              const RotorCommand& command, double voltage_share,
+                              const RotorList<double>* speed_share, int steps) {
     const std::size_t count = state.speed_rad_s.size();
     std::array<double, kMaxRotors> newest_rad_s{};
     for_each(count, [&](std::size_t i) {
@@ -98,7 +97,6 @@ LIMPET_FOR_MACHINES RotorList<double> step(const RotorParameters& rotor, const R
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
     const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
-    RotorList<double> mean_rad_s(count);
     std::size_t oldest = 0;
     for (int k = 0; k < steps; ++k) {
         if (k == 0 || lag.delay > 0) {
@@ -112,13 +110,8 @@ LIMPET_FOR_MACHINES RotorList<double> step(const RotorParameters& rotor, const R
             const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
             state.speed_rad_s[i] =
                 target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
-            mean_rad_s[i] += state.speed_rad_s[i];
         });
     }
-    if (steps > 1) {
-        for_each(count, [&](std::size_t i) { mean_rad_s[i] /= steps; });
-    }
-    return mean_rad_s;
 }
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,

@@ -90,10 +90,9 @@ struct RotorLag {
 /// @param voltage_share  of the battery (battery.hpp), scales the highest speed
 /// @param speed_share    of each rotor that does not turn as it should; null: all do
 /// @param steps          >= 1, of the same command
-/// @return the speeds' mean over the ends of the steps
-RotorList<double> step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-                       const RotorCommand& command, double voltage_share = 1.0,
-                       const RotorList<double>* speed_share = nullptr, int steps = 1);
+void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
+          const RotorCommand& command, double voltage_share = 1.0,
+          const RotorList<double>* speed_share = nullptr, int steps = 1);
 
 /// Sum over the rotors.
 /// @param speed_rad_s  of each

@@ -35,16 +35,13 @@ TEST(Stride, EndsWhereverAnybodyLooks) {
     EXPECT_EQ(at, 3 * kTicksPerSecond);
 }
 
-/// Who steps by ticks: other engines, a bench, a vehicle with faults, whoever asks for it.
+/// Who steps by ticks: other engines, a bench, whoever asks for it.
 TEST(Stride, IsATickWhereLongStepsAreNotAsGood) {
     EXPECT_EQ(longest(*model_of("perch_concrete")), 4);
     EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.longest_step_s=0.002"})), 2);
     EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.longest_step_s=0.001"})), 1);
     EXPECT_EQ(longest(*model_of("perch_concrete", {"simulation.step_s=0.00025"})), 1);
     EXPECT_EQ(longest(*model_of("pendulum_concrete")), 1);
-    EXPECT_EQ(longest(*model_of("perch_concrete", {"faults=[{fault: pressure_drifts, phase: "
-                                                   "holding, for_s: 3}]"})),
-              1);
     for (const plant::Engine* engine : plant::engines()) {
         const auto model =
             model_of("perch_concrete", {"simulation.engine=" + std::string(engine->name)});
@@ -57,14 +54,14 @@ TEST(Stride, IsATickBesideAWallThatIsNotHeld) {
     const auto plant = model->plant->make();
     FlightState state = start(*model, *plant);
     state.tick = 200;  // a look at 204, none before
-    state.cup.status = {.phase = CupPhase::free, .gap_m = 1.0};
+    state.cup.status.gap_m = 1.0;
     EXPECT_EQ(next_stride(*model, state).ticks, 4);
     state.cup.status.gap_m = 0.2;
     EXPECT_EQ(next_stride(*model, state).ticks, 1);
     state.cup.status.gap_m = 0.01;
     EXPECT_EQ(next_stride(*model, state).ticks, 1);
     EXPECT_EQ(next_stride(*model, state).steps, 4);
-    state.cup.status = {.phase = CupPhase::touching, .gap_m = -0.001};
+    state.cup.status.phase = CupPhase::touching;
     EXPECT_EQ(next_stride(*model, state).ticks, 1);
     state.cup.status.phase = CupPhase::attached;
     EXPECT_EQ(next_stride(*model, state).ticks, 4);
@@ -84,7 +81,7 @@ TEST(Stride, EndsAsTickByTick) {
         ASSERT_EQ(strides.events.size(), ticks.events.size()) << name;
         for (std::size_t i = 0; i < ticks.events.size(); ++i) {
             EXPECT_EQ(strides.events[i].name, ticks.events[i].name);
-            EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, 0.045) << name << i;
+            EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, 0.1) << name << i;
         }
         const auto near = [&](double Metrics::*metric, double share) {
             EXPECT_NEAR(strides.metrics.*metric / (ticks.metrics.*metric), 1.0, share) << name;

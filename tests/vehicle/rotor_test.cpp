@@ -51,17 +51,11 @@ TEST(Rotor, SeveralStepsAtOnceAreThoseOneByOne) {
         const RotorLag lag = make_lag(airframe.rotor, kDt_s);
         RotorsState one_by_one = at_speed(500.0), at_once = one_by_one;
         for (const RotorCommand& command : {armed(0.9, 0.2, 0.7, 0.6), armed(0.1)}) {
-            Vector3 sum = Vector3::Zero();
             for (int k = 0; k < 4; ++k) {
                 step(airframe.rotor, lag, one_by_one, command);
-                sum += Vector3(one_by_one.speed_rad_s[0], one_by_one.speed_rad_s[1],
-                               one_by_one.speed_rad_s[2]);
             }
-            const auto mean = step(airframe.rotor, lag, at_once, command, 1.0, nullptr, 4);
+            step(airframe.rotor, lag, at_once, command, 1.0, nullptr, 4);
             EXPECT_EQ(at_once.speed_rad_s, one_by_one.speed_rad_s);
-            for (int i = 0; i < 3; ++i) {
-                EXPECT_NEAR(mean[static_cast<std::size_t>(i)], sum[i] / 4.0, 1e-9);
-            }
         }
     }
 }
