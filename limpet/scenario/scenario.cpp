@@ -40,7 +40,7 @@ const ParameterTable<SimulationParameters>& simulation_table() {
          "plant step of engine reduced until the next sample or decision, where nothing is about "
          "to "
          "touch; whole ticks",
-         "decision 0039: as at an eighth of it; an IMU's interval"},
+         "decision 0043: as at an eighth of it; an IMU's interval"},
         {"touch_step_s", "s", 1e-5, kTick_s, &S::touch_step_s,
          "plant step around a touch; divides step_s",
          "lip and slider peaks within 1 % (decision 0004)"},
