@@ -65,7 +65,7 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside, {.compress = info.compress}),
+    : writer_(path, info.beside, {.compress = info.compress}, info.topics),
       range_sensor_(info.range_sensor),
       rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;
@@ -76,7 +76,7 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
     about["version"] = info.version;
     writer_.file().add_metadata({"limpet", about});
     for (const mcap::Attachment& attachment : info.attachments) {
-        writer_.file().add_attachment(attachment);
+        writer_.add_attachment(attachment);
     }
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
         channels_[i] = writer_.add_channel(kTopics[i].name, kTopics[i].type,

@@ -67,6 +67,8 @@ inline constexpr std::string_view kDescriptionTopic = "/robot_description";
 inline constexpr std::string_view kMovingTopic = "/tf";
 inline constexpr std::string_view kStandingTopic = "/tf_static";
 inline constexpr std::string_view kMarkersTopic = "/scene";
+/// Of an attachment that the description's `package://VEHICLE/NAME` means.
+inline constexpr std::string_view kMeshMediaType = "model/stl";
 [[nodiscard]] constexpr bool is_of_scene(std::string_view topic) {
     return topic == kDescriptionTopic || topic == kMovingTopic || topic == kStandingTopic ||
            topic == kMarkersTopic;
