@@ -8,7 +8,7 @@
 #include <string>
 
 #include "limpet/record/topics.hpp"
-#include "ros/src/heard.hpp"
+#include "ros2/src/flight_clock.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -19,13 +19,6 @@ std::string wire_type(std::string_view type) {
     const std::size_t name = type.rfind('/');
     return std::string(type.substr(0, package)) +
            "::msg::dds_::" + std::string(type.substr(name + 1)) + "_";
-}
-
-/// Time zero of a flight, on /clock.
-double flight_start_s() {
-    Heard heard({}, false);
-    static_cast<void>(heard.tick(0.0));
-    return heard.clock_s();
 }
 
 class RecordingTopics final : public record::MessageSink {
@@ -43,13 +36,16 @@ public:
         ros2::Node& node = ::ros::detail::node();
         const std::string type = wire_type(channel.type);
         constexpr std::uint32_t kAsTf2 = 100;
-        topics_[channel.id] = {
-            .writer = node.advertise(
+        std::shared_ptr<ros2::Writer>& writer = writers_[name];  // the flight before had it too
+        if (!writer) {
+            writer = node.advertise(
                 node.settings().resolve(is_of_scene(channel.topic) ? name.substr(1) : name), type,
-                stays ? ros2::kLatched : ::ros::detail::profile_of(type, kAsTf2)),
-            .kind = channel.topic == record::kDescriptionTopic ? Kind::timeless
-                    : is_of_scene(channel.topic)               ? Kind::transforms
-                                                               : Kind::stamped};
+                stays ? ros2::kLatched : ::ros::detail::profile_of(type, kAsTf2));
+        }
+        topics_[channel.id] = {.writer = writer,
+                               .kind = channel.topic == record::kDescriptionTopic ? Kind::timeless
+                                       : is_of_scene(channel.topic)               ? Kind::transforms
+                                                                                  : Kind::stamped};
     }
 
     void message(std::uint16_t channel, std::uint64_t /*time_ns*/, mcap::ByteView data) override {
@@ -73,7 +69,7 @@ private:
         timeless,
     };
     struct Topic {
-        std::unique_ptr<ros2::Writer> writer;
+        std::shared_ptr<ros2::Writer> writer;
         Kind kind = Kind::stamped;
     };
     struct Stamp {
@@ -101,7 +97,8 @@ private:
     }
 
     double start_s_ = flight_start_s();
-    std::map<std::uint16_t, Topic> topics_;
+    std::map<std::string, std::shared_ptr<ros2::Writer>> writers_;
+    std::map<std::uint16_t, Topic> topics_;  ///< of this flight
 };
 
 }  // namespace
