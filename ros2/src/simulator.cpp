@@ -11,7 +11,6 @@
 #include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "limpet/suction/cup.hpp"
-#include "ros2/src/flight_clock.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -60,7 +59,7 @@ Simulator::Acceleration Simulator::acceleration() const {
 }
 
 double Simulator::clock_s() const {
-    return flight_start_s() + (flight_ ? seconds(flight_->state().tick) : 0.0);
+    return Heard::kClockStart_s + (flight_ ? seconds(flight_->state().tick) : 0.0);
 }
 
 // --- one flight after another -------------------------------------------------------------------
@@ -197,6 +196,7 @@ void Simulator::tick() {
     if (log_) {
         log_->tick(*model_, flight_->state(), happened);
     }
+    vehicle_->show(*flight_);
     if (stepping_.left > 0) {
         ++stepping_.done;
         --stepping_.left;

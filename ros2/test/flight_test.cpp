@@ -2,6 +2,7 @@
 // Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched
 // by another DDS library.
 #include <gtest/gtest.h>
+#include <limpet_ros/PerchingAction.h>
 #include <limpet_ros/PerchingStatus.h>
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
@@ -42,13 +43,31 @@ protected:
             .value_or(std_srvs::TriggerResponse());
     }
 
+    /// A word of rclcpp's action client.
+    template <class Request, class Response>
+    Response ask(const std::string& service, const Request& request, double patience_s) {
+        const auto client = node_->client(service, Request::kType, Response::kType);
+        EXPECT_TRUE(soon([&] { return client->is_served(); })) << service;
+        const auto answer = client->call(encode(request), patience_s);
+        EXPECT_TRUE(answer) << service;
+        return decode<Response>(answer.value_or(Bytes())).value_or(Response());
+    }
+    bool send_goal(std::uint8_t id) {
+        using Action = limpet_ros::PerchingAction;
+        Action::SendGoalRequest request;
+        request.goal_id.uuid[0] = id;
+        return ask<Action::SendGoalRequest, Action::SendGoalResponse>(
+                   "/perching_node/take_off/_action/send_goal", request, 5.0)
+                   .accepted != 0;
+    }
+
     int domain_ = 1 + static_cast<int>(getpid() % 100);
     std::unique_ptr<Node> node_;
     std::mutex mutex_;
     limpet_ros::PerchingStatus status_;
 };
 
-TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
+TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
     Process vehicle("vehicle_node", {"scenario:=perch_concrete", "speed:=3.0",
                                      "set:=simulation.time_limit_s=3600"});
     Process cup("suction_cup_node", {"as_vehicle:=true", "use_sim_time:=true"});
@@ -76,6 +95,7 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
 
     ASSERT_TRUE(status_is(60, [](const auto& s) { return s.phase == "ready"; }));
     EXPECT_FALSE(call("/perching_node/take_off").success);
+    EXPECT_FALSE(send_goal(1));
     const auto begins = call("/perching_node/perch");
     ASSERT_TRUE(begins.success) << begins.message;
     ASSERT_TRUE(status_is(90, [](const auto& s) { return s.outcome == "perched"; }));
@@ -112,9 +132,26 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
         descriptions, [&](const std_msgs_msg_dds__String_& text) { description = text.data; });
     EXPECT_NE(description.find("<robot"), std::string::npos);
 
-    const auto leaves = call("/perching_node/take_off");
-    ASSERT_TRUE(leaves.success) << leaves.message;
-    EXPECT_TRUE(status_is(120, [](const auto& s) { return s.outcome == "released"; }));
+    using Action = limpet_ros::PerchingAction;
+    std::set<std::string> states;  // of the take-off's feedback; by mutex_
+    const auto feedback = node_->subscribe(
+        "/perching_node/take_off/_action/feedback", Action::FeedbackMessage::kType, {},
+        [&](const Bytes& bytes) {
+            const std::lock_guard lock(mutex_);
+            states.insert(decode<Action::FeedbackMessage>(bytes).value().feedback.state);
+        });
+    ASSERT_TRUE(send_goal(2));
+    Action::GetResultRequest of_goal;
+    of_goal.goal_id.uuid[0] = 2;
+    const auto end = ask<Action::GetResultRequest, Action::GetResultResponse>(
+        "/perching_node/take_off/_action/get_result", of_goal, 120.0);
+    constexpr int kSucceeded = 4;
+    EXPECT_EQ(end.status, kSucceeded);
+    EXPECT_EQ(end.result.outcome, "released") << end.result.reason;
+    {
+        const std::lock_guard lock(mutex_);
+        EXPECT_GE(states.size(), 2U);  // on its way it comes through several
+    }
     EXPECT_EQ(guidance.end(), 0);
     EXPECT_EQ(cup.end(), 0);
     EXPECT_EQ(vehicle.end(), 0);

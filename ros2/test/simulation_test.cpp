@@ -238,7 +238,7 @@ TEST_F(Simulation, LoadsOtherWorldsAndStaysWhereAFlightHasEnded) {
                 });
     EXPECT_EQ(set_state(kPaused), kOk);
     EntityState falls = state_of(kVehicle);
-    falls.twist.linear.z = -8.0;
+    falls.twist.linear.z = -15.0;  // more than it can brake
     EXPECT_EQ(put(kVehicle, falls, false, true), kOk);
     EXPECT_EQ(step(2'000), kFailed);  // it has hit the ground
     EXPECT_EQ(state(), kPaused);
