@@ -15,7 +15,7 @@ namespace limpet::ros {
                                                        const vehicle::Airframe& airframe) {
     ::ros::Publisher stays = node.advertise<std_msgs::String>("robot_description", 1, true);
     std_msgs::String text;
-    text.data = write_robot_description(airframe);
+    text.data = models::write_robot_description(airframe);
     stays.publish(text);
     return stays;
 }
