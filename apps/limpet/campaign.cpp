@@ -14,6 +14,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/rare/rare_campaign.hpp"
+#include "limpet/study/study.hpp"
 #include "output.hpp"
 #include "rare.hpp"
 #include "terminal.hpp"
@@ -146,6 +147,7 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                      campaign::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
     rare::require_plain(place.results);
+    study::require_no_study(place.results);
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
                                         : Terminal::Voice::normal);
