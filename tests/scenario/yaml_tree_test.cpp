@@ -54,8 +54,9 @@ TEST(YamlTree, RefusesWhatMeansSomethingElseThanItSeems) {
 TEST(YamlTree, NamesTheLineOfASyntaxError) {
     EXPECT_EQ(parse_error("a: 1\nb: [1, 2\nc: 3\n"),
               "x.yaml:3: is not valid YAML: did not find expected ',' or ']' (column 2)");
-    EXPECT_EQ(parse_error("a: 1\n b: 2\n"),
-              "x.yaml:2: is not valid YAML: mapping values are not allowed in this context (column 3)");
+    EXPECT_EQ(
+        parse_error("a: 1\n b: 2\n"),
+        "x.yaml:2: is not valid YAML: mapping values are not allowed in this context (column 3)");
     EXPECT_EQ(parse_error("a: *one\n"), "x.yaml:1: aliases (*name) are not supported");
 }
 
