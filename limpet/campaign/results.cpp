@@ -174,9 +174,10 @@ Shard read_shard(SQLite::Database& database) {
     return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
 }
 
-/// Runs of another campaign, or of another part of this. A search flies as many as it needs.
+/// Runs of another campaign, or of another part of this. A search and a study fly as many as
+/// they need.
 void require_runs(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
-    const std::uint32_t end = database.tableExists("rare")
+    const std::uint32_t end = database.tableExists("rare") || database.tableExists("study")
                                   ? std::numeric_limits<std::uint32_t>::max()
                                   : shard.end(campaign.runs);
     if (integer(database,

@@ -61,7 +61,7 @@ const std::vector<CauseInput>& cause_inputs() {
          {"vehicle.rotor.time_constant_up_s"},
          Cause::motors,
          0.0125,
-         {0.008, 0.08, true},
+         {0.006, 0.08, true},
          "J R / (Kt^2 + R dQ/dw), 380 KV, R 0.1 … 0.4 ohm, J 1e-4 kg m2 (25 %)",
          kEstimate,
          motor_lag_s},
