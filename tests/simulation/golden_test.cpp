@@ -25,15 +25,15 @@ TEST_P(GoldenHash, TheFlightIsTheSameBitForBit) {
 
 // Of Debian 12's compiler and mathematical library on x86-64 (docs/decisions/0006-determinism.md).
 INSTANTIATE_TEST_SUITE_P(Shipped, GoldenHash,
-                         testing::Values(Golden{"hover", {}, 0x15a6bebd6516e1d9},
-                                         Golden{"perch_concrete", {}, 0x7d7c1491d8bebfa2},
-                                         Golden{"perch_metal_valve", {}, 0xf9c191665a0533c5},
-                                         Golden{"failed_perch", {}, 0xfe43ea829e40a6e3},
-                                         Golden{"pendulum_concrete", {}, 0x4de36ae2cac8a4f2}),
+                         testing::Values(Golden{"hover", {}, 0xe8ec6e642853f902},
+                                         Golden{"perch_concrete", {}, 0x7aebe0860aeb550e},
+                                         Golden{"perch_metal_valve", {}, 0x50221006c4a794f1},
+                                         Golden{"failed_perch", {}, 0x9a5469ce9cbafabe},
+                                         Golden{"pendulum_concrete", {}, 0x683d96a0955e5242}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 INSTANTIATE_TEST_SUITE_P(OnMujoco, GoldenHash,
                          testing::Values(Golden{
-                             "perch_concrete", {"simulation.engine=mujoco"}, 0x51e2b06ffde6ef6f}),
+                             "perch_concrete", {"simulation.engine=mujoco"}, 0xc8d9e9f9dba1db79}),
                          [](const auto& row) { return std::string(row.param.scenario); });
 
 }  // namespace
