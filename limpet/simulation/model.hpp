@@ -52,7 +52,8 @@ struct FlightModel {
     int steps_a_tick = 1;        ///< of the plant, where it takes any in a tick
     int touch_steps_a_tick = 4;  ///< around a touch
     int record_rate_Hz = 100;
-    Strides strides{};  ///< how far the bodies may go in a step of the plant (stride.hpp)
+    Tick last_tick = 0;  ///< the scenario's time is over then
+    Strides strides{};   ///< how far the bodies may go in a step of the plant (stride.hpp)
     /// What the above is made of, with its texts: for logs and results, no station reads it.
     std::shared_ptr<const scenario::Scenario> scenario;
 };

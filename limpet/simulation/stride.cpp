@@ -51,7 +51,7 @@ Stride next_stride(const FlightModel& model, const FlightState& state) {
         (stride.contacts && is_fast(model, state.truth.base))) {
         return stride;
     }
-    stride.ticks = ticks;
+    stride.ticks = static_cast<int>(std::clamp<Tick>(model.last_tick - state.tick, 1, ticks));
     return stride;
 }
 

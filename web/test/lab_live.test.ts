@@ -254,7 +254,7 @@ test("its parameters are set, within what they may be", { skip }, async () => {
 });
 
 test("a vehicle from CAD has its meshes", { skip }, async () => {
-  const { line } = await fly(1, "--set", "vehicle=cad_uav");
+  const { line } = await fly(1, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
   await watch(line);
   await until(({ messages }) => messages > 100);
   await page.waitForFunction(() => {

@@ -335,7 +335,7 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
 });
 
 test("the meshes of a vehicle from CAD are fetched", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("meshes", 20, "--set", "vehicle=cad_uav");
+  const flight = new Flight("meshes", 20, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
   const viewer = new Viewer(await flight.address(), "foxglove.sdk.v1");
   await viewer.until(() => viewer.channels.size >= 23);
   viewer.subscribe("/robot_description");
