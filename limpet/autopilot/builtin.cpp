@@ -76,7 +76,7 @@ Vector3 on_its_way(AutopilotState& state, const Vector3& rate_target_rad_s) {
     }
     const Vector3 due(line[0], line[1], line[2]);
     std::copy(line.begin() + 3, line.end(), line.begin());
-    std::copy(rate_target_rad_s.begin(), rate_target_rad_s.end(), line.end() - 3);
+    std::copy_n(rate_target_rad_s.data(), 3, line.end() - 3);
     return due;
 }
 
