@@ -42,8 +42,7 @@ void vehicle_node() {
                  std::string(to_string(event.name)).c_str(), event.reason.empty() ? "" : ": ",
                  std::string(event.reason).c_str());
     };
-    watch.on_tick = [&](simulation::Flight& flight, const guidance::EventList&) {
-        vehicle.show(flight);
+    watch.on_tick = [&stop](simulation::Flight&, const guidance::EventList&) {
         stop = !::ros::ok();
     };
     const std::unique_ptr<record::MessageSink> seen = recording_topics();
