@@ -173,18 +173,12 @@ private:
             add("<th scope=\"col\"{}>{}</th>", aligned[c], escaped(table.columns[c]));
         }
         text_ += "</tr></thead>\n<tbody>\n";
-        for (std::size_t r = 0; r < table.rows.size(); ++r) {
-            const auto& row = table.rows[r];
+        for (const auto& row : table.rows) {
             text_ += "<tr>";
             for (std::size_t c = 0; c < row.size(); ++c) {
                 const char* element = c == 0 ? "th" : "td";
-                const std::string from = table.links.empty() ? "" : table.links[r][c];
-                const std::string shown = draw::html::marked_up(to_text(row[c]));
                 add("<{}{}{}>{}</{}>", element, c == 0 ? " scope=\"row\"" : "", aligned[c],
-                    from.empty()
-                        ? shown
-                        : fmt::format("<a href=\"{}\">{}</a>", draw::html::link(from), shown),
-                    element);
+                    draw::html::marked_up(to_text(row[c])), element);
             }
             text_ += "</tr>\n";
         }

@@ -55,15 +55,11 @@ Json json_of(const PageTable& table) {
         }
         rows.push_back(cells);
     }
-    Json json{{"id", table.id},
-              {"title", table.title},
-              {"caption", or_null(table.caption)},
-              {"columns", table.columns},
-              {"rows", rows}};
-    if (!table.links.empty()) {
-        json["links"] = table.links;
-    }
-    return json;
+    return {{"id", table.id},
+            {"title", table.title},
+            {"caption", or_null(table.caption)},
+            {"columns", table.columns},
+            {"rows", rows}};
 }
 
 Json json_of(const PageFigure& figure) {

@@ -36,10 +36,7 @@ test(
     const recording = readRecording(
       "flight",
       readFileSync(recording_file as string),
-      new Map([
-        ["/truth/pose", []],
-        ["/cup", []],
-      ]),
+      new Set(["/truth/pose", "/cup"]),
     );
     const pose = recording.tables.get("/truth/pose");
     const where = rows.get("vehicle_local_position_groundtruth") ?? [];

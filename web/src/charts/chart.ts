@@ -3,39 +3,27 @@
 import uPlot from "uplot";
 import type { Recording } from "../recording/recording";
 import { valueAt } from "../recording/series";
-import { type Line, type Panel, type Samples, samplesOf } from "./panels";
+import { type Line, type Panel, samplesOf } from "./panels";
 
 export interface ChartHost {
   seek(t: number): void;
-  /** All panels show the same stretch of time. @param range  undefined: all of it */
-  zoomed(range: Range | undefined): void;
+  /** All panels show the same stretch of time. */
+  zoomed(from: number, to: number): void;
 }
 
-/** A stretch of time [s]. */
-export interface Range {
-  min: number;
-  max: number;
-}
-export interface Look {
-  colours: { text: string; grid: string };
-  width: number; // [px]
-}
-
-interface Drawn extends Samples {
+interface Drawn {
   line: Line;
   ghost: boolean; // of another flight than the first
+  time: Float64Array;
+  values: number[];
 }
 
 export class Chart {
   readonly element = document.createElement("section");
   private plot: uPlot | undefined;
   private readonly readout = document.createElement("p");
-  private readonly mark = document.createElement("i");
   private drawn: Drawn[] = [];
-  private lines = ""; // that the plot has, and their look
-  private range: Range = { min: 0, max: 1 };
-  private seen = true;
-  private stale = false; // not drawn since it was not seen
+  private look = ""; // of the plot's lines
   private now = 0;
 
   constructor(
@@ -55,22 +43,14 @@ export class Chart {
     const head = document.createElement("header");
     this.readout.className = "readout";
     head.append(title, this.readout, save);
-    this.mark.className = "now";
     this.element.append(head);
-    new IntersectionObserver(([entry]) => {
-      this.seen = entry?.isIntersecting ?? true;
-      if (this.seen && this.stale) {
-        this.draw();
-      }
-    }).observe(this.element);
   }
 
   /**
    * The plot stays where its lines do, for a canvas costs more than what is drawn on it.
-   * @param range  of time
+   * @returns whether there is anything to see
    */
-  load(recordings: Recording[], look: Look, range: Range): void {
-    this.range = range;
+  load(recordings: Recording[], colours: { text: string; grid: string }, width: number): boolean {
     this.drawn = recordings.flatMap((recording, k) =>
       this.panel.lines.flatMap((line) => {
         const samples = samplesOf(recording, line);
@@ -78,30 +58,26 @@ export class Chart {
       }),
     );
     this.element.hidden = this.drawn.length === 0;
-    const lines = JSON.stringify([
-      look.colours,
+    const look = JSON.stringify([
+      colours,
       this.drawn.map(({ line, ghost }) => [line.label, ghost]),
     ]);
-    if (this.plot === undefined || lines !== this.lines) {
-      this.lines = lines;
-      this.plot?.destroy();
-      this.plot = this.element.hidden ? undefined : this.make(look);
-    } else {
-      this.draw();
+    if (this.plot !== undefined && look === this.look) {
+      this.plot.setData(this.joined(), false);
+      return true;
     }
-  }
-  private make({ colours, width }: Look): uPlot {
+    this.look = look;
+    this.plot?.destroy();
+    this.plot = undefined;
+    if (this.element.hidden) {
+      return false;
+    }
     const series: uPlot.Series[] = this.drawn.map(({ line, ghost }) => ({
       label: line.label,
       stroke: ghost ? `${line.colour}80` : line.colour,
       width: ghost ? 1 : 1.5,
       dash: ghost ? [2, 2] : line.dash,
       spanGaps: true,
-      points: { show: false },
-      facets: [
-        { scale: "x", auto: true },
-        { scale: "y", auto: true },
-      ],
     }));
     const axis: uPlot.Axis = {
       stroke: colours.text,
@@ -110,7 +86,6 @@ export class Chart {
       font: "11px system-ui, sans-serif",
     };
     const options: uPlot.Options = {
-      mode: 2, // each line has times of its own
       width,
       height: kHeight_px,
       legend: { show: false },
@@ -122,20 +97,18 @@ export class Chart {
       ],
       series: [{}, ...series],
       hooks: {
-        draw: [() => this.placeNow()],
+        draw: [(plot) => this.drawNow(plot, colours.text)],
         setSelect: [(plot) => this.zoom(plot)],
       },
     };
-    const plot = new uPlot(options, this.data(), this.element);
-    plot.over.append(this.mark);
-    plot.over.addEventListener("click", (event) => {
-      if (plot.select.width < 3) {
-        this.host.seek(plot.posToVal(event.offsetX, "x"));
+    this.plot = new uPlot(options, this.joined(), this.element);
+    this.plot.over.addEventListener("click", (event) => {
+      if (this.plot !== undefined && this.plot.select.width < 3) {
+        this.host.seek(this.plot.posToVal(event.offsetX, "x"));
       }
     });
-    plot.over.addEventListener("dblclick", () => this.host.zoomed(undefined));
-    plot.setScale("x", this.range);
-    return plot;
+    this.plot.over.addEventListener("dblclick", () => this.host.zoomed(Number.NaN, Number.NaN));
+    return true;
   }
   resize(width: number): void {
     this.plot?.setSize({ width, height: kHeight_px });
@@ -149,40 +122,43 @@ export class Chart {
         return `${line.label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
       })
       .join("  ");
-    this.placeNow();
+    this.plot?.redraw(false, false);
   }
-  zoomTo(range: Range): void {
-    this.range = range;
-    this.plot?.setScale("x", range);
+  /** NaN: all of it. */
+  range(from: number, to: number, end: number): void {
+    this.plot?.setScale("x", Number.isNaN(from) ? { min: 0, max: end } : { min: from, max: to });
   }
 
-  private data(): uPlot.AlignedData {
-    const tables = this.drawn.map(({ time, values }) => [time, values]);
-    return [null, ...tables] as unknown as uPlot.AlignedData; // its types know one time alone
-  }
-  /** Once it is seen: drawing all of them takes longer than a flight. */
-  private draw(): void {
-    this.stale = !this.seen;
-    if (this.seen && this.plot !== undefined) {
-      this.plot.setData(this.data(), false);
-      this.plot.setScale("x", this.range);
-    }
+  private joined(): uPlot.AlignedData {
+    const tables: uPlot.AlignedData[] = this.drawn.map(({ time, values }) => [
+      Array.from(time),
+      values,
+    ]);
+    return tables.length === 1 ? (tables[0] as uPlot.AlignedData) : uPlot.join(tables);
   }
   private zoom(plot: uPlot): void {
     if (plot.select.width >= 3) {
       const from = plot.posToVal(plot.select.left, "x");
       const to = plot.posToVal(plot.select.left + plot.select.width, "x");
       plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-      this.host.zoomed({ min: from, max: to });
+      this.host.zoomed(from, to);
     }
   }
-  /** The mark of the time that is shown: above the plot, which is not drawn again for it. */
-  private placeNow(): void {
-    if (this.plot !== undefined) {
-      const x = this.plot.valToPos(this.now, "x");
-      this.mark.hidden = !(x >= 0 && x <= this.plot.bbox.width / window.devicePixelRatio);
-      this.mark.style.transform = `translateX(${x.toFixed(1)}px)`;
+  private drawNow(plot: uPlot, colour: string): void {
+    const x = Math.round(plot.valToPos(this.now, "x", true));
+    if (x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) {
+      return;
     }
+    const { ctx } = plot;
+    ctx.save();
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = window.devicePixelRatio;
+    ctx.setLineDash([]);
+    ctx.beginPath();
+    ctx.moveTo(x, plot.bbox.top);
+    ctx.lineTo(x, plot.bbox.top + plot.bbox.height);
+    ctx.stroke();
+    ctx.restore();
   }
   private save(): void {
     const canvas = this.plot?.ctx.canvas;
