@@ -107,7 +107,6 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->record_rate_Hz = scenario.simulation.record_rate_Hz;
     model->steps_a_tick = whole(kTick_s / scenario.simulation.step_s);
     model->touch_steps_a_tick = whole(kTick_s / scenario.simulation.touch_step_s);
-    // Where everybody takes single ticks that is the whole of it.
     model->last_tick =
         static_cast<Tick>(std::ceil(scenario.simulation.time_limit_s / kTick_s - 1e-6));
     const bool strides = model->plant->takes_long_steps() && model->steps_a_tick == 1 &&

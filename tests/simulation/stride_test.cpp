@@ -69,11 +69,18 @@ TEST(Stride, IsATickBesideAWallThatIsNotHeld) {
     EXPECT_EQ(next_stride(*model, state).ticks, 1);
 }
 
-/// The same decisions at the same instants, loads within a hundredth: on every surface, and with
-/// the motors that swing.
+/// The same decisions, loads within a hundredth: on every surface, and with the motors that swing.
+/// Guidance decides every 20 ms, and when it is steady enough hangs on noise: after two docking
+/// runs three of its periods have been seen between them.
 TEST(Stride, EndsAsTickByTick) {
-    for (const char* name : {"perch_concrete", "perch_metal_valve", "perch_cinder_block",
-                             "failed_perch", "slow_motors_concrete"}) {
+    struct Case {
+        const char* scenario;
+        double apart_s;
+    };
+    for (const auto& [name, apart_s] :
+         {Case{"perch_concrete", 0.021}, Case{"perch_metal_valve", 0.045},
+          Case{"perch_cinder_block", 0.045}, Case{"failed_perch", 0.065},
+          Case{"slow_motors_concrete", 0.045}}) {
         const FlightResult strides = fly(model_of(name));
         const FlightResult ticks = fly(model_of(name, {"simulation.longest_step_s=0.001"}));
         EXPECT_EQ(strides.outcome, ticks.outcome) << name;
@@ -81,7 +88,7 @@ TEST(Stride, EndsAsTickByTick) {
         ASSERT_EQ(strides.events.size(), ticks.events.size()) << name;
         for (std::size_t i = 0; i < ticks.events.size(); ++i) {
             EXPECT_EQ(strides.events[i].name, ticks.events[i].name);
-            EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, 0.1) << name << i;
+            EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, apart_s) << name << i;
         }
         const auto near = [&](double Metrics::*metric, double share) {
             EXPECT_NEAR(strides.metrics.*metric / (ticks.metrics.*metric), 1.0, share) << name;
