@@ -64,9 +64,10 @@ TEST(Reproduce, QuickWritesAWholePage) {
     const Json json = Json::parse(text_of(page / "results.json"));
     expect_no_blanks(json["claims"], page);
     expect_figures(json["figures"], page);
-    // What is known to differ; one more is news, one less too.
-    EXPECT_EQ(differing(json["claims"]),
-              (std::vector<std::string>{"spike-later", "metal-ripple", "aerodynamic"}));
+    // What is known to differ; one more is news, one less too. The swing on concrete: 0.46 deg more
+    // in the median of 200 missions, whatever the step; the 24 of --quick once came above 0.5.
+    EXPECT_EQ(differing(json["claims"]), (std::vector<std::string>{"spike-later", "real-swings",
+                                                                   "metal-ripple", "aerodynamic"}));
 
     const std::string source = LIMPET_SOURCE_DIR;
     EXPECT_EQ(shell(source + "/tests/support/validate " + source +
