@@ -5,16 +5,20 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "command_line.hpp"
 #include "launch.hpp"
+#include "limpet/campaign/px4_crew.hpp"
 #include "limpet/campaign/ranks.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/rare/rare_campaign.hpp"
+#include "limpet/study/study.hpp"
 #include "output.hpp"
+#include "px4_link.hpp"
 #include "rare.hpp"
 #include "terminal.hpp"
 
@@ -35,6 +39,10 @@ struct CampaignOptions {
     bool resume = false;
     bool quiet = false;
     RareOptions rare;
+    std::string autopilot = "builtin";
+    campaign::Px4Crew px4;
+
+    [[nodiscard]] bool on_px4() const { return autopilot == "px4"; }
 };
 
 OptionList options_of(CampaignOptions& options) {
@@ -44,8 +52,28 @@ OptionList options_of(CampaignOptions& options) {
           {"--out DIR", &options.out, "folder (default: out/NAME, with --rare out/NAME_rare)"},
           {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},
           {"--resume", &options.resume, "go on with the results in the folder, if any"},
-          {"--quiet,-q", &options.quiet, "print nothing but errors"}},
+          {"--quiet,-q", &options.quiet, "print nothing but errors"},
+          {"--autopilot NAME", &options.autopilot,
+           "builtin, or px4: real ones, one a flight (docs/px4.md)", one_of({"builtin", "px4"})},
+          px4_start_option(options.px4.start),
+          {"--instances N", &options.px4.instances, "PX4s that fly at once (default 1)",
+           range(1, px4::Px4Instance::kMost + 1, false)},
+          {"--instance N", &options.px4.first.number,
+           "the first one's number, as in `px4 -i N` (default 0)",
+           range(0, px4::Px4Instance::kMost, false)},
+          {"--wait SECONDS", &options.px4.wait_s, "longest wait for a PX4 [s] (default 60)",
+           range(0.1, 86400.0, false)},
+          {"--only-px4", &options.px4.only_px4,
+           "a flight that the stand-in answers does not count"}},
          options_of(options.rare)});
+}
+
+void check_together(const Given& given, const CampaignOptions& options) {
+    only_with(given, options.on_px4(),
+              {"--px4", "--instances", "--instance", "--wait", "--only-px4"}, "--autopilot px4");
+    only_with(given, !options.on_px4(), {"--jobs", "--rare"},
+              "the built-in autopilot; --autopilot px4 has --instances");
+    options.px4.check();
 }
 
 std::string time_text(double time_s) {
@@ -92,9 +120,10 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     if (progress.finished < progress.runs) {
         complain(
             fmt::format("stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
-                        "--out {}{} --resume",
+                        "--out {}{}{} --resume",
                         progress.finished, progress.runs, options.file, folder.string(),
-                        options.shard.empty() ? "" : " --shard " + options.shard));
+                        options.shard.empty() ? "" : " --shard " + options.shard,
+                        options.on_px4() ? " --autopilot px4" : ""));
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
@@ -108,7 +137,9 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     const std::string file = (folder / campaign::Results::kFileName).string();
     terminal.line("written", file);
     terminal.line("", "limpet summary " + file + "      figures, JSON");
-    terminal.line("", "limpet replay " + file + " 0     one run, recorded");
+    if (!options.on_px4()) {
+        terminal.line("", "limpet replay " + file + " 0     one run, recorded");
+    }
     if (const auto faults = progress.outcomes.find(campaign::kFault);
         faults != progress.outcomes.end()) {
         complain(fmt::format("{} runs broke off by a fault of ours: limpet summary {}",
@@ -120,7 +151,9 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
 
 std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
     const auto threads = fmt::format("{} thread{}", jobs, jobs == 1 ? "" : "s");
-    return ranks > 1                ? fmt::format("on {} ranks, {} on the first", ranks, threads)
+    return options.on_px4()         ? fmt::format("on {} PX4{}", options.px4.instances,
+                                          options.px4.instances == 1 ? "" : "s")
+           : ranks > 1              ? fmt::format("on {} ranks, {} on the first", ranks, threads)
            : !options.shard.empty() ? fmt::format("shard {}, on {}", options.shard, threads)
                                     : "on " + threads;
 }
@@ -146,6 +179,7 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                      campaign::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
     rare::require_plain(place.results);
+    study::require_no_study(place.results);
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
                                         : Terminal::Voice::normal);
@@ -156,9 +190,10 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                               crew_text(options, jobs, link != nullptr ? link->ranks() : 1),
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
     const campaign::CampaignWatch watch = campaign_watch(terminal);
-    const campaign::Progress progress = link != nullptr
-                                            ? run_among_ranks(place.results, jobs, watch, *link)
-                                            : run_campaign(place.results, jobs, watch);
+    const campaign::Progress progress =
+        link != nullptr    ? run_among_ranks(place.results, jobs, watch, *link)
+        : options.on_px4() ? run_campaign_on_px4(place.results, options.px4, watch)
+                           : run_campaign(place.results, jobs, watch);
     return conclude(progress, place.results, options, place.folder, terminal);
 }
 
@@ -204,19 +239,36 @@ ExitCode search(const CampaignOptions& options) {
                              terminal);
 }
 
+/// What a campaign on PX4s cannot be.
+campaign::Campaign for_px4(campaign::Campaign campaign) {
+    if (ranks_started()) {
+        throw InputError(
+            "--autopilot px4: flies in one process, start it without mpirun or srun; --shard "
+            "shares it out");
+    }
+    for (const scenario::ScenarioText& text : campaign.scenarios) {
+        check(Px4LinkOptions{}, text.load({}));
+    }
+    campaign.on_px4 = true;
+    return campaign;
+}
+
 ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
+    check_together(given, options);
     check(given, options.rare);
     if (given("--rare")) {
         return search(options);
     }
-    if (options.shard.empty()) {
+    if (options.shard.empty() && !options.on_px4()) {
         if (const auto link = ranks_started()) {
             return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
         }
     }
     const auto shard =
         options.shard.empty() ? campaign::Shard{} : campaign::parse_shard(options.shard);
-    Place place(campaign::load_campaign(options.file), options, shard);
+    campaign::Campaign campaign = campaign::load_campaign(options.file);
+    Place place(options.on_px4() ? for_px4(std::move(campaign)) : std::move(campaign), options,
+                shard, options.on_px4() ? "_px4" : "");
     return fly_missing(place, options, options.jobs, nullptr);
 }
 

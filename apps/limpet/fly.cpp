@@ -56,7 +56,7 @@ void check_together(const Given& given, const FlyOptions& options) {
     check(options.ground, options.autopilot == "builtin");
     only_with(given, options.autopilot == "px4",
               {"--instance", "--hil", "--offboard", "--wait", "--patience", "--record-wire",
-               "--only-px4"},
+               "--only-px4", "--px4"},
               "--autopilot px4");
     only_with(given, !options.px4.serial(), {"--offboard"},
               "--hil tcp:...; over serial all goes over the one wire");

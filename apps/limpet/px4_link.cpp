@@ -3,29 +3,26 @@
 
 #include <fmt/core.h>
 
-#include <limits>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/simulation/px4_setup.hpp"
 
 namespace limpet::app {
 namespace {
 
 px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
-    const bool gps = scenario.autopilot.EKF2_GPS_CTRL != 0;
     const px4::Px4Instance& instance = options.instance;
-    return {.hil = address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial},
-                              instance.hil()),
-            .offboard = address_of("--offboard", options.offboard, {wire::Medium::udp},
-                                   instance.offboard()),
-            .system = instance.system(),
-            .wait_s = options.wait_s,
-            .patience_s = options.patience_s,
-            .sets_origin = !gps,
-            .only_px4 = options.only_px4,
-            .aiding_limit_s = gps ? std::numeric_limits<double>::infinity()
-                                  : 1e-6 * scenario.autopilot.EKF2_NOAID_TOUT};
+    px4::Px4Addresses addresses = simulation::px4_addresses(scenario, instance);
+    addresses.hil =
+        address_of("--hil", options.hil, {wire::Medium::tcp, wire::Medium::serial}, instance.hil());
+    addresses.offboard =
+        address_of("--offboard", options.offboard, {wire::Medium::udp}, instance.offboard());
+    addresses.wait_s = options.wait_s;
+    addresses.patience_s = options.patience_s;
+    addresses.only_px4 = options.only_px4;
+    return addresses;
 }
 
 /// How to start what is waited for, to be copied.
@@ -53,6 +50,13 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
 
 }  // namespace
 
+Option px4_start_option(std::optional<std::string>& start) {
+    return {"--px4 BUILD", &start,
+            "starts it: the folder of a PX4 built for simulation, which flies with the\n"
+            "parameters that px4-params would write; or a command, {instance} and\n"
+            "{folder} in it, as in 'my_px4 -i {instance} -w {folder}'"};
+}
+
 OptionList options_of(Px4LinkOptions& options, bool flies) {
     OptionList list = {
         {"--instance N", &options.instance.number,
@@ -68,6 +72,7 @@ OptionList options_of(Px4LinkOptions& options, bool flies) {
         list.push_back({"--only-px4", &options.only_px4,
                         "no flight when the stand-in answers instead of a PX4"});
     }
+    list.push_back(px4_start_option(options.start));
     list.push_back({"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
                     range(0.1, 86400.0, false)});
     list.push_back({"--patience SECONDS", &options.patience_s,
@@ -100,6 +105,9 @@ void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
         throw InputError("--speed " + options.speed +
                          ": a board on a serial wire has its own clock; there is 1 alone");
     }
+    if (options.start && options.serial()) {
+        throw InputError("--px4: a board on a serial wire runs by itself");
+    }
     if (scenario.mount != vehicle::Mount::free) {
         throw InputError(scenario.name + ": hangs on a mount; a PX4 is for what flies");
     }
@@ -109,6 +117,10 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
                  const std::filesystem::path& folder, Terminal& terminal,
                  const std::atomic<bool>* stop)
     : speed_(speed_of(options.speed, options.serial() ? 1.0 : 0.0)) {
+    if (options.start) {
+        process_.emplace(*options.start, simulation::px4_airframe(*model.scenario),
+                         options.instance);
+    }
     if (options.record_wire) {
         wire_log_ = std::make_unique<simulation::WireLog>(folder / "wire.mcap");
     }
@@ -116,10 +128,17 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
         .on_open =
             [&](const std::string& where) {
                 terminal.line("waiting for PX4 on " + where);
-                say_how(options, model.scenario->name, terminal);
+                if (process_) {
+                    terminal.line("started " + process_->command());
+                } else {
+                    say_how(options, model.scenario->name, terminal);
+                }
             },
         .on_wait =
             [&](double waited_s) {
+                if (process_) {
+                    process_->require_running();
+                }
                 terminal.progress(fmt::format("{:.0f} s of {:.0f}", waited_s, options.wait_s));
             },
         .on_text =

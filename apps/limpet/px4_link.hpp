@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/px4/process.hpp"
 #include "limpet/px4/wires.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/wire_log.hpp"
@@ -19,6 +20,7 @@ namespace limpet::app {
 /// Options of the verbs that fly a PX4.
 struct Px4LinkOptions {
     px4::Px4Instance instance;
+    std::optional<std::string> start;     ///< of Px4Process; none: somebody else starts it
     std::optional<std::string> hil;       ///< none: the instance's
     std::optional<std::string> offboard;  ///< likewise
     double wait_s = 60.0;
@@ -34,6 +36,8 @@ struct Px4LinkOptions {
 void check(const Px4LinkOptions& options, const scenario::Scenario& scenario);
 /// @param flies  guidance is ours; false: a companion's
 [[nodiscard]] OptionList options_of(Px4LinkOptions& options, bool flies);
+/// --px4, of the verbs that start one themselves.
+[[nodiscard]] Option px4_start_option(std::optional<std::string>& start);
 
 /// @return times real time, 0 as fast as it goes
 /// @param by_default  when --speed is not given
@@ -76,6 +80,7 @@ private:
     /// Those that there are, named.
     [[nodiscard]] std::vector<std::pair<const char*, const mavlink::Link*>> links() const;
 
+    std::optional<px4::Px4Process> process_;
     std::unique_ptr<simulation::WireLog> wire_log_;
     std::optional<px4::Px4Wires> wires_;
     double speed_ = 0.0;  ///< times real time; 0: not held back, then waiting says something

@@ -9,8 +9,8 @@
 #include "command_line.hpp"
 #include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/px4_setup.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -52,20 +52,11 @@ scenario::Scenario scenario_of(const Px4Options& options) {
 }
 
 px4::Px4Airframe airframe_of(const Px4Options& options) {
-    const scenario::Scenario scenario = scenario_of(options);
-    const vehicle::Airframe& vehicle = scenario.airframe;
-    px4::Px4Airframe airframe;
-    airframe.name = vehicle.name;
-    airframe.id = options.airframe_id;
-    airframe.rotors = scenario::rotor_geometry(vehicle);
-    airframe.battery_cells = vehicle.battery.cells;
-    airframe.battery_capacity_Ah = vehicle.battery.capacity_Ah;
-    airframe.perches = vehicle.has_cup;
-    airframe.autopilot = scenario.autopilot;
+    px4::Px4Airframe airframe = simulation::px4_airframe(scenario_of(options), options.airframe_id);
     airframe.target = options.target;
-    const bool poses = scenario.autopilot.EKF2_EV_CTRL != 0;
-    airframe.pose = options.gps || (!options.mocap && !poses) ? px4::Px4Pose::gps
-                                                              : px4::Px4Pose::motion_capture;
+    if (options.gps || options.mocap) {
+        airframe.pose = options.gps ? px4::Px4Pose::gps : px4::Px4Pose::motion_capture;
+    }
     return airframe;
 }
 
@@ -74,11 +65,15 @@ void how_to_go_on(const px4::Px4Airframe& airframe) {
     const std::string folder = px4_airframe_folder(airframe.target);
     if (airframe.target == px4::Px4Target::sitl) {
         fmt::print(
-            "\nIn PX4's source tree (v1.15): copy {} into\n"
+            "\nOn a PX4 v1.15 that is built, by itself:\n"
+            "  limpet fly SCENARIO --autopilot px4 --px4 build/px4_sitl_default\n"
+            "As one of PX4's own: copy {} into\n"
             "  {}/\nand add it to the CMakeLists.txt there, then\n"
             "  make px4_sitl_default\n"
-            "  PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d\n",
-            file, folder, airframe.id);
+            "  PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d\n"
+            "with PX4_SIMULATOR=limpet before it, Limpet is started too; {} makes\n"
+            "that a target of make.\n",
+            file, folder, airframe.id, px4::kPx4MakeTarget);
         return;
     }
     fmt::print(
@@ -99,6 +94,11 @@ void write_both(const Px4Options& options) {
         "written    {}, {} parameters, each with its reason\n"
         "           {}, the same as PX4 starts it\n",
         params.string(), settings.size(), script.string());
+    if (airframe.target == px4::Px4Target::sitl) {
+        const fs::path target = folder / px4::kPx4MakeTarget;
+        write_file(target, px4_make_target(airframe));
+        fmt::print("           {}, to launch both\n", target.string());
+    }
     how_to_go_on(airframe);
 }
 

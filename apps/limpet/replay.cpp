@@ -10,6 +10,7 @@
 #include "limpet/rare/rare_results.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
+#include "limpet/study/study.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -34,6 +35,12 @@ void introduce(const campaign::Campaign& campaign, const campaign::RunRow& row,
     terminal.line(terminal.dim(simulation::event_head()));
 }
 
+/// What a run flew with in its seed's place, if anything.
+NoiseBlend noise_of(campaign::Results& results, std::uint32_t run) {
+    const auto of_study = study::study_noise(results, run);
+    return of_study ? *of_study : rare::rare_noise(results, run);
+}
+
 void replay(const ReplayOptions& options) {
     const fs::path database = campaign::Results::file_of(options.database);
     campaign::Results results(database, campaign::Access::read);
@@ -46,7 +53,7 @@ void replay(const ReplayOptions& options) {
     introduce(results.campaign(), row, terminal);
     const simulation::FlightResult result =
         replay_run(results, options.run, folder / "flight.mcap", watch(terminal),
-                   rare::rare_noise(results, options.run));
+                   noise_of(results, options.run));
     tell(result, terminal);
     terminal.line("", "the same as in the row: the flight is the same to the last bit");
     terminal.progress("drawing figures ...");

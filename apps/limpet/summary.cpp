@@ -8,6 +8,7 @@
 #include "command_line.hpp"
 #include "limpet/campaign/cells_page.hpp"
 #include "limpet/rare/rare_summary.hpp"
+#include "limpet/study/study.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -44,6 +45,12 @@ void summarise_campaign(const SummaryOptions& options) {
              [&](const fs::path& folder) { return rare::draw_rare(summary, folder); });
         return;
     }
+    if (study::study_asked(results)) {
+        const study::StudyFound found = study::find_study(results);
+        tell(options, database, options.json ? study_json(found) : study_text(found),
+             [&](const fs::path& folder) { return study::draw_study(found, folder); });
+        return;
+    }
     const campaign::CampaignSummary summary = summarise(results);
     tell(options, database, options.json ? summary_json(summary) : summary_text(summary),
          [&](const fs::path& folder) {
@@ -68,7 +75,8 @@ Verb summary_verb() {
         "summary", "Print and draw what a campaign found: probabilities, failures, fits",
         options_of, summarise_campaign,
         "Works while the campaign is still flying. Draws summary.png and summary.svg, of a search "
-        "for a rare\nevent rare.png and rare.svg. Intervals are 95 %, of shares Wilson's. Of two "
+        "for a rare\nevent rare.png and rare.svg, of a study study.png and study.svg. Intervals "
+        "are 95 %, of shares Wilson's. Of two "
         "grids or more also\ncells.html: how each cell ended, why, and the command that flies it "
         "again.\n");
 }

@@ -68,6 +68,18 @@ RotorCommand idle(const AutopilotModel& model, bool armed) {
     return {.command = RotorList<double>(model.mixer.rotors()), .armed = armed};
 }
 
+/// What was asked for attitude_age_steps ago.
+Vector3 on_its_way(AutopilotState& state, const Vector3& rate_target_rad_s) {
+    std::vector<double>& line = state.memory;
+    if (line.empty()) {
+        return rate_target_rad_s;
+    }
+    const Vector3 due(line[0], line[1], line[2]);
+    std::copy(line.begin() + 3, line.end(), line.begin());
+    std::copy_n(rate_target_rad_s.data(), 3, line.end() - 3);
+    return due;
+}
+
 void disarm(AutopilotState& state) {
     state.position.integral_m_s2.setZero();
     state.rate.integral.setZero();
@@ -94,7 +106,8 @@ AutopilotState start(const AutopilotModel& model, const Estimate& initial) {
 }
 
 void start_memory(const AutopilotModel& model, AutopilotState& state) {
-    state.memory.assign(model.own != nullptr ? model.own->memory_size() : 0, 0.0);
+    const auto steps = static_cast<std::size_t>(model.parameters.attitude_age_steps);
+    state.memory.assign(model.own != nullptr ? model.own->memory_size() : 3 * steps, 0.0);
     if (model.own != nullptr) {
         model.own->start(state.estimate, state.memory);
     }
@@ -132,8 +145,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] RotorCommand control(const AutopilotModel& 
     state.attitude_target = std::visit(
         [&](const auto& motion) { return attitude_target(model, state, motion, hold, dt_s); },
         setpoint.motion);
-    state.rate_target_rad_s =
-        attitude_control(model.parameters, state.estimate.q_WB, state.attitude_target.q_WB);
+    state.rate_target_rad_s = on_its_way(
+        state, attitude_control(model.parameters, state.estimate.q_WB, state.attitude_target.q_WB));
     state.torque = rate_control(model.parameters, state.rate, state.rate_target_rad_s,
                                 state.saturation, hold, dt_s);
     const Allocation allocation = allocate(model.mixer, state.torque, state.attitude_target.thrust);

@@ -42,7 +42,7 @@ struct AutopilotState {
     AttitudeSetpoint attitude_target;  ///< the inner setpoints, for telemetry
     Vector3 rate_target_rad_s = Vector3::Zero();
     Vector3 torque = Vector3::Zero();  ///< asked of the allocation
-    std::vector<double> memory;        ///< of model.own
+    std::vector<double> memory;        ///< of model.own; else rate set-points on their way
 };
 
 /// @throws InputError when the rotors cannot make roll, pitch, yaw and thrust independently

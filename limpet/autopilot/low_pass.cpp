@@ -44,4 +44,14 @@ Vector3 low_pass(LowPass& filter, const Vector3& input, double cutoff_Hz, double
     return output;
 }
 
+Vector3 low_pass_1(LowPass& filter, const Vector3& input, double cutoff_Hz, double interval_s) {
+    if (cutoff_Hz <= 0.0) {
+        reset(filter, input);
+        return input;
+    }
+    const double share = interval_s / (interval_s + 1.0 / (2.0 * kPi * cutoff_Hz));
+    filter.output_1 += share * (input - filter.output_1);
+    return filter.output_1;
+}
+
 }  // namespace limpet::autopilot

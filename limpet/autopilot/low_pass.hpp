@@ -26,5 +26,7 @@ void reset(LowPass& filter, const Vector3& value);
 /// @param interval_s  since the last input [s], > 0
 /// @return the filtered value
 Vector3 low_pass(LowPass& filter, const Vector3& input, double cutoff_Hz, double interval_s);
+/// The same of first order, PX4's AlphaFilter. One filter is of one order.
+Vector3 low_pass_1(LowPass& filter, const Vector3& input, double cutoff_Hz, double interval_s);
 
 }  // namespace limpet::autopilot

@@ -52,6 +52,9 @@ Table attitude_rows() {
         {"MC_ROLLRATE_MAX", "deg/s", 0, 1800, &P::MC_ROLLRATE_MAX, "roll rate limit", "PX4"},
         {"MC_PITCHRATE_MAX", "deg/s", 0, 1800, &P::MC_PITCHRATE_MAX, "pitch rate limit", "PX4"},
         {"MC_YAWRATE_MAX", "deg/s", 0, 1800, &P::MC_YAWRATE_MAX, "yaw rate limit", "PX4"},
+        {"attitude_age_steps", "count", 0, 8, &P::attitude_age_steps,
+         "control periods by which rate set-points are older than the rates",
+         "PX4 v1.15.1 in lockstep 2: vehicle_imu's integral, attitude control after rate control"},
     };
 }
 
@@ -94,8 +97,10 @@ Table rate_rows() {
         {"IMU_GYRO_CUTOFF", "Hz", 0, 1000, &P::IMU_GYRO_CUTOFF,
          "low-pass of the rates, second order, 0: none", "PX4 as of the paper, facts.md section 6"},
         {"IMU_DGYRO_CUTOFF", "Hz", 0, 1000, &P::IMU_DGYRO_CUTOFF,
-         "low-pass of the angular acceleration, second order, 0: none",
+         "low-pass of the angular acceleration, 0: none",
          "PX4 as of the paper, facts.md section 6"},
+        {"dgyro_order", "count", 1, 2, &P::dgyro_order, "order of that low-pass",
+         "PX4 as of the paper; from v1.13 on 1"},
     };
 }
 

@@ -36,6 +36,7 @@ struct AutopilotParameters {
     double MC_ROLLRATE_MAX = 220.0;
     double MC_PITCHRATE_MAX = 220.0;
     double MC_YAWRATE_MAX = 200.0;
+    int attitude_age_steps = 0;  ///< not PX4's name: what its order of work amounts to
 
     // Rates.
     double MC_ROLLRATE_P = 0.15;
@@ -58,6 +59,7 @@ struct AutopilotParameters {
     double MC_YR_INT_LIM = 0.3;
     double IMU_GYRO_CUTOFF = 30.0;
     double IMU_DGYRO_CUTOFF = 30.0;
+    int dgyro_order = 2;  ///< of that low-pass; PX4 has no parameter for it, but had both
 
     // Estimator. Noises of the IMU are standard deviations per prediction of EKF2_PREDICT_US, as in
     // PX4: times sqrt(10 ms) = 0.1 sqrt(s) they are spectral densities.

@@ -39,9 +39,10 @@ void filter_rates(const AutopilotParameters& parameters, RateControlState& state
     }
     const Vector3 rate_rad_s =
         low_pass(state.rate_filter, w_WB_B_rad_s, parameters.IMU_GYRO_CUTOFF, dt_s);
+    const auto filter = parameters.dgyro_order == 1 ? low_pass_1 : low_pass;
     state.acceleration_rad_s2 =
-        low_pass(state.acceleration_filter, (rate_rad_s - state.rate_rad_s) / dt_s,
-                 parameters.IMU_DGYRO_CUTOFF, dt_s);
+        filter(state.acceleration_filter, (rate_rad_s - state.rate_rad_s) / dt_s,
+               parameters.IMU_DGYRO_CUTOFF, dt_s);
     state.rate_rad_s = rate_rad_s;
 }
 

@@ -27,6 +27,7 @@ struct Campaign {
     /// The scenario as YAML, one for each combination of values that are names (see variant_of());
     /// a single one where only numbers differ.
     std::vector<scenario::ScenarioText> scenarios;
+    bool on_px4 = false;  ///< flown by PX4s, not by the built-in autopilot; not in the file
 };
 
 /// Reads a campaign and checks all that can be checked before anything flies: the scenario is

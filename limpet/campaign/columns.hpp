@@ -28,6 +28,9 @@ void for_each_column(const Campaign& campaign, Row&& row, const Each& each) {
     each("simulated_s", "REAL", row.simulated_s);
     each("physics_steps", "INTEGER", row.physics_steps);
     each("state_hash", "TEXT", row.state_hash);
+    if (campaign.on_px4) {
+        each("autopilot", "TEXT", row.autopilot);
+    }
 }
 
 /// With a sample that says of each key whether it has numbers or names.

@@ -101,6 +101,9 @@ void write_campaign(SQLite::Database& database, const Campaign& campaign, const 
         scenario.exec();
         scenario.reset();
     }
+    if (campaign.on_px4) {
+        database.exec("CREATE TABLE on_px4 (yes INTEGER)");
+    }
     if (!shard.whole()) {
         database.exec(
             fmt::format("CREATE TABLE shard (part INTEGER, parts INTEGER);"
@@ -171,9 +174,10 @@ Shard read_shard(SQLite::Database& database) {
     return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
 }
 
-/// Runs of another campaign, or of another part of this. A search flies as many as it needs.
+/// Runs of another campaign, or of another part of this. A search and a study fly as many as
+/// they need.
 void require_runs(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
-    const std::uint32_t end = database.tableExists("rare")
+    const std::uint32_t end = database.tableExists("rare") || database.tableExists("study")
                                   ? std::numeric_limits<std::uint32_t>::max()
                                   : shard.end(campaign.runs);
     if (integer(database,
@@ -202,13 +206,15 @@ std::string hash_text(std::uint64_t hash) {
 Identity identity_of(const Campaign& campaign) {
     return {.campaign = campaign_hash(campaign),
             .scenarios = scenario_hash(campaign),
-            .version = std::string(kVersion)};
+            .version = std::string(kVersion),
+            .on_px4 = campaign.on_px4};
 }
 
 const char* difference(const Identity& one, const Identity& other) {
     return one.campaign != other.campaign     ? "the campaign's file"
            : one.scenarios != other.scenarios ? "the scenario, its vehicle or a surface"
            : one.version != other.version     ? "Limpet itself"
+           : one.on_px4 != other.on_px4       ? "the autopilot (--autopilot px4)"
                                               : nullptr;
 }
 
@@ -236,6 +242,7 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
         require_ours(database_);
         require_tables(database_);
         campaign_ = read_campaign(database_);
+        campaign_.on_px4 = database_.tableExists("on_px4");
         version_ = text(database_, "SELECT limpet FROM campaign");
         if (text(database_, "SELECT sql FROM sqlite_master WHERE name = 'runs'") !=
             create_sql(campaign_)) {
@@ -270,7 +277,8 @@ void Results::require_same(const Campaign& campaign, const Shard& shard) const {
 Identity Results::identity() const {
     return {.campaign = campaign_hash(campaign_),
             .scenarios = scenario_hash(campaign_),
-            .version = version_};
+            .version = version_,
+            .on_px4 = campaign_.on_px4};
 }
 
 /// Not before there is something to write: whoever is refused leaves the file as it was.

@@ -20,7 +20,8 @@ struct RunRow {
     std::uint32_t run = 0;
     std::uint64_t seed = 0;
     std::vector<SampledValue> sample;
-    /// Name of an Outcome; kFault when the flight broke off by a fault of ours.
+    /// Name of an Outcome; kFault when the flight broke off by a fault of ours, kNoFlight when a
+    /// PX4 did not begin it.
     std::string outcome;
     std::string reason;
     int attempts = 0;
@@ -28,8 +29,10 @@ struct RunRow {
     double simulated_s = 0.0;
     long long physics_steps = 0;
     std::string state_hash;  ///< as hash_text() writes it
+    std::string autopilot;   ///< on PX4s: who answered, as it told
 };
 inline constexpr const char* kFault = "fault";
+inline constexpr const char* kNoFlight = "no_flight";
 
 /// By what two are known to fly the same: digests of the campaign's file and of the scenarios
 /// spelled out, and Limpet's version.
@@ -37,6 +40,7 @@ struct Identity {
     std::string campaign;
     std::string scenarios;
     std::string version;
+    bool on_px4 = false;
 };
 [[nodiscard]] Identity identity_of(const Campaign& campaign);
 /// @return what differs first, as in "the campaign's file"; null: nothing
@@ -48,7 +52,8 @@ struct Identity {
 ///   scenarios  the scenario spelled out, for each combination of named values
 ///   runs       a row a run: run, seed, a column for each varied key (named like it: `"guidance.
 ///              dock_speed_m_s"`), outcome, reason, attempts, metrics, simulated_s, physics_steps,
-///              state_hash
+///              state_hash; on PX4s autopilot, who flew it
+///   on_px4     is there where PX4s fly it
 ///   shard      where the file holds a part of the campaign: part, parts
 ///
 /// Every committed transaction outlives the death of the process (write-ahead log); when a campaign

@@ -104,6 +104,19 @@ std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
     return summaries;
 }
 
+std::vector<std::string> autopilots_of(Results& results) {
+    std::vector<std::string> told;
+    if (results.campaign().on_px4) {
+        SQLite::Statement select(results.database(),
+                                 "SELECT DISTINCT autopilot FROM runs WHERE autopilot <> '' "
+                                 "ORDER BY autopilot");
+        while (select.executeStep()) {
+            told.push_back(select.getColumn(0).getString());
+        }
+    }
+    return told;
+}
+
 }  // namespace
 
 CampaignSummary summarise(Results& results) {
@@ -123,6 +136,7 @@ CampaignSummary summarise(Results& results) {
             .description = campaign.description,
             .scenario = campaign.scenario_name,
             .version = results.version(),
+            .autopilots = autopilots_of(results),
             .seed = campaign.seed,
             .runs = campaign.runs,
             .finished = finished,

@@ -48,7 +48,8 @@ struct CampaignSummary {
     std::string name;
     std::string description;
     std::string scenario;
-    std::string version;  ///< of the Limpet that flew it
+    std::string version;                  ///< of the Limpet that flew it
+    std::vector<std::string> autopilots;  ///< on PX4s: who flew, as they told
     std::uint64_t seed = 0;
     std::uint32_t runs = 0;      ///< planned
     std::uint32_t finished = 0;  ///< flown

@@ -137,6 +137,9 @@ std::string summary_text(const CampaignSummary& summary) {
     text.line("{}: {}", summary.name, summary.description);
     text.line("{} of {} runs of {}, seed {}, limpet {}", summary.finished, summary.runs,
               summary.scenario, summary.seed, summary.version);
+    for (const std::string& autopilot : summary.autopilots) {
+        text.line("flown by {}", autopilot);
+    }
     if (summary.finished == 0) {
         return text.take();
     }
@@ -166,6 +169,7 @@ std::string summary_json(const CampaignSummary& summary) {
                        {"description", summary.description},
                        {"scenario", summary.scenario},
                        {"limpet", summary.version},
+                       {"flown_by", summary.autopilots},
                        {"seed", summary.seed},
                        {"runs", summary.runs},
                        {"finished", summary.finished},

@@ -16,16 +16,6 @@
 namespace limpet::campaign {
 namespace {
 
-/// @throws InputError naming the run
-std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
-                                                        const NoiseBlend& noise) {
-    try {
-        return simulation::build_model(scenario_of(campaign, row.sample, noise));
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("run {}: {}", row.run, error.what()));
-    }
-}
-
 void fly_lane(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) noexcept {
     try {
         while (const auto run = dealer.next()) {
@@ -114,11 +104,35 @@ Fliers::Fliers(int jobs, const Campaign& campaign, Dealer& dealer, const std::at
     }
 }
 
-RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bool>* stop) {
+std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
+                                                        const NoiseBlend& noise) {
+    try {
+        return simulation::build_model(scenario_of(campaign, row.sample, noise));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("run {}: {}", row.run, error.what()));
+    }
+}
+
+RunRow row_to_fly(const Campaign& campaign, std::uint32_t run) {
     RunRow row;
     row.run = run;
     row.seed = campaign.seed;
     row.sample = draw(campaign.keys, campaign.seed, run);
+    return row;
+}
+
+void fill(RunRow& row, const simulation::FlightResult& result) {
+    row.outcome = to_string(result.outcome);
+    row.reason = result.reason;
+    row.attempts = result.attempts;
+    row.metrics = result.metrics;
+    row.simulated_s = result.performance.simulated_s;
+    row.physics_steps = result.performance.physics_steps;
+    row.state_hash = hash_text(result.state_hash);
+}
+
+RunRow fly_run(const Campaign& campaign, std::uint32_t run, const std::atomic<bool>* stop) {
+    RunRow row = row_to_fly(campaign, run);
     fly_row(campaign, row, {}, stop);
     return row;
 }
@@ -127,15 +141,7 @@ void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise,
              const std::atomic<bool>* stop) {
     const auto model = model_of(campaign, row, noise);
     try {
-        const simulation::FlightResult result =
-            fly(model, {}, {}, noise.empty() ? row.run : 0, {.stop = stop});
-        row.outcome = to_string(result.outcome);
-        row.reason = result.reason;
-        row.attempts = result.attempts;
-        row.metrics = result.metrics;
-        row.simulated_s = result.performance.simulated_s;
-        row.physics_steps = result.performance.physics_steps;
-        row.state_hash = hash_text(result.state_hash);
+        fill(row, fly(model, {}, {}, noise.empty() ? row.run : 0, {.stop = stop}));
     } catch (const InternalError& error) {
         row.outcome = kFault;
         row.reason = error.what();
@@ -155,6 +161,11 @@ simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,
                                     const simulation::FlightWatch& watch, const NoiseBlend& noise) {
     const RunRow row = results.row(run);
+    if (results.campaign().on_px4) {
+        throw InputError(
+            fmt::format("run {} was flown by {}: no two flights of it are the same bit for bit",
+                        run, row.autopilot.empty() ? "a PX4" : row.autopilot));
+    }
     const auto model = model_of(results.campaign(), row, noise);
     const simulation::FlightResult result = fly(model, recording, watch, noise.empty() ? run : 0);
     if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,9 +53,19 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch = {
 void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise = {},
              const std::atomic<bool>* stop = nullptr);
 
+/// A row as far as it is known before the flight: run, seed and sample.
+[[nodiscard]] RunRow row_to_fly(const Campaign& campaign, std::uint32_t run);
+/// @throws InputError naming the run when its values do not fit each other
+[[nodiscard]] std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign,
+                                                                      const RunRow& row,
+                                                                      const NoiseBlend& noise = {});
+/// How it went.
+void fill(RunRow& row, const simulation::FlightResult& result);
+
 /// Flies a row again, recorded.
 /// @param recording  file to write
 /// @param noise      as fly_row()
+/// @throws InputError for one that a PX4 flew
 /// @throws InternalError when it does not fly to the row's state hash
 simulation::FlightResult replay_run(Results& results, std::uint32_t run,
                                     const std::filesystem::path& recording,

@@ -117,8 +117,22 @@ std::vector<Piece> by_events(const std::vector<EventPair>& events, const record:
             pieces.push_back(piece(from, of_reference, of_other));
         }
     };
-    for (const EventPair& event : common) {
+    const auto end_at_event = [&](const EventPair& event) {
         end_at(event.reference_s, event.other_s);
+        const double shift_s = event.other_s - event.reference_s;
+        if (pieces.empty() || pieces.back().shift_s == shift_s ||
+            pieces.back().window.span_s() <= 0.0) {
+            return;
+        }
+        Piece& first = pieces.back();
+        const double half_s = first.window.span_s() / 2.0;
+        first.window.to_s = first.window.from_s + half_s;
+        pieces.push_back({.from = from,
+                          .window = {event.reference_s - half_s, event.reference_s},
+                          .shift_s = shift_s});
+    };
+    for (const EventPair& event : common) {
+        end_at_event(event);
         from = event.name;
         of_reference.from_s = event.reference_s;
         of_other.from_s = event.other_s;

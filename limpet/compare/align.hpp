@@ -27,7 +27,7 @@ struct EventPair {
 
 struct Alignment {
     enum class By {
-        events,  ///< each stretch between two common events is shifted so that it starts at its own
+        events,  ///< each stretch between two common events lies at both of them
         start,   ///< one shift: the first samples
         event,   ///< one shift: the first occurrence of `event`
     };
@@ -37,14 +37,16 @@ struct Alignment {
 
 /// A stretch of the reference that the other flight has as well.
 struct Piece {
-    std::string from;                   ///< the event at its beginning; "start"
+    std::string from;                   ///< the last common event before it; "start"
     record::Window window;              ///< in the reference's time
     double shift_s = 0.0;               ///< the other's time less the reference's
     double reference_left_out_s = 0.0;  ///< what the reference has longer
     double other_left_out_s = 0.0;      ///< what the other has longer
 };
 
-/// Stretches in time, without overlap. Where flights tell events in another order, as few as
+/// Stretches in time, without overlap. What lasts longer in one flight between two common events is
+/// left out midway, so that both events have what leads up to them, an impact's rise say, and what
+/// follows. Where flights tell events in another order, as few as
 /// possible are passed over.
 /// @param reference  when it was recorded
 /// @param other      likewise

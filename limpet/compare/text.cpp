@@ -161,7 +161,7 @@ std::string left_out_text(const FlightComparison& c) {
         const bool reference = piece.reference_left_out_s > kWorthTelling_s;
         const bool other = piece.other_left_out_s > kWorthTelling_s;
         if (reference || other) {
-            text += fmt::format("left out: {:.3f} s of {} from {} on, where {} is shorter\n",
+            text += fmt::format("left out: {:.3f} s of {} after {}, where {} is shorter\n",
                                 reference ? piece.reference_left_out_s : piece.other_left_out_s,
                                 reference ? c.reference.label : c.other.label, piece.from,
                                 reference ? c.other.label : c.reference.label);

@@ -12,60 +12,16 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/identification/csv_line.hpp"
 
 namespace limpet::identification {
 namespace {
 
 using std::size_t;
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr size_t kLongestLine = 100'000;  ///< beyond it this is no log
-
-/// Text of a user's, with the line that it stands in.
-struct Line {
-    std::string_view text;
-    const std::string& file;
-    size_t number = 0;
-
-    template <class... Args>
-    [[noreturn]] void refuse(fmt::format_string<const Args&...> what, const Args&... args) const {
-        throw InputError(fmt::format("{}:{}: {}", file, number, fmt::format(what, args...)));
-    }
-};
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kSpace = " \t\r";
-    const size_t first = text.find_first_not_of(kSpace);
-    if (first == std::string_view::npos) {
-        return {};
-    }
-    text = text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
-        text = text.substr(1, text.size() - 2);
-    }
-    return text;
-}
-
-/// Fields between commas; commas inside quotes belong to their field.
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    size_t begin = 0;
-    bool quoted = false;
-    for (size_t i = 0; i <= line.size(); ++i) {
-        if (i < line.size() && line[i] == '"') {
-            quoted = !quoted;
-        }
-        if (i == line.size() || (line[i] == ',' && !quoted)) {
-            fields.push_back(trimmed(line.substr(begin, i - begin)));
-            begin = i + 1;
-        }
-    }
-    return fields;
-}
-
 /// Columns are found by the name of a bench's log, or by that of a recording written as CSV.
 size_t column_of(const std::vector<std::string_view>& header, std::string_view column,
-                 std::string_view recorded, const Line& line) {
+                 std::string_view recorded, const CsvLine& line) {
     for (const std::string_view wanted : {column, recorded}) {
         const auto count = std::count(header.begin(), header.end(), wanted);
         if (count > 1) {
@@ -95,8 +51,8 @@ size_t column_of(const std::vector<std::string_view>& header, std::string_view c
 
 /// The columns that are read, once the header is known.
 struct Columns {
-    explicit Columns(const Line& line) {
-        const std::vector<std::string_view> header = fields_of(line.text);
+    explicit Columns(const CsvLine& line) {
+        const std::vector<std::string_view> header = csv_fields(line.text);
         time = column_of(header, "t_s", "time_s", line);
         pressure = column_of(header, "pressure_Pa", "fluid_pressure_Pa", line);
         count = header.size();
@@ -106,8 +62,8 @@ struct Columns {
     size_t count = 0;
 };
 
-void add_sample(const Line& line, const Columns& columns, PressureTrace& trace) {
-    const std::vector<std::string_view> fields = fields_of(line.text);
+void add_sample(const CsvLine& line, const Columns& columns, PressureTrace& trace) {
+    const std::vector<std::string_view> fields = csv_fields(line.text);
     if (fields.size() != columns.count) {
         line.refuse("{} fields, the header has {}", fields.size(), columns.count);
     }
@@ -138,28 +94,13 @@ void add_sample(const Line& line, const Columns& columns, PressureTrace& trace) 
 PressureTrace read_pressure_log(std::istream& text, const std::string& name) {
     PressureTrace trace;
     std::optional<Columns> columns;
-    std::string row;
-    for (size_t number = 1; std::getline(text, row); ++number) {
-        if (number == 1 && row.starts_with(kByteOrderMark)) {
-            row.erase(0, kByteOrderMark.size());
-        }
-        const Line line{row, name, number};
-        if (row.find('\0') != std::string::npos || row.size() > kLongestLine) {
-            line.refuse("not a text file of comma-separated values");
-        }
-        const std::string_view content = trimmed(row);
-        if (content.empty() || content.front() == '#') {
-            continue;
-        }
+    for_each_csv_line(text, name, [&](const CsvLine& line) {
         if (columns) {
             add_sample(line, *columns, trace);
         } else {
             columns.emplace(line);
         }
-    }
-    if (text.bad()) {
-        throw InputError(name + ": cannot be read");
-    }
+    });
     if (!columns) {
         throw InputError(name + ": is empty; a header with t_s and pressure_Pa is needed");
     }

@@ -107,8 +107,9 @@ std::string Lab::fly(std::string_view request) {
         .on_event = {}, .on_progress = [&, end = Clock::now() + kLongestFlight](double, auto) {
             enough = Clock::now() > end || (stop_ && *stop_);
         }};
-    (void)simulation::fly(model, recording, watch, 0,
-                          {.stop = &enough, .brief = asked.brief, .compress = false});
+    (void)simulation::fly(
+        model, recording, watch, 0,
+        {.stop = &enough, .brief = asked.brief, .topics = asked.topics, .compress = false});
     return taken(recording);
 }
 
@@ -128,8 +129,14 @@ void Lab::serve_on(serve::Server& server) {
     server.post("/yaml", [this](const serve::Request& asked) {
         return serve::Response{.content_type = "application/yaml", .body = yaml(asked.body)};
     });
-    server.post("/fly",
-                [this](const serve::Request& asked) { return recording_answer(fly(asked.body)); });
+    server.post("/fly", [this](const serve::Request& asked) {
+        const auto begun = Clock::now();
+        serve::Response answer = recording_answer(fly(asked.body));
+        const std::chrono::duration<double, std::milli> took = Clock::now() - begun;
+        answer.headers.emplace_back("Server-Timing",
+                                    fmt::format("flight;dur={:.2f}", took.count()));
+        return answer;
+    });
     server.post("/many/begin", [this](const serve::Request& asked) {
         many_->begin(asked.body);
         return json_answer(many_->rows("{}"));

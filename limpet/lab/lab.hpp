@@ -38,7 +38,7 @@ public:
     /// @throws InputError one line, as do those below
     [[nodiscard]] std::string schema(std::string_view request) const;
     /// @param request  as above; with "brief": true what a picture needs, at 25 Hz, for a slider
-    ///                 that is moving
+    ///                 that is moving; with "topics" their messages alone
     /// @return an MCAP recording
     [[nodiscard]] std::string fly(std::string_view request);
     /// @return the scenario as YAML that stands for itself

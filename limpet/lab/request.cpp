@@ -27,7 +27,8 @@ Asked asked_in(const nlohmann::json& request, const std::string& first) {
     try {
         Asked asked{.scenario = request.value("scenario", first),
                     .changes = request.value("set", std::vector<std::string>{}),
-                    .brief = request.value("brief", false)};
+                    .brief = request.value("brief", false),
+                    .topics = request.value("topics", std::vector<std::string>{})};
         if (asked.changes.size() > kMostChanges) {
             throw InputError(fmt::format("\"set\": {} changes, allowed are {}",
                                          asked.changes.size(), kMostChanges));
@@ -40,7 +41,7 @@ Asked asked_in(const nlohmann::json& request, const std::string& first) {
     } catch (const nlohmann::json::exception&) {
         throw InputError(
             "\"scenario\" is a text, \"set\" a list of texts \"key=value\", \"brief\" true or "
-            "false");
+            "false, \"topics\" a list of texts");
     }
 }
 

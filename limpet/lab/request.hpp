@@ -17,6 +17,7 @@ struct Asked {
     std::string scenario;
     std::vector<std::string> changes;  ///< "key=value" each
     bool brief = false;
+    std::vector<std::string> topics;  ///< that the recording is to have; none: all of them
 };
 /// @param first  scenario where none is named
 /// @throws InputError when it is none, or its scenario a path

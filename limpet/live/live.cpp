@@ -66,6 +66,13 @@ void Live::channel(const record::SinkChannel& channel) {
     }
 }
 
+void Live::attachment(const mcap::Attachment& attachment) {
+    if (attachment.media_type == record::kMeshMediaType) {
+        const std::lock_guard lock(guards_all_);
+        meshes_[attachment.name] = attachment.text;
+    }
+}
+
 void Live::message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) {
     Latch& latch = latches_[channel];
     if (!latch.holds && !has_viewers_) {
@@ -158,6 +165,17 @@ void Live::unsubscribe(Viewer& viewer, std::uint32_t subscription) {
     viewer.channels.erase(found);
 }
 
+void Live::fetch(serve::Session& session, std::uint32_t request, std::string_view uri) const {
+    const auto mesh = meshes_.find(uri.substr(uri.rfind('/') + 1));
+    if (mesh == meshes_.end()) {
+        session.send_large(
+            asset_failure(request, fmt::format("there is no {} in this flight", uri)));
+    } else if (!session.send_large(asset_response(request, mesh->second))) {
+        session.send_text(
+            status(StatusLevel::warning, fmt::format("{}: too much is asked for at once", uri)));
+    }
+}
+
 std::vector<LiveParameter> Live::wanted(const std::vector<std::string>& names) const {
     if (names.empty()) {
         return options_.parameters;
@@ -240,6 +258,9 @@ void Live::on_text(serve::Session& session, std::string_view text) {
             if (word.set.empty() || !hear(std::move(word))) {
                 session.send_text(parameter_values(wanted(all), asked.value("id", "")));
             }
+        } else if (op == "fetchAsset") {
+            fetch(session, asked.at("requestId").get<std::uint32_t>(),
+                  asked.at("uri").get<std::string>());
         } else if (op == "subscribeParameterUpdates") {
             for (const LiveParameter& parameter : wanted(names())) {
                 viewer.parameters.insert(parameter.name);

@@ -52,9 +52,9 @@ struct LiveCount {
 
 /// What a recording takes goes to viewers too, by Foxglove's WebSocket protocol (protocol.hpp): the
 /// same topics, types and bytes, at the same times. Who comes late gets what stands still:
-/// description, /tf_static, the wall. A second flight's channels are the first one's. A viewer that
-/// is slow or gone costs the flight nothing; what viewers ask for waits until the flight takes it
-/// up in answer().
+/// description, /tf_static, the wall. The description's meshes are there to be fetched. A second
+/// flight's channels are the first one's. A viewer that is slow or gone costs the flight nothing;
+/// what viewers ask for waits until the flight takes it up in answer().
 class Live final : public record::MessageSink, private serve::Listener {
 public:
     /// Listens from now on.
@@ -68,6 +68,7 @@ public:
     [[nodiscard]] std::string address() const { return server_.address("ws"); }
 
     void channel(const record::SinkChannel& channel) override;
+    void attachment(const mcap::Attachment& attachment) override;
     void message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) override;
 
     /// Somebody has subscribed to something.
@@ -113,6 +114,7 @@ private:
 
     void subscribe(Viewer& viewer, std::uint32_t subscription, std::uint64_t channel);
     void unsubscribe(Viewer& viewer, std::uint32_t subscription);
+    void fetch(serve::Session& session, std::uint32_t request, std::string_view uri) const;
     void send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data);
     [[nodiscard]] std::vector<LiveParameter> wanted(const std::vector<std::string>& names) const;
     [[nodiscard]] std::string refusal(const std::string& name, double value) const;
@@ -126,6 +128,7 @@ private:
     std::vector<Latch> latches_;
     std::map<const serve::Session*, Viewer> viewers_;
     std::vector<Word> words_;
+    std::map<std::string, std::string, std::less<>> meshes_;  ///< by the name in their URI
     LiveCount count_;
     std::uint64_t next_time_ns_ = 0;
     std::atomic<bool> watched_ = false, asked_ = false, has_viewers_ = false;

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr char kMessageData = 1, kTime = 2, kServiceResponse = 3;
+constexpr char kMessageData = 1, kTime = 2, kServiceResponse = 3, kAsset = 4;
 constexpr char kServiceRequest = 2;  // from a viewer
 constexpr const char* kEncoding = "cdr";
 
@@ -46,7 +46,7 @@ std::uint32_t read_little(std::string_view bytes) {
 
 std::string server_info(const std::string& name, const std::string& session, bool parameters,
                         bool services) {
-    Json capabilities = {"time"};
+    Json capabilities = {"time", "assets"};
     if (parameters) {
         capabilities.push_back("parameters");
         capabilities.push_back("parametersSubscribe");
@@ -110,6 +110,9 @@ std::string parameter_values(std::span<const LiveParameter> parameters, const st
         } else {
             row["value"] = static_cast<std::int64_t>(parameter.value);
         }
+        row["settable"] = parameter.settable;
+        row["minimum"] = parameter.minimum;
+        row["maximum"] = parameter.maximum;
         all.push_back(row);
     }
     Json values = {{"op", "parameterValues"}, {"parameters", all}};
@@ -153,6 +156,26 @@ std::string service_response(std::uint32_t service, std::uint32_t call, bool don
     append(bytes, static_cast<std::uint32_t>(text.size() + 1));
     bytes += text;
     bytes += '\0';
+    return bytes;
+}
+
+std::string asset_response(std::uint32_t request, std::string_view file) {
+    constexpr char kDone = 0;
+    std::string bytes(1, kAsset);
+    append(bytes, request);
+    bytes += kDone;
+    append(bytes, 0);  // nothing to complain of
+    bytes += file;
+    return bytes;
+}
+
+std::string asset_failure(std::uint32_t request, std::string_view text) {
+    constexpr char kFailed = 1;
+    std::string bytes(1, kAsset);
+    append(bytes, request);
+    bytes += kFailed;
+    append(bytes, static_cast<std::uint32_t>(text.size()));
+    bytes += text;
     return bytes;
 }
 

@@ -46,6 +46,7 @@ struct LiveParameter {
 /// @param names  their place is their id
 [[nodiscard]] std::string advertise_services(const std::vector<std::string>& names);
 [[nodiscard]] std::string status(StatusLevel level, std::string_view text);
+/// Beside the protocol's own keys each says whether it may be set and within what.
 /// @param id  of the request that this answers; empty: none
 [[nodiscard]] std::string parameter_values(std::span<const LiveParameter> parameters,
                                            const std::string& id);
@@ -60,6 +61,11 @@ struct LiveParameter {
 /// A Trigger's answer.
 [[nodiscard]] std::string service_response(std::uint32_t service, std::uint32_t call, bool done,
                                            std::string_view text);
+
+/// A file that was asked for.
+[[nodiscard]] std::string asset_response(std::uint32_t request, std::string_view file);
+/// Or why it is not there.
+[[nodiscard]] std::string asset_failure(std::uint32_t request, std::string_view text);
 
 // From a viewer.
 

@@ -67,6 +67,10 @@ struct Px4Frame {
 [[nodiscard]] std::string px4_airframe_script(const Px4Airframe& airframe,
                                               const std::vector<Px4Setting>& settings);
 
+/// What makes `make px4_sitl_default limpet_NAME` build a PX4 and launch it with its simulator.
+[[nodiscard]] std::string px4_make_target(const Px4Airframe& airframe);
+inline constexpr const char* kPx4MakeTarget = "sitl_targets_limpet.cmake";
+
 /// `22001_limpet_NAME`: PX4 finds it by the number, by PX4_SIM_MODEL=limpet_NAME too.
 [[nodiscard]] std::string px4_airframe_file_name(const Px4Airframe& airframe);
 

@@ -36,6 +36,14 @@ std::string number_text(const Px4Setting& setting) {
     return text;
 }
 
+/// As PX4's other simulators are launched: by name, the simulator beside PX4.
+constexpr const char* kLaunch = R"sh(
+# PX4_SIMULATOR=limpet: the simulator is started beside PX4, unless it runs (PX4_LIMPET_STANDALONE)
+if [ "$PX4_SIMULATOR" = "limpet" ] && [ -z "$PX4_LIMPET_STANDALONE" ]; then
+	limpet fly "${PX4_LIMPET_SCENARIO:-perch_concrete}" --autopilot px4 --instance "${px4_instance:-0}" &
+fi
+)sh";
+
 const char* where(Px4Target target) {
     switch (target) {
         case Px4Target::sitl: return "PX4 v1.15 SITL, in lockstep with Limpet";
@@ -89,12 +97,38 @@ std::string px4_airframe_script(const Px4Airframe& airframe,
         airframe.name,
         airframe.target == Px4Target::flight ? px4_frame(airframe).type : "Simulation",
         where(airframe.target), source(airframe.pose), px4_airframe_folder(airframe.target));
+    if (airframe.target == Px4Target::sitl) {
+        text += kLaunch;
+    }
     for (const Px4Setting& setting : settings) {
         text +=
             fmt::format("\n# {}\nparam {} {} {}\n", setting.reason,
                         setting.fixed ? "set" : "set-default", setting.name, number_text(setting));
     }
     return text;
+}
+
+std::string px4_make_target(const Px4Airframe& airframe) {
+    const std::string model = "limpet_" + plain(airframe.name);
+    return fmt::format(
+        R"cmake(# Written by limpet px4-params. Belongs into src/modules/simulation/simulator_mavlink, beside the other
+# simulators' (an include of it into the CMakeLists.txt there): make px4_sitl_default {0}
+
+find_program(LIMPET_PATH limpet)
+
+if(LIMPET_PATH)
+	add_custom_target({0}
+		COMMAND ${{CMAKE_COMMAND}} -E env PX4_SIMULATOR=limpet PX4_SIM_MODEL={0} $<TARGET_FILE:px4>
+		WORKING_DIRECTORY ${{SITL_WORKING_DIR}}
+		USES_TERMINAL
+		DEPENDS
+			px4
+			${{PX4_SOURCE_DIR}}/{1}/{2}
+		COMMENT "launching px4 {0} (SYS_AUTOSTART={3})"
+	)
+endif()
+)cmake",
+        model, px4_airframe_folder(airframe.target), px4_airframe_file_name(airframe), airframe.id);
 }
 
 std::string px4_airframe_file_name(const Px4Airframe& airframe) {

@@ -38,10 +38,9 @@ std::vector<std::string_view> events() {
 }
 
 void require_figure(const std::string& option, const std::string& name) {
-    const auto names = figures();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (!is_figure(name)) {
         throw InputError(fmt::format("{} {}: unknown metric{}", option, scenario::shown(name),
-                                     scenario::hint(name, names)));
+                                     scenario::hint(name, figures())));
     }
 }
 
@@ -86,19 +85,24 @@ std::string without_blanks(std::string text) {
     return text;
 }
 
-double limit_of(const std::string& text, const std::string& number) {
+double limit_of(const std::string& text, const std::string& number, const std::string& option) {
     scenario::YamlNode node;
     node.kind = scenario::YamlNode::Kind::scalar;
     node.text = number;
     const auto limit = scenario::number_in(node);
     if (!limit || !std::isfinite(*limit)) {
-        throw InputError(fmt::format("--rare {}: \"{}\" is not a number, as in cup_margin_min_N<0",
-                                     scenario::shown(text), scenario::shown(number)));
+        throw InputError(fmt::format("{} {}: \"{}\" is not a number, as in cup_margin_min_N<0",
+                                     option, scenario::shown(text), scenario::shown(number)));
     }
     return *limit;
 }
 
 }  // namespace
+
+bool is_figure(std::string_view name) {
+    const auto names = figures();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 double RareEvent::value(const campaign::RunRow& row) const {
     if (row.outcome == campaign::kFault) {
@@ -130,7 +134,8 @@ double RareEvent::fall(const campaign::RunRow& row) const {
     return std::isnan(at) ? kInfinity : rising ? -at : at;
 }
 
-RareEvent parse_rare_event(const std::string& text, const RareGuide& guide) {
+RareEvent parse_rare_event(const std::string& text, const RareGuide& guide,
+                           const std::string& option) {
     RareEvent event;
     event.text = without_blanks(text);
     const std::size_t sign = event.text.find_first_of("<>");
@@ -138,27 +143,25 @@ RareEvent parse_rare_event(const std::string& text, const RareGuide& guide) {
     if (sign == std::string::npos) {
         event.outcome = outcome_from(name);
         if (!event.outcome) {
-            const auto names = figures();
-            const bool metric = std::find(names.begin(), names.end(), name) != names.end();
             throw InputError(
-                metric ? fmt::format("--rare {0}: give its threshold, as in --rare '{0}<0'", name)
-                       : fmt::format("--rare {}: is no outcome and no metric{}",
-                                     scenario::shown(text), scenario::hint(name, events())));
+                is_figure(name)
+                    ? fmt::format("{1} {0}: give its threshold, as in {1} '{0}<0'", name, option)
+                    : fmt::format("{} {}: is no outcome and no metric{}", option,
+                                  scenario::shown(text), scenario::hint(name, events())));
         }
         guide_outcome(guide, event);
         return event;
     }
-    require_figure("--rare", name);
+    require_figure(option, name);
     if (!guide.falling.empty() || !guide.rising.empty()) {
         throw InputError(
-            fmt::format("--rare {}: says which metric; --falling and --rising are for "
-                        "outcomes",
+            fmt::format("{} {}: says which metric; --falling and --rising are for outcomes", option,
                         event.text));
     }
     event.figure = name;
     event.rising = event.text[sign] == '>';
     event.inclusive = sign + 1 < event.text.size() && event.text[sign + 1] == '=';
-    event.limit = limit_of(text, event.text.substr(sign + (event.inclusive ? 2 : 1)));
+    event.limit = limit_of(text, event.text.substr(sign + (event.inclusive ? 2 : 1)), option);
     return event;
 }
 

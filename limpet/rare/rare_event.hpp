@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "limpet/campaign/results.hpp"
 
@@ -32,9 +33,14 @@ struct RareGuide {
     std::string rising;   ///< likewise
 };
 
-/// @param text   an outcome, or a figure with <, <=, > or >= and a number
-/// @param guide  of an outcome; failed_to_seal and timed_out have one of their own
+/// Whether a flight has a figure of this name: a metric, `attempts` or `simulated_s`.
+[[nodiscard]] bool is_figure(std::string_view name);
+
+/// @param text    an outcome, or a figure with <, <=, > or >= and a number
+/// @param guide   of an outcome; failed_to_seal and timed_out have one of their own
+/// @param option  that the text was given to, for messages
 /// @throws InputError one line: what is unknown and what is near, or what is missing
-[[nodiscard]] RareEvent parse_rare_event(const std::string& text, const RareGuide& guide = {});
+[[nodiscard]] RareEvent parse_rare_event(const std::string& text, const RareGuide& guide = {},
+                                         const std::string& option = "--rare");
 
 }  // namespace limpet::rare

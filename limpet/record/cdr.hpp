@@ -99,6 +99,9 @@ void put(Cdr& cdr, Sequence<Element> sequence) {
 
 template <class... Fields>
 void MessageWriter::write(std::uint16_t channel, double time_s, const Fields&... fields) {
+    if (channel == kNowhere) {
+        return;
+    }
     const std::int64_t time_ns = stamp(time_s).time_ns;
     // Fast-CDR skips the bytes that align the next value; they must not carry the last message.
     std::fill_n(buffer_.begin(), used_, '\0');

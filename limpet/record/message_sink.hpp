@@ -20,6 +20,8 @@ class MessageSink {
 public:
     virtual ~MessageSink() = default;
     virtual void channel(const SinkChannel& channel) = 0;
+    /// What the recording has attached, a description's meshes among it.
+    virtual void attachment(const mcap::Attachment& /*attachment*/) {}
     /// @param data  valid during the call
     virtual void message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) = 0;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/record/message_writer.hpp"
 
+#include <algorithm>
+
 #include "limpet/record/message_definitions.hpp"
 
 namespace limpet::record {
@@ -16,6 +18,9 @@ std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_vie
 
 std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_view type,
                                          std::string_view schema) {
+    if (!topics_.empty() && std::find(topics_.begin(), topics_.end(), topic) == topics_.end()) {
+        return kNowhere;
+    }
     auto known = schemas_.find(type);
     if (known == schemas_.end()) {
         known = schemas_.emplace(type, file_.add_schema(type, kSchemaEncoding, schema)).first;
@@ -32,6 +37,13 @@ std::uint16_t MessageWriter::add_channel(std::string_view topic, std::string_vie
                           .schema = schema});
     }
     return id;
+}
+
+void MessageWriter::add_attachment(const mcap::Attachment& attachment) {
+    file_.add_attachment(attachment);
+    if (beside_ != nullptr) {
+        beside_->attachment(attachment);
+    }
 }
 
 }  // namespace limpet::record

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "limpet/mcap/writer.hpp"
@@ -18,10 +19,12 @@ namespace limpet::record {
 class MessageWriter {
 public:
     /// @param beside  takes the same; null: nobody. Lives as long
+    /// @param topics  that are written; none: all of them
     /// @throws InputError if the file cannot be written
     explicit MessageWriter(const std::filesystem::path& path, MessageSink* beside = nullptr,
-                           const mcap::WriterOptions& options = {})
-        : file_(path, options), beside_(beside) {}
+                           const mcap::WriterOptions& options = {},
+                           std::vector<std::string> topics = {})
+        : file_(path, options), beside_(beside), topics_(std::move(topics)) {}
 
     [[nodiscard]] mcap::Writer& file() { return file_; }
     [[nodiscard]] const mcap::Writer& file() const { return file_; }
@@ -29,9 +32,11 @@ public:
     [[nodiscard]] std::int64_t last_time_ns() const { return last_time_ns_; }
 
     /// @param type  one of message_definitions()
+    /// @return for write(); of a topic that is not written its messages go nowhere
     std::uint16_t add_channel(std::string_view topic, std::string_view type);
     std::uint16_t add_channel(std::string_view topic, std::string_view type,
                               std::string_view schema);
+    void add_attachment(const mcap::Attachment& attachment);
     /// Room for messages of so many bytes.
     void make_room(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
 
@@ -43,8 +48,11 @@ public:
     void write_stamped(std::uint16_t channel, double time_s, const Fields&... fields);
 
 private:
+    static constexpr std::uint16_t kNowhere = 0xFFFF;
+
     mcap::Writer file_;
     MessageSink* beside_;
+    std::vector<std::string> topics_;
     std::map<std::string, std::uint16_t, std::less<>> schemas_;  ///< by type
     std::vector<char> buffer_ = std::vector<char>(4096);
     std::size_t used_ = 0;  ///< of it, by the last message

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/record/recorder.hpp"
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "limpet/core/frames.hpp"
@@ -65,7 +67,7 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside, {.compress = info.compress}),
+    : writer_(path, info.beside, {.compress = info.compress}, info.topics),
       range_sensor_(info.range_sensor),
       rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;
@@ -76,7 +78,7 @@ Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
     about["version"] = info.version;
     writer_.file().add_metadata({"limpet", about});
     for (const mcap::Attachment& attachment : info.attachments) {
-        writer_.file().add_attachment(attachment);
+        writer_.add_attachment(attachment);
     }
     for (std::size_t i = 0; i < kTopics.size(); ++i) {
         channels_[i] = writer_.add_channel(kTopics[i].name, kTopics[i].type,
@@ -231,6 +233,14 @@ void Recorder::estimate(const Estimate& estimate) {
     pose(Topic::estimate_pose, estimate.time_s, estimate.p_WB_m, estimate.q_WB);
     twist(Topic::estimate_twist, estimate.time_s, estimate.q_WB, estimate.v_WB_m_s,
           estimate.w_WB_B_rad_s);
+    if (estimate.variance[0] > 0.0) {  // of a PX4's filter none is known
+        std::array<Vector3, 5> deviation;
+        for (std::size_t i = 0; i < estimate.variance.size(); ++i) {
+            deviation[i / 3][static_cast<Eigen::Index>(i % 3)] = std::sqrt(estimate.variance[i]);
+        }
+        write(Topic::estimate_deviation, estimate.time_s, deviation[0], deviation[1], deviation[2],
+              deviation[3], deviation[4]);
+    }
 }
 
 void Recorder::setpoint(double time_s, const Setpoint& setpoint) {

@@ -52,6 +52,7 @@ struct RecordingInfo {
     std::optional<Scene> scene = {};  ///< with it the recording shows itself in three dimensions
     MessageSink* beside = nullptr;    ///< takes the same messages; lives as long
     bool compress = true;             ///< zstd; without, a reader has less to do
+    std::vector<std::string> topics = {};  ///< that are recorded; none: all of them
 };
 
 /// Writes a flight as MCAP: topics.hpp lists the channels. Log times are simulated nanoseconds from

@@ -24,6 +24,7 @@ enum class Topic : std::size_t {
     cup,
     estimate_pose,
     estimate_twist,
+    estimate_deviation,
     setpoint,
     guidance,
     rotor_command,
@@ -37,7 +38,7 @@ struct TopicInfo {
 
 /// Types of ROS are in its frames and units, ours north-east-down, forward-right-down, with units
 /// in the names.
-inline constexpr std::array<TopicInfo, 19> kTopics = {{
+inline constexpr std::array<TopicInfo, 20> kTopics = {{
     {"/sensors/imu", "sensor_msgs/msg/Imu"},
     {"/sensors/range_left", "sensor_msgs/msg/Range"},
     {"/sensors/range_right", "sensor_msgs/msg/Range"},
@@ -53,6 +54,7 @@ inline constexpr std::array<TopicInfo, 19> kTopics = {{
     {"/cup", "limpet_msgs/msg/CupState"},
     {"/estimate/pose", "geometry_msgs/msg/PoseStamped"},
     {"/estimate/twist", "geometry_msgs/msg/TwistStamped"},
+    {"/estimate/deviation", "limpet_msgs/msg/EstimateDeviation"},
     {"/setpoint", "limpet_msgs/msg/Setpoint"},
     {"/guidance", "limpet_msgs/msg/GuidanceState"},
     {"/rotor_command", "limpet_msgs/msg/RotorCommand"},
@@ -67,6 +69,8 @@ inline constexpr std::string_view kDescriptionTopic = "/robot_description";
 inline constexpr std::string_view kMovingTopic = "/tf";
 inline constexpr std::string_view kStandingTopic = "/tf_static";
 inline constexpr std::string_view kMarkersTopic = "/scene";
+/// Of an attachment that the description's `package://VEHICLE/NAME` means.
+inline constexpr std::string_view kMeshMediaType = "model/stl";
 [[nodiscard]] constexpr bool is_of_scene(std::string_view topic) {
     return topic == kDescriptionTopic || topic == kMovingTopic || topic == kStandingTopic ||
            topic == kMarkersTopic;

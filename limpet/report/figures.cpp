@@ -77,7 +77,7 @@ draw::Chart flight_chart(const record::Recording& recording, const record::Chapt
         .subtitle = subtitle_of(facts, chapter),
         .column_px = kWidth_px};
     if (!chapter.zero.empty()) {
-        chart.subtitle += fmt::format("  ·  {} at {:.2f} s of it", chapter.zero, chapter.zero_s);
+        chart.subtitle += fmt::format("  ·  {} at {:.2f} s", chapter.zero, chapter.zero_s);
     }
     if (!recording.damage.empty()) {
         // What closes a recording is its summary: where that is, the end is not what is missing.

@@ -173,12 +173,18 @@ private:
             add("<th scope=\"col\"{}>{}</th>", aligned[c], escaped(table.columns[c]));
         }
         text_ += "</tr></thead>\n<tbody>\n";
-        for (const auto& row : table.rows) {
+        for (std::size_t r = 0; r < table.rows.size(); ++r) {
+            const auto& row = table.rows[r];
             text_ += "<tr>";
             for (std::size_t c = 0; c < row.size(); ++c) {
                 const char* element = c == 0 ? "th" : "td";
+                const std::string from = table.links.empty() ? "" : table.links[r][c];
+                const std::string shown = draw::html::marked_up(to_text(row[c]));
                 add("<{}{}{}>{}</{}>", element, c == 0 ? " scope=\"row\"" : "", aligned[c],
-                    draw::html::marked_up(to_text(row[c])), element);
+                    from.empty()
+                        ? shown
+                        : fmt::format("<a href=\"{}\">{}</a>", draw::html::link(from), shown),
+                    element);
             }
             text_ += "</tr>\n";
         }

@@ -20,6 +20,9 @@ struct PageTable {
     std::vector<std::string> columns = {};  ///< the first names the rows
     std::vector<std::vector<Quantity>> rows = {};
     std::string caption = {};  ///< may be empty
+    /// Where each cell comes from: a path relative to the page, or empty; a row a row, or none at
+    /// all.
+    std::vector<std::vector<std::string>> links = {};
 };
 
 struct PageFigure {

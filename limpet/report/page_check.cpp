@@ -54,6 +54,12 @@ private:
         for (const std::string& column : table.columns) {
             promise(!blank(column), "table " + table.id + " has a column without a name");
         }
+        promise(table.links.empty() || table.links.size() == table.rows.size(),
+                "table " + table.id + " has links for other rows");
+        for (const auto& links : table.links) {
+            promise(links.size() == table.columns.size(),
+                    "table " + table.id + " has a row of links of another length");
+        }
         for (const auto& row : table.rows) {
             promise(row.size() == table.columns.size(),
                     "table " + table.id + " has a row of another length");

@@ -55,11 +55,15 @@ Json json_of(const PageTable& table) {
         }
         rows.push_back(cells);
     }
-    return {{"id", table.id},
-            {"title", table.title},
-            {"caption", or_null(table.caption)},
-            {"columns", table.columns},
-            {"rows", rows}};
+    Json json{{"id", table.id},
+              {"title", table.title},
+              {"caption", or_null(table.caption)},
+              {"columns", table.columns},
+              {"rows", rows}};
+    if (!table.links.empty()) {
+        json["links"] = table.links;
+    }
+    return json;
 }
 
 Json json_of(const PageFigure& figure) {

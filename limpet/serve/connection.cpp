@@ -109,7 +109,7 @@ public:
             return;
         }
         FrameQueue::Frame frame;
-        if (session_->queue_.next(frame)) {
+        if (session_->next(frame)) {
             writing_ = true;
             socket_.text(frame.text);
             socket_.async_write(

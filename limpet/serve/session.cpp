@@ -67,4 +67,25 @@ bool Session::send_binary(std::initializer_list<std::string_view> parts) {
     return open_ && queue_.put(false, parts);
 }
 
+bool Session::send_large(std::string bytes) {
+    if (!open_ || large_.size() >= kMostLarge) {
+        return false;
+    }
+    large_.push_back(std::move(bytes));
+    return true;
+}
+
+bool Session::next(FrameQueue::Frame& frame) {
+    if (queue_.next(frame)) {
+        return true;
+    }
+    if (large_.empty()) {
+        return false;
+    }
+    leaving_ = std::move(large_.front());
+    large_.pop_front();
+    frame = {false, leaving_};
+    return true;
+}
+
 }  // namespace limpet::serve

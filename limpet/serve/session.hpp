@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <initializer_list>
 #include <mutex>
 #include <span>
@@ -55,6 +56,10 @@ public:
     /// @return false: dropped, the queue is full or the client has gone
     bool send_text(std::string_view text);
     bool send_binary(std::initializer_list<std::string_view> parts);
+    /// What a client has asked for and no queue has room for, on the server's thread; a few of
+    /// them may wait. They go out when the queue is empty.
+    /// @return false: too many wait already, or the client has gone
+    bool send_large(std::string bytes);
     /// Ends the session once what has been sent is out.
     void close() { asked_to_close_ = true; }
 
@@ -66,7 +71,14 @@ public:
 private:
     friend class WebSocket;  // the server's end of it
 
+    /// The next frame to go out, valid until the next call; false without any.
+    [[nodiscard]] bool next(FrameQueue::Frame& frame);
+
+    static constexpr std::size_t kMostLarge = 64;
+
     FrameQueue queue_;
+    std::deque<std::string> large_;  ///< of the server's thread alone, as the next
+    std::string leaving_;
     std::string subprotocol_;
     std::atomic<bool> open_ = true, asked_to_close_ = false;
 };

@@ -191,10 +191,11 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                                   conduct.outside);
     std::optional<FlightLog> log;
     if (!recording.empty() || conduct.beside != nullptr) {
-        log.emplace(
-            recording, *model,
-            FlightLog::Options{
-                .beside = conduct.beside, .brief = conduct.brief, .compress = conduct.compress});
+        log.emplace(recording, *model,
+                    FlightLog::Options{.beside = conduct.beside,
+                                       .brief = conduct.brief,
+                                       .topics = conduct.topics,
+                                       .compress = conduct.compress});
     }
     std::vector<Event> events;
     events.reserve(64);

@@ -86,6 +86,7 @@ struct FlightConduct {
     /// While the autopilot is brought up to the start: what it waits for (bring_up.hpp).
     std::function<void(const std::string& obstacle)> on_obstacle = {};
     bool brief = false;                     ///< a recording of what a picture needs, at 25 Hz
+    std::vector<std::string> topics = {};   ///< of the recording; none: all of them
     bool compress = true;                   ///< the recording
     record::MessageSink* beside = nullptr;  ///< takes what the recording takes, or would take
 };

@@ -22,8 +22,9 @@ void attach_meshes(const vehicle::Airframe& airframe, std::vector<mcap::Attachme
         }
         const std::string name = models::mesh_name(part.mesh_file);
         if (find_named(all, name) == nullptr) {
-            all.push_back(
-                {.name = name, .media_type = "model/stl", .text = models::stl_of(*part.mesh)});
+            all.push_back({.name = name,
+                           .media_type = std::string(record::kMeshMediaType),
+                           .text = models::stl_of(*part.mesh)});
         }
     }
 }
@@ -56,6 +57,7 @@ record::RecordingInfo describe(const FlightModel& model, const FlightLog::Option
     record::RecordingInfo info;
     info.beside = options.beside;
     info.compress = options.compress;
+    info.topics = options.topics;
     info.scenario = scenario.name;
     info.seed = scenario.seed;
     info.version = kVersion;

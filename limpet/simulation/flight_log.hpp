@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "limpet/record/recorder.hpp"
 #include "limpet/simulation/flight.hpp"
@@ -14,7 +16,8 @@ class FlightLog {
 public:
     struct Options {
         record::MessageSink* beside = nullptr;  ///< takes the same messages; null: nobody
-        bool brief = false;    ///< no sample is recorded but with the truth, at 25 Hz at most
+        bool brief = false;  ///< no sample is recorded but with the truth, at 25 Hz at most
+        std::vector<std::string> topics = {};  ///< that are recorded; none: all of them
         bool compress = true;  ///< a quarter of the size, for some 40 % of the time to read it
     };
     /// @throws InputError when the file cannot be written

@@ -122,14 +122,14 @@ void add_loads(std::vector<std::string>& lines, const Emphasis& bold, const Metr
     }
 }
 
+}  // namespace
+
 std::string who_text(const autopilot::AutopilotIdentity& who) {
     std::string text = who.name == "stand-in" ? "the stand-in, as PX4 " : who.name + " ";
     text += who.version + (who.git_hash.empty() ? "" : " of " + who.git_hash);
     text += who.airframe ? fmt::format(", airframe {}", *who.airframe) : "";
     return text + fmt::format(", system {}", who.system);
 }
-
-}  // namespace
 
 std::string event_head() {
     return "  time s  event              distance m  pitch deg  force N     hPa  why";

@@ -65,13 +65,28 @@ TEST(Compare, AnEventLaterByTwoTenthsLeavesNoDifferenceOnceAligned) {
     EXPECT_NEAR(held.channel("cup_pressure_hPa").largest, 0.0, 1e-9);
     ASSERT_EQ(held.comparison.events.size(), 1u);
     EXPECT_NEAR(held.comparison.event_difference_s(held.comparison.events[0]), 0.2, 1e-9);
-    ASSERT_EQ(held.comparison.pieces.size(), 2u);
-    // Until the impact the other has 0.2 s more, from there on the reference has.
+    // Until the impact the other has 0.2 s more, left out midway; from there on the reference has.
+    ASSERT_EQ(held.comparison.pieces.size(), 3u);
+    EXPECT_NEAR(held.comparison.pieces[0].window.to_s, 2.0, 1e-9);
+    EXPECT_NEAR(held.comparison.pieces[0].shift_s, 0.0, 1e-9);
+    EXPECT_NEAR(held.comparison.pieces[1].window.from_s, 2.0, 1e-9);
     EXPECT_NEAR(held.comparison.pieces[0].other_left_out_s, 0.2, 1e-9);
     EXPECT_NEAR(held.comparison.pieces[0].reference_left_out_s, 0.0, 1e-9);
     EXPECT_NEAR(held.comparison.pieces[1].shift_s, 0.2, 1e-9);
-    EXPECT_NEAR(held.comparison.pieces[1].reference_left_out_s, 0.2, 1e-9);
+    EXPECT_NEAR(held.comparison.pieces[2].shift_s, 0.2, 1e-9);
+    EXPECT_NEAR(held.comparison.pieces[2].reference_left_out_s, 0.2, 1e-9);
     EXPECT_THAT(comparison_text(held.comparison), HasSubstr("left out: 0.200 s of first"));
+}
+
+TEST(Compare, WhatLeadsUpToALateEventIsNoDifference) {
+    // A force that rises 50 ms before guidance calls it an impact.
+    const auto pressed = [](double impact_s) {
+        ComparedTape tape = tape_with_impact(impact_s);
+        tape.truth = [=](double t) { return ramp(t - impact_s + 0.05); };
+        return tape;
+    };
+    EXPECT_NEAR(Held(pressed(4.0), pressed(4.2)).channel("cup_pressure_hPa").largest, 0.0, 1e-9);
+    EXPECT_NEAR(Held(pressed(4.2), pressed(4.0)).channel("cup_pressure_hPa").largest, 0.0, 1e-9);
 }
 
 TEST(Compare, LaidStartOnStartTheSameDelayIsSlopeTimesDelay) {
@@ -169,7 +184,8 @@ TEST(Compare, EventsToldInAnotherOrderLoseAsFewPiecesAsPossible) {
                 {4.5, EventName::attached},
                 {6.0, EventName::perched}};
     const Held held(a, b);
-    ASSERT_EQ(held.comparison.pieces.size(), 4u) << "start, impact, one of the two, perched";
+    ASSERT_EQ(held.comparison.pieces.size(), 6u)
+        << "start; impact and one of the two, each in halves; perched";
     for (std::size_t i = 1; i < held.comparison.pieces.size(); ++i) {
         EXPECT_GE(held.comparison.pieces[i].window.from_s,
                   held.comparison.pieces[i - 1].window.to_s);

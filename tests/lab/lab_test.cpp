@@ -75,6 +75,11 @@ TEST_F(LabOf, FliesWhatIsAskedFor) {
     EXPECT_GT(whole.table("/truth/vehicle").time_s.size(), 190U);
     EXPECT_THAT(brief.table("/truth/vehicle").time_s.size(),
                 testing::AllOf(testing::Ge(49U), testing::Le(52U)));
+    const record::Recording few = flown(
+        R"({"set": ["simulation.time_limit_s=2"], "topics": ["/truth/vehicle", "/tf", "/none"]})");
+    EXPECT_EQ(few.tables.size(), 1U) << "/tf is not read back as columns";
+    EXPECT_EQ(few.table("/truth/vehicle").time_s, whole.table("/truth/vehicle").time_s);
+    EXPECT_TRUE(few.events.empty());
     // Where both have a sample it is the same flight's.
     const auto pitch = [](const record::Recording& r, double time_s) {
         const auto series = r.series("/truth/vehicle", "pitch_rad");
@@ -94,6 +99,7 @@ TEST_F(LabOf, WhatCannotBeIsALine) {
     EXPECT_THAT(refusal(R"({"scenario": "../hover.yaml"})"), HasSubstr("not a path"));
     EXPECT_THAT(refusal("[1]"), HasSubstr("JSON object"));
     EXPECT_THAT(refusal(R"({"set": [1]})"), HasSubstr("list of texts"));
+    EXPECT_THAT(refusal(R"({"topics": 1})"), HasSubstr("list of texts"));
     EXPECT_THROW(Lab("hovver"), InputError);
 }
 

@@ -104,7 +104,7 @@ TEST_F(Watched, TellsWhatThereIsAndWhatComesLater) {
     const json info = next(*viewer, "serverInfo");
     EXPECT_EQ(info.at("name"), "a flight");
     EXPECT_EQ(info.at("capabilities"),
-              json({"time", "parameters", "parametersSubscribe", "services"}));
+              json({"time", "assets", "parameters", "parametersSubscribe", "services"}));
     const json known = next(*viewer, "advertise").at("channels").at(0);
     EXPECT_EQ(known.at("topic"), "/truth/pose");
     EXPECT_EQ(known.at("schemaName"), "std_msgs/msg/String");
@@ -178,10 +178,28 @@ TEST_F(Watched, SetsParametersWhenTheFlightTakesThemUp) {
     EXPECT_EQ(told.at("id"), "y");
     EXPECT_EQ(told.at("parameters").at(0).at("value"), 1.5);
     EXPECT_EQ(told.at("parameters").at(0).at("type"), "float64");
+    EXPECT_EQ(told.at("parameters").at(0).at("settable"), true);
+    EXPECT_EQ(told.at("parameters").at(0).at("maximum"), 2.0);
     EXPECT_EQ(told.at("parameters").at(1).at("value"), 4);
     const json heard = next(*other, "parameterValues");
     EXPECT_EQ(heard.at("parameters").size(), 1U);
     EXPECT_EQ(heard.at("parameters").at(0).at("name"), "a.gain");
+}
+
+TEST_F(Watched, MeshesAreFetchedHoweverLarge) {
+    const std::string mesh(3'000'000, 'm');  // more than any viewer's queue
+    live.attachment({.name = "cup.stl", .media_type = "model/stl", .text = mesh});
+    live.attachment({.name = "scenario.yaml", .media_type = "application/yaml", .text = "a: 1"});
+    const auto viewer = come();
+    const auto fetch = [&](const std::string& uri) {
+        viewer->send(R"({"op":"fetchAsset","requestId":5,"uri":")" + uri + R"("})");
+        return next_bytes(*viewer, 4);
+    };
+    EXPECT_EQ(fetch("package://uav/cup.stl"), asset_response(5, mesh));
+    for (const char* other : {"package://uav/../scenario.yaml", "/etc/passwd", "", "cup.stl/"}) {
+        EXPECT_EQ(fetch(other),
+                  asset_failure(5, "there is no " + std::string(other) + " in this flight"));
+    }
 }
 
 TEST_F(Watched, WhatCannotBeSetIsRefused) {

@@ -26,6 +26,11 @@ TEST(Protocol, BytesByHand) {
                   bytes_of({0, 1, 0, 0, 1, 0, 0, 0, 3, 0, 0, 0}) + "ok" + bytes_of({0}));
 }
 
+TEST(Protocol, AssetsByHand) {
+    EXPECT_EQ(asset_response(258, "STL"), bytes_of({4, 2, 1, 0, 0, 0, 0, 0, 0, 0}) + "STL");
+    EXPECT_EQ(asset_failure(1, "no"), bytes_of({4, 1, 0, 0, 0, 1, 2, 0, 0, 0}) + "no");
+}
+
 TEST(Protocol, ServiceCallsAreReadWithinTheirBounds) {
     const std::string good = bytes_of({2, 1, 0, 0, 0, 7, 0, 0, 0, 3, 0, 0, 0}) + "cdr" + "data";
     const auto call = read_service_call(good);

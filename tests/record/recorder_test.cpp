@@ -264,6 +264,8 @@ TEST_F(Recorded, EstimateGuidanceAndEvents) {
         estimate.time_s = 0.5;
         estimate.p_WB_m = {1, 2, 3};
         estimate.v_WB_m_s = {1, 0, 0};
+        estimate.variance.fill(0.04);
+        estimate.variance[7] = 9.0;
         r.estimate(estimate);
         r.guidance(0.5, "dock", 2);
         r.event(make_event(0.5, "guidance", EventName::approach_started));
@@ -272,6 +274,9 @@ TEST_F(Recorded, EstimateGuidanceAndEvents) {
     });
     EXPECT_EQ(value("/estimate/pose", "pose.position.z"), -3.0);
     EXPECT_EQ(value("/estimate/twist", "twist.linear.x"), 1.0);
+    EXPECT_EQ(value("/estimate/deviation", "position_north_m"), 0.2);
+    EXPECT_EQ(value("/estimate/deviation", "attitude_right_rad"), 3.0);
+    EXPECT_EQ(value("/estimate/deviation", "accelerometer_bias_down_m_s2"), 0.2);
     EXPECT_EQ(value("/guidance", "attempt"), 2.0);
     EXPECT_EQ(recording_.table("/guidance").find_text("state")->values.back(), "dock");
 

@@ -73,7 +73,7 @@ TEST(FlightChart, of_a_chapter_counts_from_what_it_is_about) {
                                                                 "retreat started  +0.50")));
     EXPECT_EQ(std::get<draw::ChartPanel>(chart.panels.back()).x_label, "time since impact  [s]");
     EXPECT_THAT(chart.subtitle, testing::StartsWith("ends: no seal, retreat"));
-    EXPECT_THAT(chart.subtitle, HasSubstr("impact at 3.90 s of it"));
+    EXPECT_THAT(chart.subtitle, HasSubstr("impact at 3.90 s"));
 }
 
 TEST(Plot, makes_sharp_pictures_of_every_part_of_the_flight) {

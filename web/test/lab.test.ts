@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { Changes, rounded, slide } from "../src/lab/changes";
+import type { Delay } from "../src/lab/reflights";
 import {
   browser,
   drag,
@@ -251,34 +252,39 @@ async function choose(scenario: string): Promise<void> {
   await idle();
 }
 /** As a hand does it that waits for each picture, within the page; now and then it lets go. */
-const reflown = (key: string, values: number[]): Promise<number[]> =>
+const reflown = (key: string, values: number[]): Promise<Delay[]> =>
   page.evaluate(
     async (row, moves) => {
       const { lab } = window as unknown as Shown;
       const slider = document.querySelector<HTMLInputElement>(
         `[data-key="${row}"] input[type=range]`,
       ) as HTMLInputElement;
-      const delays: number[] = [];
+      const delays: Delay[] = [];
       for (const [k, value] of moves.entries()) {
         slider.value = String(value);
         slider.dispatchEvent(new Event(k % 20 === 19 ? "change" : "input", { bubbles: true }));
         do {
-          await new Promise((passed) => setTimeout(passed, 0));
+          await new Promise((passed) => setTimeout(passed, 5));
         } while (!lab.state().idle);
-        delays.push(lab.state().delays.at(-1) ?? Number.NaN);
+        delays.push(lab.state().delays.at(-1) as Delay);
       }
-      return delays.sort((a, b) => a - b);
+      return delays;
     },
     key,
     values,
   );
 const along = (count: number, from: number, step: number): number[] =>
   Array.from({ length: count }, (_, k) => from + step * (k % 10));
-function tell(what: string, delays: number[]): void {
-  const at = (share: number): string =>
-    (delays[Math.floor(delays.length * share)] ?? Number.NaN).toFixed(0);
+function tell(what: string, delays: Delay[]): void {
+  const at = (part: keyof Delay, share: number): string => {
+    const sorted = delays.map((delay) => delay[part]).sort((a, b) => a - b);
+    return (sorted[Math.floor(sorted.length * share)] ?? Number.NaN).toFixed(0);
+  };
+  const parts = (["flight", "way", "reading", "scene", "picture"] as const)
+    .map((part) => `${part} ${at(part, 0.5)}`)
+    .join(", ");
   console.log(
-    `      slider to picture, ${what}: ${at(0.5)} ms in the median, ${at(0.9)} ms at 90 %, ${delays.length} times`,
+    `      slider to picture, ${what}: ${at("all", 0.5)} ms in the median (${parts}), ${at("all", 0.9)} ms at 90 %, ${delays.length} times`,
   );
 }
 /** What is held once garbage has been collected. */

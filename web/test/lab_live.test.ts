@@ -29,6 +29,7 @@ interface LiveShown {
   told: string;
   said: string[];
   services: string[];
+  parameters: Record<string, number>;
 }
 interface Shown {
   lab: { live: { outside(): LiveShown } };
@@ -52,10 +53,11 @@ const until = (what: (live: LiveShown) => boolean): Promise<unknown> =>
 /** @returns the line with its address, and the result when it has ended */
 async function fly(
   speed: number,
+  ...more: string[]
 ): Promise<{ line: string; ended: Promise<{ outcome: string; reason: string; hash: string }> }> {
   const flight = spawn(program, [
     ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`, "--json"],
-    ...["--out", join(folder, `${flights.length}`)],
+    ...["--out", join(folder, `${flights.length}`), ...more],
   ]);
   flights.push(flight);
   let result = "";
@@ -126,13 +128,13 @@ ${line}
 MSG: geometry_msgs/Quaternion
 ${numbers("x y z w")}`;
   const writer = new MessageWriter(parse(schema, { ros2: true }));
-  const builder = new Builder("live", new Set(["/estimate/pose"]));
+  const builder = new Builder("live", new Map([["/estimate/pose", []]]));
   const channel = { id: 4, encoding: "cdr", schemaEncoding: "ros2msg", schema };
   assert.equal(builder.channel({ ...channel, topic: "/nobody/asks" }), false);
   assert.equal(builder.channel({ ...channel, topic: "/estimate/pose" }), true);
   for (const x of [0, 1]) {
     const pose = { position: { x, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
-    builder.message(4, BigInt(x) * 1_000_000_000n, writer.writeMessage({ pose }));
+    builder.message(4, x, writer.writeMessage({ pose }));
   }
   const { frames, duration } = builder.tell();
   assert.equal(duration, 1);
@@ -190,6 +192,89 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const last = await live();
   assert.equal(last.told, "the flight is no longer there");
   assert.ok(last.said.includes("aborted: a viewer asked for it"), JSON.stringify(last.said));
+});
+
+/** Types a value into a parameter's field. */
+const type = (name: string, value: number): Promise<unknown> =>
+  page.evaluate(
+    (wanted, number) => {
+      const row = [...document.querySelectorAll("#lab .live .row")].find(
+        (one) => one.querySelector("span")?.textContent === wanted,
+      );
+      const input = row?.querySelector("input") as HTMLInputElement;
+      input.value = String(number);
+      input.dispatchEvent(new Event("change"));
+    },
+    name,
+    value,
+  );
+
+test("its parameters are set, within what they may be", { skip }, async () => {
+  const { line, ended } = await fly(1);
+  await watch(line);
+  await until(({ parameters, messages }) => Object.keys(parameters).length > 20 && messages > 0);
+  await press("Pause");
+  await until(({ said }) => said.includes("paused"));
+  const name = "autopilot.MC_PITCHRATE_P";
+  const { parameters } = await live();
+  assert.ok(Object.keys(parameters).every((key) => key.startsWith("autopilot.")));
+  const before = parameters[name] as number;
+  await type(name, 1.01 * before);
+  await type(name, 1e9); // the flight's own guard; what holds stays
+  await until(({ said }) => said.some((text) => text.includes("is out of range, allowed")));
+  await page.waitForFunction(
+    (key, value) =>
+      Math.abs(((window as unknown as Shown).lab.live.outside().parameters[key] ?? 0) - value) <
+      1e-9,
+    {},
+    name,
+    1.01 * before,
+  );
+  await page.$eval("#lab .live details", (details) => {
+    (details as HTMLDetailsElement).open = true;
+  });
+  await page.type("#lab .live input[type=search]", "pitchrate");
+  const seen = await page.$$eval(
+    "#lab .live .row",
+    (rows) => rows.filter((row) => (row as HTMLElement).offsetParent !== null).length,
+  );
+  assert.ok(seen > 2 && seen < 12, `${seen} rows`);
+  await picture("lab_live_parameters.png");
+  assert.deepEqual(await unreadable(), []);
+  await press("Resume");
+  // It is an event of the flight, with its value.
+  await page.waitForFunction(() =>
+    [...document.querySelectorAll("#events li")].some(({ textContent }) =>
+      /parameter set.*MC_PITCHRATE_P/.test(textContent ?? ""),
+    ),
+  );
+  await press("Abort");
+  assert.equal((await ended).outcome, "aborted");
+  await until(({ watching }) => !watching);
+});
+
+test("a vehicle from CAD has its meshes", { skip }, async () => {
+  const { line } = await fly(1, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
+  await watch(line);
+  await until(({ messages }) => messages > 100);
+  await page.waitForFunction(() => {
+    const [flight] = (
+      window as unknown as {
+        limpet: { recordings: { meshes: Map<string, unknown>; urdf: string }[] };
+      }
+    ).limpet.recordings;
+    const named = new Set(
+      [...(flight?.urdf.matchAll(/<mesh filename="[^"]*\/([^"]+)"/g) ?? [])].map(
+        ([, name]) => name,
+      ),
+    );
+    return named.size > 3 && [...named].every((name) => flight?.meshes.has(name as string));
+  });
+  const { vehicle } = await shown();
+  assert.ok(vehicle.seen);
+  await picture("lab_live_cad.png");
+  await press("Abort");
+  await until(({ watching }) => !watching);
 });
 
 test(

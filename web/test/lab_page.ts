@@ -8,6 +8,7 @@ import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before } from "node:test";
 import type { Browser, Page } from "puppeteer-core";
+import type { Delay } from "../src/lab/reflights";
 import { hasChromium, openChromium } from "./chromium";
 
 export const program = process.env.LIMPET_PROGRAM ?? "";
@@ -17,7 +18,7 @@ export interface LabState {
   idle: boolean;
   changes: string[];
   command: string;
-  delays: number[];
+  delays: Delay[];
 }
 export interface PageState {
   recordings: number;

@@ -10,6 +10,7 @@ import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import type {
   Channel,
+  FetchAssetResponse,
   FoxgloveClient,
   MessageData,
   Parameter,
@@ -31,11 +32,11 @@ class Flight {
   private said = "";
   private readonly ended: Promise<number | null>;
 
-  constructor(name: string, speed: number) {
+  constructor(name: string, speed: number, ...more: string[]) {
     const out = join(folder, name);
     this.process = spawn(program, [
       ...["fly", "perch_concrete", "--live", "0", "--live-wait", "--speed", `${speed}`],
-      ...["--json", "--out", out],
+      ...["--json", "--out", out, ...more],
     ]);
     // With --json all but the result is on standard error.
     this.process.stderr?.on("data", (text) => {
@@ -278,6 +279,7 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
   await viewer.until(() => viewer.services.size === 4 && viewer.channels.size >= 23);
   assert.deepEqual(viewer.info?.capabilities, [
     "time",
+    "assets",
     "parameters",
     "parametersSubscribe",
     "services",
@@ -330,6 +332,35 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
   const result = await flight.end();
   assert.equal(result.outcome, "aborted");
   assert.equal(result.reason, "a viewer asked for it");
+});
+
+test("the meshes of a vehicle from CAD are fetched", { skip, timeout: 60_000 }, async () => {
+  const flight = new Flight("meshes", 20, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
+  const viewer = new Viewer(await flight.address(), "foxglove.sdk.v1");
+  await viewer.until(() => viewer.channels.size >= 23);
+  viewer.subscribe("/robot_description");
+  await viewer.until(() => viewer.of("/robot_description").length > 0);
+  const { data } = viewer.of("/robot_description")[0]?.value as { data: string };
+  const named = [...new Set([...data.matchAll(/<mesh filename="([^"]+)"/g)].map(([, uri]) => uri))];
+  assert.ok(named.length > 3);
+  const fetched = (uri: string, request: number): Promise<FetchAssetResponse> => {
+    const answer = new Promise<FetchAssetResponse>((done) =>
+      viewer.client.on("fetchAssetResponse", (one) => one.requestId === request && done(one)),
+    );
+    viewer.client.fetchAsset(uri, request);
+    return answer;
+  };
+  for (const [k, uri] of named.entries()) {
+    const answer = await fetched(uri as string, k);
+    assert.ok(answer.status === 0, uri);
+    const { buffer, byteOffset } = answer.data;
+    const facets = new DataView(buffer, byteOffset).getUint32(80, true);
+    assert.ok(facets > 3 && answer.data.byteLength === 84 + 50 * facets, `${uri}: ${facets}`);
+  }
+  const missing = await fetched("package://cad_uav/../../secret.stl", 99);
+  assert.ok(missing.status === 1 && /there is no/.test(missing.error));
+  viewer.socket.close();
+  flight.process.kill("SIGKILL");
 });
 
 test("a foreign page and a wrong token stay outside", { skip, timeout: 60_000 }, async () => {

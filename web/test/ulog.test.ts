@@ -36,7 +36,10 @@ test(
     const recording = readRecording(
       "flight",
       readFileSync(recording_file as string),
-      new Set(["/truth/pose", "/cup"]),
+      new Map([
+        ["/truth/pose", []],
+        ["/cup", []],
+      ]),
     );
     const pose = recording.tables.get("/truth/pose");
     const where = rows.get("vehicle_local_position_groundtruth") ?? [];

@@ -3,27 +3,39 @@
 import uPlot from "uplot";
 import type { Recording } from "../recording/recording";
 import { valueAt } from "../recording/series";
-import { type Line, type Panel, samplesOf } from "./panels";
+import { type Line, type Panel, type Samples, samplesOf } from "./panels";
 
 export interface ChartHost {
   seek(t: number): void;
-  /** All panels show the same stretch of time. */
-  zoomed(from: number, to: number): void;
+  /** All panels show the same stretch of time. @param range  undefined: all of it */
+  zoomed(range: Range | undefined): void;
 }
 
-interface Drawn {
+/** A stretch of time [s]. */
+export interface Range {
+  min: number;
+  max: number;
+}
+export interface Look {
+  colours: { text: string; grid: string };
+  width: number; // [px]
+}
+
+interface Drawn extends Samples {
   line: Line;
   ghost: boolean; // of another flight than the first
-  time: Float64Array;
-  values: number[];
 }
 
 export class Chart {
   readonly element = document.createElement("section");
   private plot: uPlot | undefined;
   private readonly readout = document.createElement("p");
+  private readonly mark = document.createElement("i");
   private drawn: Drawn[] = [];
-  private look = ""; // of the plot's lines
+  private lines = ""; // that the plot has, and their look
+  private range: Range = { min: 0, max: 1 };
+  private seen = true;
+  private stale = false; // not drawn since it was not seen
   private now = 0;
 
   constructor(
@@ -43,14 +55,22 @@ export class Chart {
     const head = document.createElement("header");
     this.readout.className = "readout";
     head.append(title, this.readout, save);
+    this.mark.className = "now";
     this.element.append(head);
+    new IntersectionObserver(([entry]) => {
+      this.seen = entry?.isIntersecting ?? true;
+      if (this.seen && this.stale) {
+        this.draw();
+      }
+    }).observe(this.element);
   }
 
   /**
    * The plot stays where its lines do, for a canvas costs more than what is drawn on it.
-   * @returns whether there is anything to see
+   * @param range  of time
    */
-  load(recordings: Recording[], colours: { text: string; grid: string }, width: number): boolean {
+  load(recordings: Recording[], look: Look, range: Range): void {
+    this.range = range;
     this.drawn = recordings.flatMap((recording, k) =>
       this.panel.lines.flatMap((line) => {
         const samples = samplesOf(recording, line);
@@ -58,26 +78,30 @@ export class Chart {
       }),
     );
     this.element.hidden = this.drawn.length === 0;
-    const look = JSON.stringify([
-      colours,
+    const lines = JSON.stringify([
+      look.colours,
       this.drawn.map(({ line, ghost }) => [line.label, ghost]),
     ]);
-    if (this.plot !== undefined && look === this.look) {
-      this.plot.setData(this.joined(), false);
-      return true;
+    if (this.plot === undefined || lines !== this.lines) {
+      this.lines = lines;
+      this.plot?.destroy();
+      this.plot = this.element.hidden ? undefined : this.make(look);
+    } else {
+      this.draw();
     }
-    this.look = look;
-    this.plot?.destroy();
-    this.plot = undefined;
-    if (this.element.hidden) {
-      return false;
-    }
+  }
+  private make({ colours, width }: Look): uPlot {
     const series: uPlot.Series[] = this.drawn.map(({ line, ghost }) => ({
       label: line.label,
       stroke: ghost ? `${line.colour}80` : line.colour,
       width: ghost ? 1 : 1.5,
       dash: ghost ? [2, 2] : line.dash,
       spanGaps: true,
+      points: { show: false },
+      facets: [
+        { scale: "x", auto: true },
+        { scale: "y", auto: true },
+      ],
     }));
     const axis: uPlot.Axis = {
       stroke: colours.text,
@@ -86,6 +110,7 @@ export class Chart {
       font: "11px system-ui, sans-serif",
     };
     const options: uPlot.Options = {
+      mode: 2, // each line has times of its own
       width,
       height: kHeight_px,
       legend: { show: false },
@@ -97,18 +122,20 @@ export class Chart {
       ],
       series: [{}, ...series],
       hooks: {
-        draw: [(plot) => this.drawNow(plot, colours.text)],
+        draw: [() => this.placeNow()],
         setSelect: [(plot) => this.zoom(plot)],
       },
     };
-    this.plot = new uPlot(options, this.joined(), this.element);
-    this.plot.over.addEventListener("click", (event) => {
-      if (this.plot !== undefined && this.plot.select.width < 3) {
-        this.host.seek(this.plot.posToVal(event.offsetX, "x"));
+    const plot = new uPlot(options, this.data(), this.element);
+    plot.over.append(this.mark);
+    plot.over.addEventListener("click", (event) => {
+      if (plot.select.width < 3) {
+        this.host.seek(plot.posToVal(event.offsetX, "x"));
       }
     });
-    this.plot.over.addEventListener("dblclick", () => this.host.zoomed(Number.NaN, Number.NaN));
-    return true;
+    plot.over.addEventListener("dblclick", () => this.host.zoomed(undefined));
+    plot.setScale("x", this.range);
+    return plot;
   }
   resize(width: number): void {
     this.plot?.setSize({ width, height: kHeight_px });
@@ -122,43 +149,40 @@ export class Chart {
         return `${line.label} ${value === undefined || Number.isNaN(value) ? "–" : value.toFixed(digits(value))}`;
       })
       .join("  ");
-    this.plot?.redraw(false, false);
+    this.placeNow();
   }
-  /** NaN: all of it. */
-  range(from: number, to: number, end: number): void {
-    this.plot?.setScale("x", Number.isNaN(from) ? { min: 0, max: end } : { min: from, max: to });
+  zoomTo(range: Range): void {
+    this.range = range;
+    this.plot?.setScale("x", range);
   }
 
-  private joined(): uPlot.AlignedData {
-    const tables: uPlot.AlignedData[] = this.drawn.map(({ time, values }) => [
-      Array.from(time),
-      values,
-    ]);
-    return tables.length === 1 ? (tables[0] as uPlot.AlignedData) : uPlot.join(tables);
+  private data(): uPlot.AlignedData {
+    const tables = this.drawn.map(({ time, values }) => [time, values]);
+    return [null, ...tables] as unknown as uPlot.AlignedData; // its types know one time alone
+  }
+  /** Once it is seen: drawing all of them takes longer than a flight. */
+  private draw(): void {
+    this.stale = !this.seen;
+    if (this.seen && this.plot !== undefined) {
+      this.plot.setData(this.data(), false);
+      this.plot.setScale("x", this.range);
+    }
   }
   private zoom(plot: uPlot): void {
     if (plot.select.width >= 3) {
       const from = plot.posToVal(plot.select.left, "x");
       const to = plot.posToVal(plot.select.left + plot.select.width, "x");
       plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-      this.host.zoomed(from, to);
+      this.host.zoomed({ min: from, max: to });
     }
   }
-  private drawNow(plot: uPlot, colour: string): void {
-    const x = Math.round(plot.valToPos(this.now, "x", true));
-    if (x < plot.bbox.left || x > plot.bbox.left + plot.bbox.width) {
-      return;
+  /** The mark of the time that is shown: above the plot, which is not drawn again for it. */
+  private placeNow(): void {
+    if (this.plot !== undefined) {
+      const x = this.plot.valToPos(this.now, "x");
+      this.mark.hidden = !(x >= 0 && x <= this.plot.bbox.width / window.devicePixelRatio);
+      this.mark.style.transform = `translateX(${x.toFixed(1)}px)`;
     }
-    const { ctx } = plot;
-    ctx.save();
-    ctx.strokeStyle = colour;
-    ctx.lineWidth = window.devicePixelRatio;
-    ctx.setLineDash([]);
-    ctx.beginPath();
-    ctx.moveTo(x, plot.bbox.top);
-    ctx.lineTo(x, plot.bbox.top + plot.bbox.height);
-    ctx.stroke();
-    ctx.restore();
   }
   private save(): void {
     const canvas = this.plot?.ctx.canvas;

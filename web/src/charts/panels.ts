@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which numbers of a recording are charted, in which units.
-import type { Recording } from "../recording/recording";
+import type { Recording, Wanted } from "../recording/recording";
 
 export interface Line {
   label: string;
@@ -99,27 +99,40 @@ export const kPanels: Panel[] = [
   },
 ];
 
+export interface Samples {
+  time: Float64Array;
+  values: Float64Array;
+}
+/** In a panel's units, as they have been worked out, of recordings that do not grow. */
+const known = new WeakMap<Float64Array, Samples>();
+
 /** @returns samples of a line, undefined when the recording has none */
-export function samplesOf(
-  recording: Recording,
-  line: Line,
-): { time: Float64Array; values: number[] } | undefined {
+export function samplesOf(recording: Recording, line: Line): Samples | undefined {
   const table = recording.tables.get(line.topic);
   const column = table?.columns.get(line.column);
   if (table === undefined || column === undefined || column.length === 0) {
     return undefined;
   }
+  const before = known.get(column);
+  if (before !== undefined) {
+    return before;
+  }
   const scale = line.scale ?? 1;
-  return {
-    time: table.time,
-    values: Array.from(column, (value) => (Number.isFinite(value) ? scale * value : Number.NaN)),
-  };
+  const values = column.map((value) => (Number.isFinite(value) ? scale * value : Number.NaN));
+  const samples = { time: table.time, values };
+  known.set(column, samples);
+  return samples;
 }
 
-/** What charts and scene ask of a recording. */
-export const kColumns = new Set([
-  "/guidance",
-  "/truth/vehicle",
-  "/cup",
-  ...kPanels.flatMap((panel) => panel.lines.map((line) => line.topic)),
-]);
+/** What charts and scene ask of a recording, by topic. */
+export const kColumns: Wanted = (() => {
+  const all = new Map<string, string[]>([
+    ["/guidance", ["attempt"]],
+    ["/truth/vehicle", ["rotor_speed_rad_s[0]"]],
+    ["/cup", ["gap_m"]],
+  ]);
+  for (const { topic, column } of kPanels.flatMap(({ lines }) => lines)) {
+    all.set(topic, [...(all.get(topic) ?? []), column]);
+  }
+  return all;
+})();

@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every parameter of a scenario as a slider; the flight follows.
-import { kColumns } from "../charts/panels";
-import { type Recording, readRecording } from "../recording/recording";
+import type { Recording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
 import { button, element, labelled, tabs } from "./element";
 import { Learn } from "./learn";
 import { Live } from "./live";
 import { Many } from "./many";
+import { Reflights } from "./reflights";
 import * as server from "./server";
 import { Swing } from "./swing";
 
 export interface LabHost {
   /** The first is the flight, the second its ghost; camera and time stay. */
-  refresh(recordings: Recording[]): void;
+  refresh(recordings: Recording[], brief?: boolean): void;
+  /** Nothing follows at once: in full detail. */
+  calm(): void;
+  /** What is to be shown stands there, by all that draws. */
+  drawn(): Promise<void>;
   /** A flight that is still flying, at its latest time until somebody seeks another. */
   follow(recording: Recording): void;
   /** It has more to show; nothing happens where another one is looked at. */
   grown(recording: Recording): void;
   say(text: string): void;
 }
+
+const kCalm_ms = 150; // a hand that stands still
 
 /** Sections that people turn first; the others follow. */
 const kFirst = ["guidance", "environment", "vehicle.cup", "vehicle.slider", "wall.surface"];
@@ -35,21 +41,26 @@ export class Lab {
     ariaLabel: "Find a parameter",
   });
   private catalogue: server.Catalogue | undefined;
-  private flown: Recording | undefined; // the one that stands
-  private busy = false;
-  private wanted: { brief: boolean; since: number } | undefined;
+  private readonly reflights: Reflights;
+  private telling: ReturnType<typeof setTimeout> | undefined;
   readonly many: Many;
   readonly learn: Learn;
   readonly swing: Swing;
   readonly live: Live;
-  /** Of the latest re-flights, from the hand to the picture [ms]. */
-  readonly delays: number[] = [];
 
   constructor(
     place: HTMLElement,
     private readonly host: LabHost,
   ) {
     this.search.addEventListener("input", () => this.filter());
+    this.reflights = new Reflights({
+      wish: () => this.wish(),
+      trying: (does) => this.trying(does),
+      watch: (recording, brief) => this.watch(recording, brief),
+      drawn: () => this.host.drawn(),
+      reflown: (recording, delay_ms) => this.reflown(recording, delay_ms),
+      over: (brief) => this.tell(brief ? kCalm_ms : 0),
+    });
     const tools = element(
       "div",
       { className: "tools" },
@@ -84,8 +95,9 @@ export class Lab {
   }
 
   /** Over the flight that stands. */
-  watch(recording: Recording): void {
-    this.host.refresh(this.flown === undefined ? [recording] : [recording, this.flown]);
+  watch(recording: Recording, brief = false): void {
+    const { stands } = this.reflights;
+    this.host.refresh(stands === undefined ? [recording] : [recording, stands], brief);
   }
   wish(): server.Wish {
     return { scenario: this.changes.scenario, set: this.changes.list() };
@@ -171,7 +183,7 @@ export class Lab {
       select("Scenario", catalogue.scenarios, this.changes.scenario, (name) => {
         this.changes.clear();
         this.changes.scenario = name;
-        this.flown = undefined;
+        this.reflights.stands = undefined;
         rebuild();
       }),
       ...(schema.surface === ""
@@ -308,6 +320,20 @@ export class Lab {
     this.changes.clear();
     void this.trying(() => this.build().then(() => this.refly(false)));
   }
+  /** Not while a slider moves: an address that changes costs as much as a picture. */
+  private tell(later_ms: number): void {
+    clearTimeout(this.telling);
+    const tell = (): void => {
+      this.host.calm();
+      this.told();
+      this.swing.changed();
+    };
+    if (later_ms > 0) {
+      this.telling = setTimeout(tell, later_ms);
+    } else {
+      tell();
+    }
+  }
   /** The changes, in the page's address and in a list. */
   private told(): void {
     history.replaceState(
@@ -327,42 +353,12 @@ export class Lab {
     );
   }
 
-  /**
-   * The latest wish is flown when the last flight is there; what came between is not.
-   * @param brief  a slider is moving: what a picture needs. Otherwise that first, then all.
-   */
   private refly(brief: boolean): void {
-    this.wanted = { brief, since: this.wanted?.since ?? performance.now() };
-    this.told();
-    this.swing.changed();
-    if (!this.busy) {
-      void this.flyWanted();
-    }
+    clearTimeout(this.telling);
+    this.reflights.wish(brief);
   }
-  private async flyWanted(): Promise<void> {
-    this.busy = true;
-    while (this.wanted !== undefined) {
-      const { brief, since } = this.wanted;
-      this.wanted = undefined;
-      await this.trying(async () => {
-        const { outcome, duration } = await this.fly(true);
-        await new Promise((drawn) => requestAnimationFrame(drawn));
-        const delay = performance.now() - since;
-        this.delays.push(delay);
-        this.delays.splice(0, this.delays.length - 500);
-        this.status.textContent = `${outcome} after ${duration.toFixed(1)} s; re-flown in ${delay.toFixed(0)} ms`;
-        if (!brief && this.wanted === undefined) {
-          this.flown = await this.fly(false);
-        }
-      });
-    }
-    this.busy = false;
-  }
-  private async fly(brief: boolean): Promise<Recording> {
-    const bytes = await server.fly({ ...this.wish(), brief });
-    const recording = readRecording(this.changes.scenario, bytes, kColumns);
-    this.watch(recording);
-    return recording;
+  private reflown({ outcome, duration }: Recording, delay_ms: number): void {
+    this.status.textContent = `${outcome} after ${duration.toFixed(1)} s; re-flown in ${delay_ms.toFixed(0)} ms`;
   }
 
   private async save(): Promise<void> {
@@ -382,10 +378,10 @@ export class Lab {
   /** For those who look at the page from outside. */
   state(): Record<string, unknown> {
     return {
-      idle: !this.busy && this.wanted === undefined && this.flown !== undefined,
+      idle: this.reflights.idle,
       changes: this.changes.list(),
       command: this.changes.command(),
-      delays: [...this.delays],
+      delays: [...this.reflights.delays],
     };
   }
 }

@@ -4,6 +4,7 @@ import { kColumns } from "../charts/panels";
 import { LiveFlight, liveAddress } from "../recording/live";
 import type { Recording } from "../recording/recording";
 import { button, element, labelled } from "./element";
+import { Parameters } from "./live_parameters";
 
 export interface LiveHost {
   trying(does: () => Promise<void>): Promise<void>;
@@ -31,6 +32,7 @@ export class Live {
   private readonly end = button("Leave", "Watch it no more; it flies on", () => this.leave());
   private readonly now = button("Now", "Follow it again", () => this.follow());
   private readonly services = element("div", { className: "tools" });
+  private readonly parameters = new Parameters((name, value) => this.flight?.set(name, value));
   private readonly told = element("output", { className: "status" });
   private readonly lines = element("ul", { className: "diff", ariaLabel: "What was said" });
   private flight: LiveFlight | undefined;
@@ -56,6 +58,7 @@ export class Live {
       this.told,
       this.services,
       this.lines,
+      this.parameters.element,
     );
     this.state(false);
   }
@@ -64,6 +67,7 @@ export class Live {
     for (const one of this.services.querySelectorAll("button")) {
       one.disabled = !watching;
     }
+    this.parameters.enable(watching);
   }
   private watch(): void {
     void this.host.trying(async () => {
@@ -72,6 +76,7 @@ export class Live {
       this.said = [];
       this.shown = 0;
       this.services.replaceChildren();
+      this.parameters.clear();
       this.lines.replaceChildren();
       this.told.textContent = "calling";
       const flight = new LiveFlight(address, kColumns, {
@@ -83,6 +88,7 @@ export class Live {
               ),
             ),
           ),
+        parameters: (changed) => this.parameters.take(changed),
         said: (text) => this.say(text),
         closed: (why) => this.closed(flight, why),
       });
@@ -141,6 +147,7 @@ export class Live {
       messages: this.shown,
       told: this.told.textContent,
       said: [...this.said],
+      parameters: this.parameters.outside(),
       services: [...this.services.querySelectorAll("button")].map((one) => one.textContent),
     };
   }

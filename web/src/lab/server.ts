@@ -41,6 +41,7 @@ export interface Wish {
   scenario: string;
   set: string[];
   brief?: boolean;
+  topics?: string[]; // whose messages are wanted; none: all
 }
 
 /** Of limpet/lab/many.hpp */
@@ -92,8 +93,12 @@ export const catalogue = async (): Promise<Catalogue> =>
 export const schema = async (wish: Wish): Promise<Schema> =>
   (await ask("/schema", wish)).json() as Promise<Schema>;
 export const yaml = async (wish: Wish): Promise<string> => (await ask("/yaml", wish)).text();
-export const fly = async (wish: Wish): Promise<Uint8Array> =>
-  new Uint8Array(await (await ask("/fly", wish)).arrayBuffer());
+/** @returns the recording, and how long the server took for it [ms] */
+export async function fly(wish: Wish): Promise<{ bytes: Uint8Array; flight: number }> {
+  const answer = await ask("/fly", wish);
+  const told = /dur=([\d.]+)/.exec(answer.headers.get("Server-Timing") ?? "");
+  return { bytes: new Uint8Array(await answer.arrayBuffer()), flight: Number(told?.[1] ?? 0) };
+}
 
 const state = async (path: string, wish: object): Promise<ManyState> =>
   (await ask(path, wish)).json() as Promise<ManyState>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Chart, saveCanvas } from "../charts/chart";
+import { Chart, type Range, saveCanvas } from "../charts/chart";
 import { kColumns, kPanels } from "../charts/panels";
 import { Lab } from "../lab/lab";
 import { type Recording, readRecording } from "../recording/recording";
@@ -39,10 +39,10 @@ class Page {
     (panel) =>
       new Chart(panel, {
         seek: (t) => this.seek(t),
-        zoomed: (from, to) => {
-          this.zoomed = !Number.isNaN(from);
+        zoomed: (range) => {
+          this.range = range;
           for (const chart of this.charts) {
-            chart.range(from, to, this.player.end);
+            chart.zoomTo(this.rangeNow());
           }
         },
       }),
@@ -50,7 +50,7 @@ class Page {
   private recordings: Recording[] = [];
   private flights: FlightView[] = [];
   private following = false; // a flight that is still flying
-  private zoomed = false;
+  private range: Range | undefined; // of the charts; all of the flight
   private shown = Number.NaN;
   private dirty = true;
 
@@ -84,11 +84,16 @@ class Page {
   /** The first is the flight, others are its ghosts. */
   load(recordings: Recording[]): void {
     this.player.seek(0);
+    this.range = undefined;
     this.refresh(recordings);
     this.view(this.stage.currentView);
   }
-  /** The same, seen from where one looks, at the same time. */
-  refresh(recordings: Recording[]): void {
+  /**
+   * The same, seen from where one looks, at the same time.
+   * @param brief  others follow at once: not in full detail
+   */
+  refresh(recordings: Recording[], brief = false): void {
+    this.stage.brief = brief;
     this.following &&= recordings[0] === this.recordings[0];
     const anew = this.recordings.length === 0;
     this.recordings = recordings;
@@ -105,21 +110,39 @@ class Page {
     by("names").textContent =
       recordings.length > 1 ? recordings.map((one) => one.name).join(", ") : "";
     this.player.end = first.duration;
-    this.flights = recordings.map(
-      (recording, k) => new FlightView(recording, k > 0, this.stage.cut),
-    );
+    const stood = new Set(this.flights);
+    this.flights = recordings.map((recording, k) => {
+      const known = [...stood].find((flight) => flight.takes(recording, k > 0));
+      if (known !== undefined) {
+        stood.delete(known);
+      }
+      return known ?? new FlightView(recording, k > 0, this.stage.cut);
+    });
     for (const flight of this.flights) {
       flight.show(this.player.time);
     }
     this.stage.setFlights(this.flights);
     this.stage.setFloor(Math.min(-0.5, (first.frames.get("base_link")?.at(0)[2] ?? 0) - 1.2));
     this.timeline.load(first);
-    this.zoomed = false;
     this.loadCharts();
     if (anew) {
       this.view(this.stage.currentView);
     }
     this.redraw();
+  }
+  /** Nothing follows at once: in full detail. */
+  calm(): void {
+    if (this.stage.brief) {
+      this.stage.brief = false;
+      this.redraw();
+    }
+  }
+  /** What is to be shown stands there: drawn with the page's next picture, and by what draws for it. */
+  async drawn(): Promise<void> {
+    await Promise.resolve(); // charts gather what is new until then
+    this.show();
+    await new Promise((drawn) => requestAnimationFrame(drawn));
+    this.stage.finish();
   }
   /** As it flies: at its latest time until somebody seeks another. */
   follow(recording: Recording): void {
@@ -128,7 +151,8 @@ class Page {
       this.refresh([recording]);
       this.view(this.stage.currentView);
     }
-    this.following = true;
+    this.following = true; // also of another one than before
+    this.player.wake();
   }
   grown(recording: Recording): void {
     if (this.recordings[0] !== recording) {
@@ -188,29 +212,29 @@ class Page {
     };
   }
 
-  private show(): void {
+  /** @returns whether it changes by itself */
+  private show(): boolean {
     if (this.following) {
       this.player.end = this.recordings[0]?.duration ?? 0;
       this.player.seek(this.player.end);
     }
     by("play").textContent = this.player.playing ? "Pause" : "Play";
     if (this.recordings.length === 0 || (this.player.time === this.shown && !this.dirty)) {
-      return;
+      return this.following;
     }
-    const charts = this.dirty || !this.following; // what flies moves at each picture, they when told
     this.dirty = false;
     this.shown = this.player.time;
     by("time").textContent = `${this.shown.toFixed(2)} s`;
     this.stage.draw(this.recordings.map((recording) => Math.min(this.shown, recording.duration)));
     this.timeline.show(this.shown);
     for (const chart of this.charts) {
-      if (charts && !chart.element.hidden) {
-        chart.show(this.shown);
-      }
+      chart.show(this.shown);
     }
+    return this.following;
   }
   private redraw(): void {
     this.dirty = true;
+    this.player.wake();
   }
   private view(name: (typeof kViews)[number][0]): void {
     this.stage.draw(
@@ -271,13 +295,13 @@ class Page {
       text: style.getPropertyValue("--text"),
       grid: style.getPropertyValue("--line"),
     };
-    const width = by("charts").clientWidth - 16;
+    const width = Math.max(200, by("charts").clientWidth - 16);
     for (const chart of this.charts) {
-      const there = chart.load(this.recordings, colours, Math.max(200, width));
-      if (there && !this.zoomed) {
-        chart.range(Number.NaN, Number.NaN, this.player.end);
-      }
+      chart.load(this.recordings, { colours, width }, this.rangeNow());
     }
+  }
+  private rangeNow(): Range {
+    return this.range ?? { min: 0, max: this.player.end };
   }
   private resize(): void {
     for (const chart of this.charts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time goes on, at a speed, until the end.
+// Time goes on, at a speed, until the end. While nothing changes nothing is drawn.
 
 export class Player {
   time = 0;
@@ -7,28 +7,40 @@ export class Player {
   playing = false;
   end = 0;
   private last_ms: number | undefined;
+  private woken = false;
 
-  /** @param step  at every picture of the screen: the time may have changed */
-  constructor(private readonly step: () => void) {
-    const frame = (now_ms: number): void => {
-      if (this.playing) {
-        this.time += this.speed * 1e-3 * Math.min(100, now_ms - (this.last_ms ?? now_ms));
-        if (this.time >= this.end) {
-          this.time = this.end;
-          this.playing = false;
-        }
+  /** @param step  shows the time as it is; @returns whether to go on with the next picture */
+  constructor(private readonly step: () => boolean) {}
+
+  /** Something has changed: step() at the screen's next picture. */
+  wake(): void {
+    if (!this.woken) {
+      this.woken = true;
+      requestAnimationFrame((now_ms) => this.frame(now_ms));
+    }
+  }
+  private frame(now_ms: number): void {
+    this.woken = false;
+    if (this.playing) {
+      this.time += this.speed * 1e-3 * Math.min(100, now_ms - (this.last_ms ?? now_ms));
+      if (this.time >= this.end) {
+        this.time = this.end;
+        this.playing = false;
       }
+    }
+    if (this.step() || this.playing) {
       this.last_ms = now_ms;
-      this.step();
-      requestAnimationFrame(frame);
-    };
-    requestAnimationFrame(frame);
+      this.wake();
+    } else {
+      this.last_ms = undefined;
+    }
   }
   toggle(): void {
     if (!this.playing && this.time >= this.end) {
       this.time = 0;
     }
     this.playing = !this.playing;
+    this.wake();
   }
   seek(t: number): void {
     this.time = Math.min(this.end, Math.max(0, t));

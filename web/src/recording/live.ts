@@ -2,24 +2,36 @@
 // A flight that is flying (`--live`), by Foxglove's WebSocket protocol, into a recording that grows.
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
-import { Builder, type ChannelOf, type Recording } from "./recording";
+import { type Channel, secondsAt } from "./mcap";
+import { Builder, type Recording, type Wanted } from "./recording";
 
 export interface LiveNews {
   /** What may be asked for, by name. */
   services(names: string[]): void;
+  /** What it flies with, as it is now: all of them, then those that change. */
+  parameters(changed: Parameter[]): void;
   /** A line of the flight, or an answer to what was asked for. */
   said(text: string): void;
   closed(why: string): void;
 }
 
+/** As the protocol has it, with what this program's flights say beside it. */
+export interface Parameter {
+  name: string;
+  value: number;
+  settable?: boolean;
+  minimum?: number;
+  maximum?: number;
+}
 interface Service {
   id: number;
   name: string;
 }
 type Told =
-  | { op: "serverInfo"; name: string }
-  | { op: "advertise"; channels: ChannelOf[] }
+  | { op: "serverInfo"; name: string; capabilities: string[] }
+  | { op: "advertise"; channels: Channel[] }
   | { op: "advertiseServices"; services: Service[] }
+  | { op: "parameterValues"; parameters: Parameter[] }
   | { op: "status"; message: string }
   | { op: "serviceCallFailure"; message: string }
   | { op: "other" };
@@ -27,6 +39,7 @@ type Told =
 const kSubprotocols = ["foxglove.sdk.v1", "foxglove.websocket.v1"];
 const kMessage = 1; // bytes from a flight begin so
 const kAnswer = 3;
+const kAsset = 4;
 const kCall = 2; // and to it
 const kNothing = [0, 1, 0, 0, 0]; // a request without fields, as CDR
 
@@ -64,11 +77,13 @@ export class LiveFlight {
     parse("bool success\nstring message", { ros2: true }),
   );
   private calls = 0;
+  private readonly meshes: string[] = []; // that were asked for; their place is the request's number
+  private fetches = false;
   messages = 0;
 
   constructor(
     address: URL,
-    columns: Set<string>,
+    columns: Wanted,
     private readonly news: LiveNews,
   ) {
     this.builder = new Builder("live", columns);
@@ -100,15 +115,35 @@ export class LiveFlight {
     }
   }
 
+  /** It says what came of it: the value that holds, and why where it is another one. */
+  set(name: string, value: number): void {
+    if (Number.isFinite(value)) {
+      this.send({ op: "setParameters", parameters: [{ name, value }], id: "set" });
+    }
+  }
+  private send(wish: object): void {
+    if (this.socket.readyState === WebSocket.OPEN) {
+      this.socket.send(JSON.stringify(wish));
+    }
+  }
+
   private hear(told: Told): void {
     switch (told.op) {
       case "serverInfo":
         this.builder.recording.scenario = told.name.replace(/^limpet: /, "");
+        this.fetches = told.capabilities.includes("assets");
+        if (told.capabilities.includes("parameters")) {
+          this.send({ op: "getParameters", parameterNames: [], id: "all" });
+          this.send({ op: "subscribeParameterUpdates", parameterNames: [] });
+        }
+        break;
+      case "parameterValues":
+        this.news.parameters(told.parameters);
         break;
       case "advertise": {
         const wanted = told.channels.filter((channel) => this.builder.channel(channel));
         const subscriptions = wanted.map(({ id }) => ({ id, channelId: id }));
-        this.socket.send(JSON.stringify({ op: "subscribe", subscriptions }));
+        this.send({ op: "subscribe", subscriptions });
         break;
       }
       case "advertiseServices":
@@ -128,11 +163,11 @@ export class LiveFlight {
     switch (view.getUint8(0)) {
       case kMessage:
         this.messages += 1;
-        this.builder.message(
-          view.getUint32(1, true),
-          view.getBigUint64(5, true),
-          new Uint8Array(data, 13),
-        );
+        this.builder.message(view.getUint32(1, true), secondsAt(view, 5), new Uint8Array(data, 13));
+        this.fetchMeshes();
+        break;
+      case kAsset:
+        this.takeMesh(view, new Uint8Array(data));
         break;
       case kAnswer: {
         const from = 13 + view.getUint32(9, true);
@@ -140,6 +175,29 @@ export class LiveFlight {
         this.news.said(message);
         break;
       }
+    }
+  }
+  /** Those that the vehicle's description names, once it has come. */
+  private fetchMeshes(): void {
+    const { urdf } = this.builder.recording;
+    if (!this.fetches || urdf === "") {
+      return;
+    }
+    this.fetches = false;
+    for (const [, uri] of urdf.matchAll(/<mesh filename="([^"]+)"/g)) {
+      if (uri !== undefined && !this.meshes.includes(uri)) {
+        this.send({ op: "fetchAsset", requestId: this.meshes.length, uri });
+        this.meshes.push(uri);
+      }
+    }
+  }
+  private takeMesh(view: DataView, bytes: Uint8Array): void {
+    const from = 10 + view.getUint32(6, true);
+    const name = this.meshes[view.getUint32(1, true)]?.split("/").at(-1);
+    if (view.getUint8(5) !== 0) {
+      this.news.said(new TextDecoder().decode(bytes.subarray(10, from)));
+    } else if (name !== undefined) {
+      this.builder.attachment(name, bytes.subarray(from));
     }
   }
 }

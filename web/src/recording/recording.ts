@@ -2,10 +2,10 @@
 // A flight's recording as the page knows it: tables of numbers, where the frames are, marks, events.
 import { parse as parseDefinition } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
-import { McapStreamReader, type McapTypes } from "@mcap/core";
-import { decompress } from "fzstd";
+import { type Channel, type McapTaker, readMcap } from "./mcap";
 import { type Pose, Track } from "./poses";
 import { Column, type Table } from "./series";
+import { type Definitions, type Shape, Shapes, type Spot, type TakeShaped } from "./shape";
 
 export interface FlightEvent {
   time: number;
@@ -53,44 +53,12 @@ export interface Recording {
   tables: Map<string, Table>;
 }
 
+/** Without which there is nothing to see. */
+export const kSceneTopics = ["/robot_description", "/tf", "/tf_static", "/scene", "/events"];
 const kVehicle = "base_link";
 
 export class NotARecording extends Error {}
 
-interface Xyz {
-  x: number;
-  y: number;
-  z: number;
-}
-interface Xyzw extends Xyz {
-  w: number;
-}
-interface Header {
-  frame_id: string;
-}
-interface Transforms {
-  transforms: {
-    header: Header;
-    child_frame_id: string;
-    transform: { translation: Xyz; rotation: Xyzw };
-  }[];
-}
-interface Posed {
-  pose: { position: Xyz; orientation: Xyzw };
-}
-interface Markers {
-  markers: {
-    header: Header;
-    ns: string;
-    id: number;
-    type: number;
-    action: number;
-    pose: { position: Xyz; orientation: Xyzw };
-    scale: Xyz;
-    color: { r: number; g: number; b: number; a: number };
-    points: Xyz[];
-  }[];
-}
 interface EventMessage {
   station: string;
   name: string;
@@ -99,8 +67,15 @@ interface EventMessage {
   values: Float64Array;
 }
 
-const seconds = (ns: bigint): number => Number(ns) * 1e-9;
-const pose = (p: Xyz, q: Xyzw): Pose => [p.x, p.y, p.z, q.x, q.y, q.z, q.w];
+const kNothing: Spot = () => 0;
+/** Of a vector, a quaternion, a colour: its numbers by their names. */
+const spotsOf = ({ numbers }: Shape, path: string, names: string): Spot[] =>
+  [...names].map((name) => numbers.get(`${path}.${name}`) ?? kNothing);
+/** @returns where p and q of it stand */
+function poseOf(shape: Shape, p: string, q: string): (view: DataView) => Pose {
+  const spots = [...spotsOf(shape, p, "xyz"), ...spotsOf(shape, q, "xyzw")];
+  return (view) => spots.map((spot) => spot(view)) as Pose;
+}
 
 /** Columns that are filled from messages of plain numbers and texts. */
 class TableBuilder {
@@ -108,36 +83,37 @@ class TableBuilder {
   private readonly columns = new Map<string, Column>();
   private readonly texts = new Map<string, string[]>();
 
-  constructor(private readonly topic: string) {}
+  /** @param wanted  columns; none: all of them */
+  constructor(
+    private readonly topic: string,
+    private readonly wanted: readonly string[],
+  ) {}
 
-  push(t: number, message: unknown): void {
-    this.time.push(t);
-    this.take("", message);
-  }
-  private take(path: string, value: unknown): void {
-    if (typeof value === "number" || typeof value === "boolean") {
-      let column = this.columns.get(path);
-      if (column === undefined) {
-        column = new Column();
+  plan({ numbers, texts }: Shape): TakeShaped {
+    const columns: [Spot, Column][] = [];
+    for (const [path, spot] of numbers) {
+      if (this.wanted.length === 0 || this.wanted.includes(path)) {
+        const column = this.columns.get(path) ?? new Column();
         this.columns.set(path, column);
-      }
-      column.push(Number(value));
-    } else if (typeof value === "string") {
-      const texts = this.texts.get(path) ?? [];
-      texts.push(value);
-      this.texts.set(path, texts);
-    } else if (ArrayBuffer.isView(value) || Array.isArray(value)) {
-      const all = value as unknown as ArrayLike<unknown>;
-      for (let i = 0; i < all.length; ++i) {
-        this.take(`${path}[${i}]`, all[i]);
-      }
-    } else if (typeof value === "object" && value !== null) {
-      for (const [name, part] of Object.entries(value)) {
-        if (name !== "header" && name !== "stamp") {
-          this.take(path === "" ? name : `${path}.${name}`, part);
-        }
+        columns.push([spot, column]);
       }
     }
+    const lists = [...texts]
+      .filter(([path]) => !path.startsWith("header."))
+      .map(([path, text]): [string, string[]] => {
+        const list = this.texts.get(path) ?? [];
+        this.texts.set(path, list);
+        return [text, list];
+      });
+    return (t, view) => {
+      this.time.push(t);
+      for (const [spot, column] of columns) {
+        column.push(spot(view));
+      }
+      for (const [text, list] of lists) {
+        list.push(text);
+      }
+    };
   }
   table(): Table {
     const length = this.time.values.length;
@@ -151,27 +127,20 @@ class TableBuilder {
   }
 }
 
-type Take = (t: number, message: unknown) => void;
-
-/** What a channel's messages are; of others than ROS 2's nothing is taken. */
-export interface ChannelOf {
-  id: number;
-  topic: string;
-  encoding: string;
-  schemaEncoding: string;
-  schema: string;
-}
+/** Which columns of which topics; none: all of a topic's. */
+export type Wanted = ReadonlyMap<string, readonly string[]>;
+type Take = (t: number, bytes: Uint8Array) => void;
 
 /** Takes channels and messages, in any order of channels, and makes a Recording of them. */
-export class Builder {
-  private readonly readers = new Map<number, { reader: MessageReader; take: Take }>();
+export class Builder implements McapTaker {
+  private readonly takers = new Map<number, Take>();
   private readonly tables = new Map<string, TableBuilder>();
   private readonly estimated = new Track("map"); // where the vehicle believes to be
   readonly recording: Recording;
 
   constructor(
     name: string,
-    private readonly columns: Set<string>,
+    private readonly columns: Wanted,
   ) {
     this.recording = {
       name,
@@ -189,23 +158,24 @@ export class Builder {
   }
 
   /** @returns whether its messages are wanted */
-  channel({ id, topic, encoding, schemaEncoding, schema }: ChannelOf): boolean {
-    if (this.readers.has(id)) {
+  channel({ id, topic, encoding, schemaEncoding, schema }: Channel): boolean {
+    if (this.takers.has(id)) {
       return true; // a file's summary names all once more
     }
-    const take = encoding === "cdr" && schemaEncoding === "ros2msg" ? this.taker(topic) : undefined;
+    const take =
+      encoding === "cdr" && schemaEncoding === "ros2msg"
+        ? this.taker(topic, parseDefinition(schema, { ros2: true }))
+        : undefined;
     if (take !== undefined) {
-      const reader = new MessageReader(parseDefinition(schema, { ros2: true }));
-      this.readers.set(id, { reader, take });
+      this.takers.set(id, take);
     }
     return take !== undefined;
   }
-  message(channel: number, time_ns: bigint, data: Uint8Array): void {
-    const of = this.readers.get(channel);
-    if (of !== undefined) {
-      const t = seconds(time_ns);
+  message(channel: number, t: number, data: Uint8Array): void {
+    const take = this.takers.get(channel);
+    if (take !== undefined) {
       this.recording.duration = Math.max(this.recording.duration, t);
-      of.take(t, of.reader.readMessage(data));
+      take(t, data);
     }
   }
   attachment(name: string, data: Uint8Array): void {
@@ -235,66 +205,88 @@ export class Builder {
     return recording;
   }
 
-  private taker(topic: string): Take | undefined {
+  private taker(topic: string, definitions: Definitions): Take | undefined {
+    const whole = <T>(of: (t: number, message: T) => void): Take => {
+      const reader = new MessageReader<T>(definitions);
+      return (t, bytes) => of(t, reader.readMessage(bytes));
+    };
+    const shaped = (plan: (shape: Shape) => TakeShaped): Take => {
+      const shapes = new Shapes(definitions, plan);
+      return (t, bytes) => shapes.take(t, bytes);
+    };
     switch (topic) {
       case "/robot_description":
-        return (_t, message) => {
-          this.recording.urdf = (message as { data: string }).data;
-        };
+        return whole<{ data: string }>((_t, { data }) => {
+          this.recording.urdf = data;
+        });
+      case "/events":
+        return whole<EventMessage>((t, message) => this.event(t, message));
       case "/tf":
       case "/tf_static":
-        return (t, message) => this.move(t, message as Transforms);
+        return shaped((shape) => this.moves(shape));
       case "/scene":
-        return (t, message) => this.mark(t, message as Markers);
-      case "/events":
-        return (t, message) => this.event(t, message as EventMessage);
+        return shaped((shape) => this.marks(shape));
       default: {
-        if (!this.columns.has(topic)) {
+        const wanted = this.columns.get(topic);
+        if (wanted === undefined) {
           return undefined;
         }
-        const builder = new TableBuilder(topic);
+        const builder = new TableBuilder(topic, wanted);
         this.tables.set(topic, builder);
-        return topic === "/estimate/pose"
-          ? (t, message) => {
-              builder.push(t, message);
-              const { position, orientation } = (message as Posed).pose;
-              this.estimated.push(t, pose(position, orientation));
-            }
-          : (t, message) => builder.push(t, message);
+        return shaped((shape) => {
+          const take = builder.plan(shape);
+          return topic === "/estimate/pose" ? this.alsoEstimated(shape, take) : take;
+        });
       }
     }
   }
-  private move(t: number, message: Transforms): void {
-    for (const { header, child_frame_id, transform } of message.transforms) {
-      let track = this.recording.frames.get(child_frame_id);
-      if (track === undefined || track === this.estimated) {
-        track = new Track(header.frame_id);
-        this.recording.frames.set(child_frame_id, track);
-      }
-      track.push(t, pose(transform.translation, transform.rotation));
-    }
+  private alsoEstimated(shape: Shape, take: TakeShaped): TakeShaped {
+    const pose = poseOf(shape, "pose.position", "pose.orientation");
+    return (t, view) => {
+      take(t, view);
+      this.estimated.push(t, pose(view));
+    };
   }
-  private mark(t: number, message: Markers): void {
-    const kDelete = 2;
-    for (const marker of message.markers) {
-      const key = `${marker.ns} ${marker.id}`;
-      const track = this.recording.marks.get(key) ?? { time: [], marks: [] };
-      this.recording.marks.set(key, track);
-      track.time.push(t);
-      track.marks.push(
-        marker.action === kDelete
-          ? null
-          : {
-              frame: marker.header.frame_id,
-              name: marker.ns,
-              type: marker.type,
-              pose: pose(marker.pose.position, marker.pose.orientation),
-              scale: [marker.scale.x, marker.scale.y, marker.scale.z],
-              colour: [marker.color.r, marker.color.g, marker.color.b, marker.color.a],
-              points: marker.points.map((p) => [p.x, p.y, p.z]),
-            },
-      );
+  private moves(shape: Shape): TakeShaped {
+    const all = Array.from({ length: shape.counts.get("transforms") ?? 0 }, (_, i) => {
+      const path = `transforms[${i}]`;
+      return {
+        track: this.trackOf(
+          shape.texts.get(`${path}.header.frame_id`) ?? "",
+          shape.texts.get(`${path}.child_frame_id`) ?? "",
+        ),
+        pose: poseOf(shape, `${path}.transform.translation`, `${path}.transform.rotation`),
+      };
+    });
+    return (t, view) => {
+      for (const { track, pose } of all) {
+        track.push(t, pose(view));
+      }
+    };
+  }
+  private trackOf(parent: string, child: string): Track {
+    const { frames } = this.recording;
+    const known = frames.get(child);
+    if (known !== undefined && known !== this.estimated) {
+      return known;
     }
+    const track = new Track(parent);
+    frames.set(child, track);
+    return track;
+  }
+  private marks(shape: Shape): TakeShaped {
+    const all = Array.from({ length: shape.counts.get("markers") ?? 0 }, (_, i) =>
+      markerOf(shape, `markers[${i}]`),
+    );
+    return (t, view) => {
+      for (const marker of all) {
+        const key = `${marker.name} ${marker.id(view)}`;
+        const track = this.recording.marks.get(key) ?? { time: [], marks: [] };
+        this.recording.marks.set(key, track);
+        track.time.push(t);
+        track.marks.push(marker.mark(view));
+      }
+    };
   }
   private event(t: number, message: EventMessage): void {
     this.recording.events.push({
@@ -305,6 +297,42 @@ export class Builder {
       values: message.value_names.map((name, i) => [name, message.values[i] as number]),
     });
   }
+}
+
+/** One of a message's markers, as all of its shape are. */
+function markerOf(
+  shape: Shape,
+  path: string,
+): { name: string; id: Spot; mark(view: DataView): Mark | null } {
+  const kDelete = 2;
+  const [id, type, action] = ["id", "type", "action"].map(
+    (name) => shape.numbers.get(`${path}.${name}`) ?? kNothing,
+  ) as [Spot, Spot, Spot];
+  const pose = poseOf(shape, `${path}.pose.position`, `${path}.pose.orientation`);
+  const scale = spotsOf(shape, `${path}.scale`, "xyz");
+  const colour = spotsOf(shape, `${path}.color`, "rgba");
+  const points = Array.from({ length: shape.counts.get(`${path}.points`) ?? 0 }, (_, i) =>
+    spotsOf(shape, `${path}.points[${i}]`, "xyz"),
+  );
+  const name = shape.texts.get(`${path}.ns`) ?? "";
+  const frame = shape.texts.get(`${path}.header.frame_id`) ?? "";
+  const read = (view: DataView, spots: Spot[]): number[] => spots.map((spot) => spot(view));
+  return {
+    name,
+    id,
+    mark: (view) =>
+      action(view) === kDelete
+        ? null
+        : {
+            frame,
+            name,
+            type: type(view),
+            pose: pose(view),
+            scale: read(view, scale) as Mark["scale"],
+            colour: read(view, colour) as Mark["colour"],
+            points: points.map((point) => read(view, point) as [number, number, number]),
+          },
+  };
 }
 
 function phasesOf(guidance: Table | undefined, end: number): Phase[] {
@@ -323,48 +351,15 @@ function phasesOf(guidance: Table | undefined, end: number): Phase[] {
   return phases;
 }
 
-const decompressHandlers = {
-  zstd: (bytes: Uint8Array, size: bigint) => decompress(bytes, new Uint8Array(Number(size))),
-};
-
 /**
  * @param bytes    of an MCAP file, whole or as far as it was written
- * @param columns  topics whose numbers are wanted; frames, marks and events always are
+ * @param columns  numbers that are wanted; frames, marks and events always are
  * @throws NotARecording
  */
-export function readRecording(name: string, bytes: Uint8Array, columns: Set<string>): Recording {
+export function readRecording(name: string, bytes: Uint8Array, columns: Wanted): Recording {
   const builder = new Builder(name, columns);
-  const schemas = new Map<number, McapTypes.TypedMcapRecords["Schema"]>();
-  const reader = new McapStreamReader({ decompressHandlers });
   try {
-    reader.append(bytes);
-    for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
-      switch (record.type) {
-        case "Schema":
-          schemas.set(record.id, record);
-          break;
-        case "Channel": {
-          const schema = schemas.get(record.schemaId);
-          builder.channel({
-            id: record.id,
-            topic: record.topic,
-            encoding: record.messageEncoding,
-            schemaEncoding: schema?.encoding ?? "",
-            schema: new TextDecoder().decode(schema?.data),
-          });
-          break;
-        }
-        case "Message":
-          builder.message(record.channelId, record.logTime, record.data);
-          break;
-        case "Attachment":
-          builder.attachment(record.name, record.data);
-          break;
-        case "Metadata":
-          builder.metadata(record.name, record.metadata);
-          break;
-      }
-    }
+    readMcap(bytes, builder);
   } catch (problem) {
     throw new NotARecording(`${name} is not an MCAP recording: ${String(problem)}`);
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording in the scene: frames, the vehicle's links in them, marks.
 import { AxesHelper, Group, Object3D, type Plane } from "three";
-import type { Mark, Recording } from "../recording/recording";
+import type { Mark, MarkTrack, Recording } from "../recording/recording";
 import { indexAt, valueAt } from "../recording/series";
-import { dispose, markShape } from "./marks";
+import { alike, dispose, markShape } from "./marks";
+import { Path, type Piece } from "./path";
 import { buildRobot, type Robot } from "./robot";
 
 const kTurning_rad_s = 30;
@@ -13,19 +14,25 @@ export class FlightView {
   private readonly frames = new Map<string, Object3D>();
   private readonly robot: Robot;
   private readonly urdf: string;
+  private readonly meshes: number; // that it was made with
   private readonly shown = new Map<string, { mark: Mark; shape: Object3D }>();
+  private marks = new Map<string, MarkTrack>();
+  private path: Path | undefined;
+  private sorted: Map<string, MarkTrack> | undefined; // into these two, with so many
+  private sortedMarks = 0;
 
   /**
    * @param ghost  beside another flight: the vehicle alone, seen through
    * @param cut    of the wall, for the camera
    */
   constructor(
-    readonly recording: Recording,
+    public recording: Recording,
     private readonly ghost: boolean,
     private readonly cut: Plane,
   ) {
     const kGhost = 0.35;
     this.urdf = recording.urdf;
+    this.meshes = recording.meshes.size;
     this.robot = buildRobot(recording.urdf, recording.meshes, ghost ? kGhost : 1);
     this.frames.set("map", this.root);
     for (const child of recording.frames.keys()) {
@@ -40,9 +47,31 @@ export class FlightView {
     }
   }
 
-  /** Whether frames have come that it was not made with. */
+  /**
+   * Another flight of the same vehicle in this one's place, with all that is drawn already.
+   * @returns whether it is so: of the same shape, with the same frames
+   */
+  takes(recording: Recording, ghost: boolean): boolean {
+    const before = this.recording;
+    const same =
+      recording === before ||
+      (recording.urdf === this.urdf &&
+        sameMeshes(recording.meshes, before.meshes) &&
+        recording.frames.size === before.frames.size &&
+        !this.outgrown &&
+        [...recording.frames].every(([name, { parent }]) => {
+          return before.frames.get(name)?.parent === parent;
+        }));
+    if (same && ghost === this.ghost) {
+      this.recording = recording;
+      return true;
+    }
+    return false;
+  }
+  /** Whether frames or meshes have come that it was not made with. */
   get outgrown(): boolean {
-    return this.recording.frames.size >= this.frames.size || this.recording.urdf !== this.urdf;
+    const { frames, meshes, urdf } = this.recording;
+    return frames.size >= this.frames.size || urdf !== this.urdf || meshes.size !== this.meshes;
   }
   /** Everything as it was at `t` [s]. */
   show(t: number): void {
@@ -97,24 +126,63 @@ export class FlightView {
     this.robot.soft.scale.x = Math.max(0.3, 1 - depth / length);
   }
   private showMarks(t: number): void {
-    for (const [key, track] of this.recording.marks) {
+    this.sortMarks();
+    this.path?.show(t);
+    for (const [key, track] of this.marks) {
       const at = indexAt(track.time, t);
       const mark = at < 0 ? null : (track.marks[at] as Mark | null);
       const before = this.shown.get(key);
-      const wanted = mark !== null && (!this.ghost || mark.name === "path") ? mark : null;
-      if (before?.mark === wanted || (before === undefined && wanted === null)) {
+      if (before !== undefined && mark !== null && alike(before.mark, mark)) {
         continue;
       }
-      if (before !== undefined) {
-        before.shape.removeFromParent();
-        dispose(before.shape);
-        this.shown.delete(key);
-      }
-      const shape = wanted === null ? undefined : markShape(wanted, this.cut);
-      if (wanted !== null && shape !== undefined) {
-        (this.frames.get(wanted.frame) ?? this.root).add(shape);
-        this.shown.set(key, { mark: wanted, shape });
+      this.hide(key);
+      const shape = mark === null ? undefined : markShape(mark, this.cut);
+      if (mark !== null && shape !== undefined) {
+        (this.frames.get(mark.frame) ?? this.root).add(shape);
+        this.shown.set(key, { mark, shape });
       }
     }
   }
+  private hide(key: string): void {
+    const shape = this.shown.get(key)?.shape;
+    if (shape !== undefined) {
+      shape.removeFromParent();
+      dispose(shape);
+      this.shown.delete(key);
+    }
+  }
+  /** The way is one line, the rest comes and goes; a ghost has its way alone. */
+  private sortMarks(): void {
+    const { marks } = this.recording;
+    if (this.sorted === marks && this.sortedMarks === marks.size) {
+      return;
+    }
+    this.sorted = marks;
+    this.sortedMarks = marks.size;
+    const pieces: Piece[] = [];
+    this.marks = new Map();
+    for (const [key, track] of marks) {
+      const first = track.marks[0];
+      if (first?.name === "path") {
+        pieces.push({ time: track.time[0] as number, mark: first });
+      } else if (!this.ghost) {
+        this.marks.set(key, track);
+      }
+    }
+    for (const key of [...this.shown.keys()].filter((key) => !this.marks.has(key))) {
+      this.hide(key);
+    }
+    this.path?.line.removeFromParent();
+    this.path?.line.geometry.dispose();
+    this.path = pieces.length > 0 ? new Path(pieces) : undefined;
+    if (this.path !== undefined) {
+      (this.frames.get(pieces[0]?.mark.frame ?? "") ?? this.root).add(this.path.line);
+    }
+  }
+}
+
+function sameMeshes(a: Map<string, Uint8Array>, b: Map<string, Uint8Array>): boolean {
+  const same = (ours: Uint8Array, theirs: Uint8Array | undefined): boolean =>
+    ours.length === theirs?.length && ours.every((byte, i) => byte === theirs[i]);
+  return a.size === b.size && [...a].every(([name, bytes]) => same(bytes, b.get(name)));
 }

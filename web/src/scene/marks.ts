@@ -30,7 +30,7 @@ const kCylinder = 3;
 const kLineStrip = 4;
 const kLineList = 5;
 
-function colourOf(mark: Mark): Color {
+export function colourOf(mark: Mark): Color {
   return new Color().setRGB(mark.colour[0], mark.colour[1], mark.colour[2], "srgb");
 }
 
@@ -105,6 +105,24 @@ export function markShape(mark: Mark, cut: Plane): Object3D | undefined {
     shape.quaternion.set(qx, qy, qz, qw);
   }
   return shape;
+}
+
+/** Whether they look the same. */
+export function alike(a: Mark, b: Mark): boolean {
+  const numbers = (mark: Mark): number[] => [
+    mark.type,
+    ...mark.pose,
+    ...mark.scale,
+    ...mark.colour,
+    ...mark.points.flat(),
+  ];
+  const [ours, theirs] = [numbers(a), numbers(b)];
+  return (
+    a.frame === b.frame &&
+    a.name === b.name &&
+    ours.length === theirs.length &&
+    ours.every((value, i) => value === theirs[i])
+  );
 }
 
 export function dispose(shape: Object3D): void {

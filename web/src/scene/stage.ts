@@ -24,6 +24,7 @@ export const kViews: [ViewName, string][] = [
   ["overview", "Overview"],
 ];
 
+const kBriefly = 0.5;
 const kNowhere_m = 1e6;
 /** Less than a vehicle that rests is before the wall, or the camera would be within it. */
 const kAhead_m = 0.1;
@@ -63,12 +64,13 @@ export class Stage {
     this.scene.add(new HemisphereLight(0xffffff, 0x888888, 1.0));
   }
 
+  /** Pictures follow each other at once, with fewer dots; a machine without a graphics card keeps up. */
+  brief = false;
   private readonly replaced: FlightView[] = [];
   setFlights(flights: FlightView[]): void {
-    for (const flight of this.flights) {
-      this.scene.remove(flight.root);
-    }
-    this.replaced.push(...this.flights);
+    const gone = this.flights.filter((flight) => !flights.includes(flight));
+    this.scene.remove(...gone.map((flight) => flight.root));
+    this.replaced.push(...gone);
     this.flights = flights;
     this.scene.add(...flights.map((flight) => flight.root));
   }
@@ -148,7 +150,7 @@ export class Stage {
     this.follow();
     const canvas = this.renderer.domElement;
     const { clientWidth: width, clientHeight: height } = canvas;
-    const ratio = Math.min(window.devicePixelRatio, 2);
+    const ratio = (this.brief ? kBriefly : 1) * Math.min(window.devicePixelRatio, 2);
     if (
       canvas.width !== Math.floor(width * ratio) ||
       canvas.height !== Math.floor(height * ratio)
@@ -163,6 +165,11 @@ export class Stage {
     for (const flight of this.replaced.splice(0)) {
       flight.dispose();
     }
+  }
+  /** Waits until what was drawn is there: what is asked of a renderer is else done later. */
+  finish(): void {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
   /** Where the vehicle is in the picture: x, y from -1 to 1, and whether it is in it. */
   vehicleInPicture(): { x: number; y: number; seen: boolean } {

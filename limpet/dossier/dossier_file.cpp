@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/dossier/dossier_file.hpp"
+
+#include <fmt/format.h>
+
+#include "limpet/scenario/yaml_reader.hpp"
+
+namespace limpet::dossier {
+namespace {
+
+using scenario::YamlNode;
+
+const YamlNode& asked(const YamlNode& map, std::string_view key) {
+    const YamlNode* node = map.find(key);
+    if (node == nullptr) {
+        fail(map, fmt::format("{}: is missing", key));
+    }
+    return *node;
+}
+
+std::string level(const YamlNode& node) {
+    const std::string text = read_text(node);
+    if (text != "low" && text != "medium" && text != "high") {
+        fail(node, fmt::format("\"{}\" must be low, medium or high", scenario::shown(text)));
+    }
+    return text;
+}
+
+std::vector<UncertainInput> read_inputs(const YamlNode& map) {
+    std::vector<UncertainInput> inputs;
+    for (const YamlNode& node : map.children) {
+        check_keys(node, {"spread", "source"});
+        inputs.push_back({.key = node.key,
+                          .spread = read_text(asked(node, "spread")),
+                          .source = read_text(asked(node, "source"))});
+    }
+    if (inputs.empty()) {
+        fail(map, "names no input");
+    }
+    return inputs;
+}
+
+Quantity read_quantity(const YamlNode& node, const DossierFile& file) {
+    check_keys(node, {"figure", "scenario", "unit", "use", "influence", "consequence", "safe",
+                      "evidence"});
+    Quantity quantity{.name = node.key,
+                      .figure = read_text(asked(node, "figure")),
+                      .scenario = read_text(asked(node, "scenario")),
+                      .unit = read_text(asked(node, "unit")),
+                      .use = read_text(asked(node, "use")),
+                      .influence = level(asked(node, "influence")),
+                      .consequence = level(asked(node, "consequence")),
+                      .safe_above = false,
+                      .evidence = {}};
+    if (file.inputs.count(quantity.scenario) == 0) {
+        fail(asked(node, "scenario"),
+             fmt::format("\"{}\" has no inputs above", scenario::shown(quantity.scenario)));
+    }
+    const YamlNode& safe = asked(node, "safe");
+    const std::string side = read_text(safe);
+    if (side != "at_least" && side != "at_most") {
+        fail(safe, fmt::format("\"{}\" must be at_least or at_most", scenario::shown(side)));
+    }
+    quantity.safe_above = side == "at_least";
+    if (const YamlNode* evidence = node.find("evidence")) {
+        for (const YamlNode& id : read_list(*evidence, "a list of ids, as in [spike]", 0)) {
+            quantity.evidence.push_back(read_text(id));
+        }
+    }
+    return quantity;
+}
+
+}  // namespace
+
+DossierFile load_dossier(const std::filesystem::path& path) {
+    const YamlNode root =
+        scenario::parse_yaml(scenario::read_yaml_text(path), scenario::shown_path(path));
+    if (!is_section(&root)) {
+        fail(root, "is empty");
+    }
+    check_keys(root, {"title", "question", "inputs", "quantities"});
+    DossierFile file;
+    file.title = read_text(asked(root, "title"));
+    file.question = read_text(asked(root, "question"));
+    for (const YamlNode& scenario : asked(root, "inputs").children) {
+        file.inputs[scenario.key] = read_inputs(scenario);
+    }
+    for (const YamlNode& quantity : asked(root, "quantities").children) {
+        file.quantities.push_back(read_quantity(quantity, file));
+    }
+    if (file.quantities.empty()) {
+        fail(asked(root, "quantities"), "names no quantity");
+    }
+    return file;
+}
+
+}  // namespace limpet::dossier

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/folder_lock.hpp"
+#include "limpet/core/version.hpp"
+#include "limpet/dossier/dossier.hpp"
+#include "limpet/dossier/dossier_runs.hpp"
+#include "limpet/report/page.hpp"
+#include "limpet/scenario/data_folder.hpp"
+
+namespace limpet::dossier {
+namespace {
+
+namespace fs = std::filesystem;
+using report::PageTable;
+
+using Cells = std::vector<report::Quantity>;
+using Links = std::vector<std::string>;
+
+void add_row(PageTable& table, Cells cells, Links links) {
+    links.resize(cells.size());
+    table.rows.push_back(std::move(cells));
+    table.links.push_back(std::move(links));
+}
+
+std::string measured_text(const Measured& one, bool sign = false) {
+    return std::isfinite(one.value)
+               ? fmt::format(fmt::runtime(sign ? "{:+.3g} +- {:.2g}" : "{:.4g} +- {:.2g}"),
+                             one.value, one.half_width)
+               : "did not come to pass";
+}
+
+const study::StudiedInput* leading(const study::StudyFound& found) {
+    const auto most = std::max_element(
+        found.inputs.begin(), found.inputs.end(),
+        [](const auto& one, const auto& other) { return !(one.index.total >= other.index.total); });
+    return most == found.inputs.end() || !std::isfinite(most->index.total) ? nullptr : &*most;
+}
+
+/// V&V 40: the question, the context of use, and the risk of trusting the model.
+PageTable uses(const DossierFile& file) {
+    PageTable table{.id = "uses",
+                    .title = "What each quantity is for",
+                    .columns = {"quantity", "of", "context of use", "influence of the model",
+                                "consequence of a wrong decision"},
+                    .caption =
+                        "Influence and consequence together are V&V 40's model risk: the "
+                        "higher, the more evidence is asked for."};
+    for (const Quantity& one : file.quantities) {
+        table.rows.push_back({one.figure, one.scenario, one.use, one.influence, one.consequence});
+    }
+    return table;
+}
+
+PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
+    PageTable table{
+        .id = "numbers",
+        .title = "How sure",
+        .columns = {"quantity", "unit", "as set, mean (95 %)", "seeds, one deviation",
+                    "half the steps", "another engine", "inputs, 5 to 95 %", "decided by",
+                    "evidence", "bound"},
+        .caption = fmt::format(
+            "Each number links to the flights that it comes from: `limpet summary` and `limpet "
+            "replay` read the files. Steps and engine are differences, seed by seed. The bound "
+            "holds for {:.0f} % of the flights over inputs and seeds with {:.0f} % confidence, "
+            "moved to the unsafe side by the far ends of both differences. Decided by: the input "
+            "with the largest total Sobol index.",
+            100.0 * kShareHeld, 100.0 * kHeldConfidence)};
+    for (const Quantity& one : file.quantities) {
+        const QuantityFound& found = all.at(one.name);
+        const study::StudiedInput* most = leading(found.inputs);
+        const auto agree = std::count_if(
+            found.evidence.begin(), found.evidence.end(),
+            [](const auto& claim) { return claim.first.verdict == report::Verdict::reproduced; });
+        const bool some = found.inputs.values.size() > 1;
+        add_row(
+            table,
+            {one.figure, one.unit, measured_text(found.nominal),
+             report::Quantity(found.nominal.deviation), measured_text(found.step, true),
+             found.engine ? measured_text(*found.engine, true)
+                          : std::string("not built into this program"),
+             some ? report::Quantity(draw::Range{campaign::quantile(found.inputs.values, 0.05),
+                                                 campaign::quantile(found.inputs.values, 0.95)})
+                  : report::Quantity("did not come to pass"),
+             most != nullptr ? fmt::format("{} ({:.2f})", most->key, most->index.total)
+                             : std::string("too few flights to tell"),
+             found.evidence.empty() ? std::string("none asked for")
+                                    : fmt::format("{} of {} agree", agree, found.evidence.size()),
+             found.bound ? fmt::format("{} {:.4g} {}", one.safe_above ? "at least" : "at most",
+                                       *found.bound, one.unit)
+                         : std::string("too few flights to tell")},
+            {"", "", found.nominal.from, found.nominal.from, found.step.from,
+             found.engine ? found.engine->from : "", found.inputs_from, found.inputs_from,
+             found.evidence.empty() ? "" : found.evidence.front().second, found.inputs_from});
+    }
+    return table;
+}
+
+PageTable evidence(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
+    PageTable table{.id = "evidence",
+                    .title = "Validation evidence",
+                    .columns = {"quantity", "the paper says", "where", "paper", "simulated", "unit",
+                                "verdict", "basis"},
+                    .caption =
+                        "What was fitted or set so validates nothing by itself: see its "
+                        "basis on the page behind each."};
+    for (const Quantity& one : file.quantities) {
+        for (const auto& [claim, page] : all.at(one.name).evidence) {
+            add_row(table,
+                    {one.figure, claim.statement, claim.section, claim.paper, claim.simulated,
+                     claim.unit.empty() ? "-" : claim.unit, report::to_text(claim.verdict),
+                     claim.basis.empty() ? "-" : claim.basis},
+                    {"", page, page, page, page, "", page, page});
+        }
+    }
+    return table;
+}
+
+PageTable pedigree(const DossierFile& file) {
+    PageTable table{.id = "inputs",
+                    .title = "Input pedigree",
+                    .columns = {"scenario", "input", "drawn from", "source"}};
+    for (const auto& [scenario, inputs] : file.inputs) {
+        for (const UncertainInput& input : inputs) {
+            add_row(table, {scenario, input.key, input.spread, input.source},
+                    {"", "", "runs/" + scenario + "_inputs/campaign.yaml", ""});
+        }
+    }
+    return table;
+}
+
+/// NASA-STD-7009's factors, each by what was found.
+PageTable factors(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
+    double worst = 0.0;
+    std::string of;
+    std::size_t agree = 0, claims = 0, measured = 0, sources = 0, inputs = 0;
+    std::uint32_t flights = 0;
+    for (const Quantity& one : file.quantities) {
+        const QuantityFound& found = all.at(one.name);
+        const double share = found.numerical / found.inputs.deviation();
+        if (share > worst) {
+            worst = share;
+            of = one.figure;
+        }
+        flights += found.inputs.samples;
+        for (const auto& [claim, page] : found.evidence) {
+            ++claims;
+            agree += claim.verdict == report::Verdict::reproduced ? 1 : 0;
+            measured += claim.basis == "measured" ? 1 : 0;
+        }
+    }
+    for (const auto& [scenario, list] : file.inputs) {
+        for (const UncertainInput& input : list) {
+            ++inputs;
+            sources += input.source.starts_with("assumed") ? 0 : 1;
+        }
+    }
+    PageTable table{.id = "factors",
+                    .title = "NASA-STD-7009's factors",
+                    .columns = {"factor", "what was found"}};
+    table.rows = {
+        {"verification",
+         worst > 0.0 ? fmt::format("numerical error (half the steps and another engine, far "
+                                   "ends) at most {:.2g} deviations of the inputs' spread: "
+                                   "{}",
+                                   worst, of)
+                     : std::string("numerical error: none found")},
+        {"validation", fmt::format("{} of {} statements of the paper agree; {} of these are "
+                                   "measured, the others fitted, recovered or by construction",
+                                   agree, claims, measured)},
+        {"input pedigree",
+         fmt::format("{} of {} inputs have a source, the others are assumed", sources, inputs)},
+        {"results uncertainty",
+         fmt::format("bounds for {:.0f} % of the flights with {:.0f} % confidence, without any "
+                     "assumption of a distribution",
+                     100.0 * kShareHeld, 100.0 * kHeldConfidence)},
+        {"results robustness",
+         "Sobol indices with intervals: `limpet summary` of each inputs' file"},
+        {"use history", "not told by flights"},
+        {"management", fmt::format("Limpet {}; every run names the scenario's text, its seed and "
+                                   "its state's hash, and can be flown again",
+                                   kVersion)},
+        {"people", "not told by flights"}};
+    return table;
+}
+
+void require_own(const fs::path& folder) {
+    if (fs::exists(folder / "index.html") && !fs::exists(folder / "results.json")) {
+        throw InputError(fmt::format(
+            "--out {}: holds an index.html that is no page of ours; give another folder",
+            folder.string()));
+    }
+}
+
+}  // namespace
+
+std::vector<fs::path> write_dossier(const DossierOptions& options, const DossierWatch& watch) {
+    const DossierFile file = load_dossier(
+        options.file.empty() ? scenario::data_root() / "paper" / "dossier.yaml" : options.file);
+    require_own(options.folder);
+    const FolderLock lock(options.folder);
+    const auto all = fly_dossier(file, options, watch);
+    report::Page page;
+    page.title = file.title;
+    page.subtitle = file.question;
+    page.summary = {
+        "In the shape of NASA-STD-7009 (factors of credibility) and ASME V&V 40 (question, context "
+        "of use, risk, evidence). Words are from a file, every number comes from a run that it "
+        "links to."};
+    page.sections = {
+        {.id = "use", .title = "Use and risk", .blocks = {uses(file)}},
+        {.id = "sure", .title = "How sure each number is", .blocks = {numbers(file, all)}},
+        {.id = "validation", .title = "Evidence", .blocks = {evidence(file, all)}},
+        {.id = "pedigree", .title = "Inputs", .blocks = {pedigree(file)}},
+        {.id = "credibility", .title = "Factors", .blocks = {factors(file, all)}}};
+    if (std::get<PageTable>(page.sections[2].blocks.front()).rows.empty()) {
+        page.sections[2].blocks = {"No evidence was asked for."};
+    }
+    page.environment = {{"version", std::string(kVersion)},
+                        {"seed", 1.0},
+                        {"mode", options.quick ? "quick" : "full"},
+                        {"compiler", __VERSION__},
+                        {"command", options.command}};
+    return write_page(page, options.folder);
+}
+
+}  // namespace limpet::dossier

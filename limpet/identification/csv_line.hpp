@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "limpet/core/errors.hpp"
+
+namespace limpet::identification {
+
+/// Text of a user's, with the line that it stands in.
+struct CsvLine {
+    std::string_view text;
+    const std::string& file;
+    std::size_t number = 0;
+
+    template <class... Args>
+    [[noreturn]] void refuse(fmt::format_string<const Args&...> what, const Args&... args) const {
+        throw InputError(fmt::format("{}:{}: {}", file, number, fmt::format(what, args...)));
+    }
+};
+
+/// Fields between commas, without blanks and quotes around them; commas inside quotes belong to
+/// their field.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+
+/// Every line with something in it, in turn; blank ones and those that begin with '#' are passed
+/// over, a byte order mark too.
+/// @param name  of the file, for errors
+/// @throws InputError for what is no text of lines, or cannot be read
+void for_each_csv_line(std::istream& text, const std::string& name,
+                       const std::function<void(const CsvLine&)>& each);
+
+}  // namespace limpet::identification

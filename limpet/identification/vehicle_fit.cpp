@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/identification/vehicle_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/identification/turning_fit.hpp"
+
+namespace limpet::identification {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kNormal = 1.959963984540054;  ///< of kConfidence, two-sided
+
+/// A column of numbers at another's times: the last that was known.
+class LastKnown {
+public:
+    LastKnown(const std::vector<double>& time_s) : time_s_(time_s) {}
+    /// @param time_s  not earlier than the last time asked for
+    /// @return its place; nullopt before the first
+    [[nodiscard]] std::optional<std::size_t> at(double time_s) {
+        while (next_ < time_s_.size() && time_s_[next_] <= time_s + 1e-9) {
+            ++next_;
+        }
+        return next_ == 0 ? std::nullopt : std::optional(next_ - 1);
+    }
+
+private:
+    const std::vector<double>& time_s_;
+    std::size_t next_ = 0;
+};
+
+double spacing_s(const std::vector<double>& time_s) {
+    return time_s.size() < 2
+               ? kNaN
+               : (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+}
+
+/// When the cup touched: pressed through the slider, or pumped out.
+std::vector<double> contacts_s(const FlightData& data) {
+    constexpr double kTouch_N = 3.0, kSucked_Pa = 5000.0;
+    std::vector<double> times;
+    for (std::size_t k = 0; k < data.force_s.size(); ++k) {
+        if (std::abs(data.force_N[k]) > kTouch_N) {
+            times.push_back(data.force_s[k]);
+        }
+    }
+    for (std::size_t k = 0; k < data.pressure.t_s.size(); ++k) {
+        if (data.pressure.pressure_Pa.front() - data.pressure.pressure_Pa[k] > kSucked_Pa) {
+            times.push_back(data.pressure.t_s[k]);
+        }
+    }
+    std::sort(times.begin(), times.end());
+    return times;
+}
+
+/// Stretches with motors on and nothing touched for half a second to either side.
+std::vector<Stretch> free_flight(const FlightData& data) {
+    constexpr double kBeside_s = 0.5, kLeast_s = 0.4, kRuns = 0.05;
+    const std::vector<double> contacts = contacts_s(data);
+    LastKnown command(data.command_s);
+    std::vector<Stretch> all;
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    std::size_t first = kNone;
+    const auto close = [&](std::size_t last) {
+        if (first != kNone && data.imu_s[last - 1] - data.imu_s[first] > kLeast_s) {
+            all.push_back({first, last});
+        }
+        first = kNone;
+    };
+    for (std::size_t k = 0; k < data.imu_s.size(); ++k) {
+        const double time_s = data.imu_s[k];
+        const auto touch = std::lower_bound(contacts.begin(), contacts.end(), time_s - kBeside_s);
+        const auto at = command.at(time_s);
+        const bool on = at && std::all_of(data.command[*at].begin(), data.command[*at].end(),
+                                          [](double share) { return share > kRuns; });
+        const bool gap = k > 0 && time_s - data.imu_s[k - 1] > 0.02;
+        if (!on || gap || (touch != contacts.end() && *touch < time_s + kBeside_s)) {
+            if (k > 0) {
+                close(k);
+            }
+        } else if (first == kNone) {
+            first = k;
+        }
+    }
+    if (!data.imu_s.empty()) {
+        close(data.imu_s.size());
+    }
+    return all;
+}
+
+/// Ordinary least squares; the covariance counts what is left as correlated over `memory` samples
+/// (Newey and West, Econometrica 55, 1987).
+struct LinearFit {
+    VectorXd value;
+    MatrixXd covariance;
+};
+LinearFit linear_fit(const MatrixXd& inputs, const VectorXd& outputs, Eigen::Index memory) {
+    const MatrixXd inverse = (inputs.transpose() * inputs)
+                                 .ldlt()
+                                 .solve(MatrixXd::Identity(inputs.cols(), inputs.cols()));
+    LinearFit fit{.value = inverse * inputs.transpose() * outputs, .covariance = {}};
+    const VectorXd left = outputs - inputs * fit.value;
+    const MatrixXd scores = left.asDiagonal() * inputs;
+    MatrixXd sum = scores.transpose() * scores;
+    for (Eigen::Index lag = 1; lag <= memory && lag < scores.rows(); ++lag) {
+        const double kernel = 1.0 - static_cast<double>(lag) / static_cast<double>(memory + 1);
+        const Eigen::Index n = scores.rows() - lag;
+        const MatrixXd one = scores.bottomRows(n).transpose() * scores.topRows(n);
+        sum += kernel * (one + one.transpose());
+    }
+    fit.covariance = inverse * sum * inverse;
+    return fit;
+}
+
+Fitted fitted(double value, double variance) {
+    return {value, kNormal * std::sqrt(variance)};
+}
+
+void fit_drag(const FlightData& data, const vehicle::AirframeNumbers& airframe,
+              const std::vector<Stretch>& free, const std::vector<double>& speed_sum_rad_s,
+              VehicleFit& fit) {
+    constexpr double kLeast_m_s = 0.2, kMemory_s = 0.5;
+    LastKnown velocity(data.velocity_s);
+    std::vector<std::array<double, 3>> rows;  // both axes, of one sample after the other
+    double fastest_m_s = 0.0;
+    for (const Stretch& stretch : free) {
+        for (std::size_t k = stretch.first; k < stretch.last; ++k) {
+            const auto at = velocity.at(data.imu_s[k]);
+            if (!at || !data.specific_force_B_m_s2[k].allFinite()) {
+                continue;
+            }
+            const Vector3& v = data.velocity_B_m_s[*at];
+            fastest_m_s = std::max(fastest_m_s, v.head<2>().norm());
+            for (int axis = 0; axis < 2; ++axis) {
+                rows.push_back({-speed_sum_rad_s[k] * v[axis] / airframe.mass_kg,
+                                data.specific_force_B_m_s2[k][axis], axis == 0 ? 1.0 : 0.0});
+            }
+        }
+    }
+    if (fastest_m_s < kLeast_m_s) {
+        fit.notes.emplace_back(data.velocity_s.empty()
+                                   ? "no velocity in the log: nothing tells the drag"
+                                   : "it never flies faster than 0.2 m/s: nothing tells the drag");
+        return;
+    }
+    MatrixXd inputs(static_cast<Eigen::Index>(rows.size()), 3);
+    VectorXd outputs(inputs.rows());
+    for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
+        const auto& [moved, force, is_x] = rows[static_cast<std::size_t>(i)];
+        inputs.row(i) << moved, is_x, 1.0 - is_x;  // an accelerometer has a bias an axis
+        outputs[i] = force;
+    }
+    const auto memory = static_cast<Eigen::Index>(2.0 * kMemory_s / spacing_s(data.imu_s));
+    const LinearFit line = linear_fit(inputs, outputs, memory);
+    fit.drag_constant_kg = fitted(line.value[0], line.covariance(0, 0));
+}
+
+/// From the first touch until the slider comes back: its force over travel and speed.
+void fit_slider(const FlightData& data, VehicleFit& fit) {
+    constexpr double kTouch_N = 2.0, kLongest_s = 0.12, kFewest = 8.0;
+    const auto pressed = std::find_if(data.force_N.begin(), data.force_N.end(),
+                                      [](double force) { return force < -kTouch_N; });
+    if (pressed == data.force_N.end() || data.velocity_s.empty() || data.imu_s.empty()) {
+        fit.notes.emplace_back(data.force_s.empty()
+                                   ? "no force sensor in the log: nothing tells the slider"
+                                   : "the cup is never pressed, or there is no IMU or velocity "
+                                     "beside it: nothing tells the slider");
+        return;
+    }
+    const double touch_s = data.force_s[static_cast<std::size_t>(pressed - data.force_N.begin())];
+    LastKnown velocity(data.velocity_s);
+    const auto before = velocity.at(touch_s - 0.01);
+    if (!before) {
+        return;
+    }
+    // Specific force ahead while level, less its mean over the last of the steady approach.
+    double v_m_s = data.velocity_B_m_s[*before].x(), x_m = 0.0, steady = 0.0, count = 0.0;
+    std::vector<std::array<double, 4>> rows;  // time, travel, speed, force
+    LastKnown force(data.force_s);
+    for (std::size_t k = 1; k < data.imu_s.size(); ++k) {
+        const double time_s = data.imu_s[k];
+        if (time_s < touch_s - 0.1) {
+            continue;
+        }
+        if (time_s <= touch_s - 0.01) {
+            steady += data.specific_force_B_m_s2[k].x();
+            ++count;
+            continue;
+        }
+        if (time_s > touch_s + kLongest_s) {
+            break;
+        }
+        const double step_s = time_s - data.imu_s[k - 1];
+        const double a_m_s2 = data.specific_force_B_m_s2[k].x() - (count > 0 ? steady / count : 0);
+        const double before_m_s = v_m_s;
+        v_m_s += a_m_s2 * step_s;
+        if (time_s >= touch_s - 1e-9) {
+            x_m += 0.5 * (before_m_s + v_m_s) * step_s;
+        }
+        const auto at = force.at(time_s);
+        if (at && data.force_N[*at] < -kTouch_N) {
+            rows.push_back({time_s, x_m, v_m_s, -data.force_N[*at]});
+        } else if (!rows.empty()) {
+            break;
+        }
+    }
+    if (static_cast<double>(rows.size()) < kFewest) {
+        fit.notes.emplace_back(
+            "the touch is too short for this log's rates: nothing tells the "
+            "slider");
+        return;
+    }
+    MatrixXd inputs(static_cast<Eigen::Index>(rows.size()), 3);
+    VectorXd outputs(inputs.rows());
+    for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
+        const auto& [time_s, travel_m, speed_m_s, pressed_N] = rows[static_cast<std::size_t>(i)];
+        inputs.row(i) << travel_m, speed_m_s, 1.0;
+        outputs[i] = pressed_N;
+    }
+    const LinearFit line = linear_fit(inputs, outputs, 3);
+    fit.slider_stiffness_N_m = fitted(line.value[0], line.covariance(0, 0));
+    fit.slider_damping_N_s_m = fitted(line.value[1], line.covariance(1, 1));
+    fit.slider_preload_N = fitted(line.value[2], line.covariance(2, 2));
+}
+
+void fit_motion(const FlightData& data, const vehicle::AirframeNumbers& airframe, VehicleFit& fit) {
+    if (data.imu_s.empty() || data.command_s.empty()) {
+        fit.notes.emplace_back(
+            "no gyro or no motor commands in the log: nothing tells inertia, "
+            "motors' lag and drag");
+        return;
+    }
+    constexpr double kSlowest_s = 0.0055;
+    const double spacing = spacing_s(data.command_s);
+    if (spacing > kSlowest_s) {
+        fit.notes.push_back(fmt::format(
+            "motor commands come at {:.0f} Hz: inertia, lag and drag need 200 Hz and more (of a "
+            "simulation --set simulation.record_rate_Hz=250, of PX4 SDLOG_PROFILE's high rate)",
+            1.0 / spacing));
+        return;
+    }
+    const std::vector<Stretch> free = free_flight(data);
+    for (const Stretch& stretch : free) {
+        fit.free_s += data.imu_s[stretch.last - 1] - data.imu_s[stretch.first];
+    }
+    constexpr double kLeast_s = 2.0;
+    if (fit.free_s < kLeast_s) {
+        fit.notes.push_back(
+            fmt::format("{:.1f} s of free flight: inertia, lag and drag need 2 s", fit.free_s));
+        return;
+    }
+    const TurningFit turning = fit_turning(data, airframe, free);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double inertia = 1.0 / turning.per_inertia[axis];
+        fit.inertia_kg_m2[static_cast<std::size_t>(axis)] =
+            fitted(inertia, std::pow(inertia, 4) * turning.covariance(axis, axis));
+    }
+    fit.lag_up_s =
+        fitted(turning.lag_up_s, turning.lag_up_s * turning.lag_up_s * turning.covariance(3, 3));
+    fit.lag_down_s = fitted(turning.lag_down_s,
+                            turning.lag_down_s * turning.lag_down_s * turning.covariance(4, 4));
+    fit.notes.push_back(fmt::format(
+        "taken as known: the rotors' places, thrust, torque and speeds, a dead time of {:.0f} ms, "
+        "the mass",
+        1000.0 * airframe.rotor.command_delay_s));
+    fit_drag(data, airframe, free, turning.speed_sum_rad_s, fit);
+}
+
+}  // namespace
+
+VehicleFit identify_vehicle(const FlightData& data, const vehicle::AirframeNumbers& airframe) {
+    VehicleFit fit;
+    fit_motion(data, airframe, fit);
+    fit_slider(data, fit);
+    if (data.pressure.t_s.empty()) {
+        fit.notes.emplace_back("no cup pressure in the log: nothing tells the surface");
+    } else {
+        try {
+            fit.pressure = identify_pressure(data.pressure);
+        } catch (const InputError& error) {
+            fit.notes.push_back(fmt::format("pressure: {}", error.what()));
+        }
+    }
+    return fit;
+}
+
+}  // namespace limpet::identification

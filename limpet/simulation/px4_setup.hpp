@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/px4/airframe.hpp"
+#include "limpet/px4/wires.hpp"
+#include "limpet/scenario/scenario.hpp"
+
+// A scenario as PX4's room knows it.
+namespace limpet::simulation {
+
+/// What a PX4 is to be told to fly it in simulation.
+/// @param id  PX4's number of the airframe
+[[nodiscard]] px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, int id = 22001);
+
+/// Where an instance is met that flies it.
+[[nodiscard]] px4::Px4Addresses px4_addresses(const scenario::Scenario& scenario,
+                                              const px4::Px4Instance& instance);
+
+}  // namespace limpet::simulation

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "limpet/campaign/statistics.hpp"
+
+namespace limpet::study {
+
+/// How much of a figure's variance an input brings about, with 95 % intervals.
+struct SobolIndex {
+    double first = 0.0;  ///< by itself: what would go if it were known
+    campaign::Interval first_95;
+    double total = 0.0;  ///< with all that it does together with others: what would stay without it
+    campaign::Interval total_95;
+};
+
+/// A figure at the points of a pick-freeze design: two independent samples, and for each input the
+/// first with that input's values from the second.
+struct PickFreeze {
+    std::vector<double> a, b;
+    std::vector<std::vector<double>> mixed;  ///< one an input, as long as a and b
+};
+
+/// Martinez's estimators: S = corr(b, mixed), T = 1 - corr(a, mixed), which are sound for any mean
+/// and scale; the intervals by the correlation's own influence function, so that they hold for
+/// figures that are far from normal, an event's 0 and 1 too, in Fisher's z.
+/// @return one an input; NaN where the figure does not vary
+/// Source: Martinez, "Analyse de sensibilite globale par decomposition de la variance", GdR Ondes
+/// et MASCOT-NUM, 2011; Baudin et al., "Numerical stability of Sobol' indices estimation formula",
+/// SAMO 2016; influence of a correlation: Hampel et al., "Robust statistics", 1986, ch. 4.
+[[nodiscard]] std::vector<SobolIndex> sobol_indices(const PickFreeze& figure);
+
+/// First-order index of one input of any sample that is there: the variance of the figure's means
+/// in slices of equal probability over the variance of all, less what slices of noise would have.
+/// @param inputs, figure  as many of one as of the other, at least 4 a slice
+/// @param weights         of the points, or none
+/// Source: Plischke, Borgonovo and Smith, Eur. J. Oper. Res. 226 (2013) 536.
+[[nodiscard]] double given_data_index(const std::vector<double>& inputs,
+                                      const std::vector<double>& figure, std::size_t slices);
+
+}  // namespace limpet::study

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/dossier/dossier.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "limpet/core/errors.hpp"
+#include "limpet/core/random.hpp"
+#include "limpet/dossier/dossier_runs.hpp"
+#include "program.hpp"
+
+namespace limpet::dossier {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Hovers, some milliseconds each, without the paper's flights.
+constexpr const char* kHovers =
+    "title: hovers\n"
+    "question: how long\n"
+    "inputs:\n"
+    "  hover:\n"
+    "    simulation.time_limit_s: {spread: '{uniform: [0.2, 0.4]}', source: assumed}\n"
+    "    simulation.hover_s: {spread: '{uniform: [5, 6]}', source: paper}\n"
+    "quantities:\n"
+    "  time:\n"
+    "    figure: simulated_s\n"
+    "    scenario: hover\n"
+    "    unit: s\n"
+    "    use: a test\n"
+    "    influence: low\n"
+    "    consequence: high\n"
+    "    safe: at_most\n";
+
+std::string refusal(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+/// 59 flights are the fewest; of many the bound comes to the quantile; how often it holds is the
+/// confidence.
+TEST(ToleranceBound, HoldsAsOftenAsItSays) {
+    EXPECT_FALSE(tolerance_bound(std::vector<double>(58, 1.0), true, 0.95, 0.95));
+    EXPECT_TRUE(tolerance_bound(std::vector<double>(59, 1.0), true, 0.95, 0.95));
+    int held = 0;
+    constexpr int kTrials = 2000;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        RandomStream random(9, static_cast<std::uint32_t>(trial), Stream::test);
+        std::vector<double> sorted(93);
+        std::generate(sorted.begin(), sorted.end(), [&] { return random.uniform(); });
+        std::sort(sorted.begin(), sorted.end());
+        held += *tolerance_bound(sorted, false, 0.95, 0.95) >= 0.95 ? 1 : 0;
+    }
+    EXPECT_NEAR(held / static_cast<double>(kTrials), 0.95, 0.015);  // 93 flights: exactly 95.0 %
+}
+
+TEST(Dossier, EveryNumberLinksToItsRun) {
+    const Bench bench;
+    const fs::path folder = bench.folder() / "dossier";
+    fs::create_directories(folder);
+    const auto files = write_dossier({.folder = folder,
+                                      .file = bench.write("d.yaml", kHovers),
+                                      .quick = true,
+                                      .jobs = 2,
+                                      .command = "a test"});
+    ASSERT_EQ(files.size(), 2U);
+    const auto json = nlohmann::json::parse(std::ifstream(folder / "results.json"));
+    bool seen = false;
+    for (const auto& table : json.at("tables")) {
+        if (table.at("id") != "numbers") {
+            continue;
+        }
+        seen = true;
+        for (const auto& links : table.at("links")) {
+            for (const std::string link : links) {
+                EXPECT_TRUE(link.empty() || fs::exists(folder / link)) << link;
+            }
+            for (const std::size_t number : {2U, 3U, 4U, 6U, 7U, 9U}) {
+                EXPECT_FALSE(links.at(number).get<std::string>().empty()) << number;
+            }
+        }
+        const auto& row = table.at("rows").at(0);
+        EXPECT_NEAR(row.at(6).at("low").get<double>(), 0.21, 0.02);
+        EXPECT_THAT(row.at(7).get<std::string>(), HasSubstr("simulation.time_limit_s"));
+        EXPECT_THAT(row.at(9).get<std::string>(), HasSubstr("at most 0."));
+    }
+    EXPECT_TRUE(seen);
+}
+
+TEST(Dossier, RefusesAFileThatIsNotSo) {
+    const Bench bench;
+    const auto with = [&](const std::string& from, const std::string& to) {
+        std::string text = kHovers;
+        text.replace(text.find(from), from.size(), to);
+        return refusal([&] { (void)load_dossier(bench.write("d.yaml", text)); });
+    };
+    EXPECT_THAT(with("influence: low", "influence: some"),
+                HasSubstr("d.yaml:13: quantities.time.influence: \"some\" must be low"));
+    EXPECT_THAT(with("safe: at_most", "safe: at_all"), HasSubstr("must be at_least or at_most"));
+    EXPECT_THAT(with("scenario: hover", "scenario: hoover"), HasSubstr("has no inputs above"));
+    EXPECT_THAT(with("unit: s", "units: s"), HasSubstr("unknown key"));
+}
+
+}  // namespace
+}  // namespace limpet::dossier

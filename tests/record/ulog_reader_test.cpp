@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/record/ulog_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "../support/files.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/ulog.hpp"
+
+namespace limpet::record {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string bytes(const auto& value) {
+    return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+std::string message(char type, const std::string& content) {
+    return bytes(static_cast<std::uint16_t>(content.size())) + type + content;
+}
+const std::string kHead = std::string("ULog\x01\x12\x35\x01", 8) + bytes(std::uint64_t{7});
+
+/// A topic with an array, a message in it, padding, and a second instance.
+std::string log_of_two() {
+    std::string log = kHead + message('B', std::string(40, '\0'));
+    log += message('F', "inner:float a;uint8_t b;uint8_t[3] _padding0;");
+    log += message('F', "outer:uint64_t timestamp;float[2] xy;inner[2] part;char[4] name;");
+    log += message('A', std::string(1, '\0') + bytes(std::uint16_t{5}) + "outer");
+    log += message('A', std::string(1, '\1') + bytes(std::uint16_t{6}) + "outer");
+    for (const std::uint16_t id : std::initializer_list<std::uint16_t>{5, 6, 5}) {
+        const auto k = static_cast<float>(id);
+        log +=
+            message('D', bytes(id) + bytes(std::uint64_t{2'500'000}) + bytes(k) + bytes(2 * k) +
+                             bytes(3 * k) + '\7' + "pad" + bytes(4 * k) + '\10' + "pad" + "text");
+    }
+    return log + message('L', "6" + bytes(std::uint64_t{1}) + "a text");
+}
+
+Recording read(const TestFolder& folder, const std::string& log) {
+    const auto path = folder.path() / "x.ulg";
+    std::ofstream(path, std::ios::binary) << log;
+    return read_ulog(path);
+}
+
+std::string refusal(const TestFolder& folder, const std::string& log) {
+    try {
+        (void)read(folder, log);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+TEST(UlogReader, ReadsArraysPartsAndInstances) {
+    const TestFolder folder;
+    const Recording log = read(folder, log_of_two());
+    ASSERT_EQ(log.tables.size(), 2U);
+    EXPECT_EQ(log.tables[1].topic, "outer.1");
+    EXPECT_THAT(log.table("outer").time_s, ElementsAre(2.5, 2.5));
+    EXPECT_THAT(log.series("outer", "xy[1]").values, ElementsAre(10.0, 10.0));
+    EXPECT_THAT(log.series("outer", "part[1].a").values, ElementsAre(20.0, 20.0));
+    EXPECT_THAT(log.series("outer.1", "part[0].b").values, ElementsAre(7.0));
+    EXPECT_EQ(log.table("outer").columns.size(), 6U);  // neither padding nor text
+    EXPECT_TRUE(log.damage.empty());
+}
+
+TEST(UlogReader, ReadsOneThatIsCutShortAnywhere) {
+    const TestFolder folder;
+    const std::string whole = log_of_two();
+    for (std::size_t length = kHead.size(); length < whole.size(); ++length) {
+        EXPECT_NO_THROW((void)read(folder, whole.substr(0, length))) << length;
+    }
+    EXPECT_THAT(read(folder, whole.substr(0, whole.size() - 3)).damage, HasSubstr("in the middle"));
+}
+
+TEST(UlogReader, RefusesWhatIsNoneInALine) {
+    const TestFolder folder;
+    EXPECT_THAT(refusal(folder, "PK\3\4"), HasSubstr("is no log of PX4's"));
+    EXPECT_THAT(refusal(folder, kHead + message('F', "nameless")), HasSubstr("without a name"));
+    const std::string of = message('A', std::string(1, '\0') + bytes(std::uint16_t{0}) + "x");
+    for (const char* format :
+         {"x:uint64_t timestamp;x[2] self;", "x:uint64_t timestamp;float[z] a;",
+          "x:uint64_t timestamp;float[99999] a;", "x:float a;", "x:y a;"}) {
+        EXPECT_THAT(refusal(folder, kHead + message('F', format) + of),
+                    HasSubstr("the format of x cannot be read"))
+            << format;
+    }
+}
+
+}  // namespace
+}  // namespace limpet::record
