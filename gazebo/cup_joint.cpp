@@ -10,6 +10,7 @@
 namespace limpet::gazebo11 {
 
 using gazebo_frames::turn;
+using gazebo_frames::turn_F;
 using ignition::math::Vector3d;
 
 CupJoint::CupJoint(gazebo::physics::ModelPtr model, gazebo::physics::LinkPtr cup, std::string name,
@@ -73,8 +74,8 @@ Wrench CupJoint::load_T(const Matrix3& R_TW, double dt_s) {
                                    : X_WL.Rot().RotateVectorReverse(joint_->Anchor(0) - X_WL.Pos());
     const Vector3d arm_L_m = anchor_L_m - X_LC_.Pos();
     const Vector3d moment_L_N_m = -felt.body2Torque + arm_L_m.Cross(force_L_N);
-    const Wrench now_C = {.force_N = turn(X_LC_.Rot().RotateVectorReverse(force_L_N)),
-                          .moment_N_m = turn(X_LC_.Rot().RotateVectorReverse(moment_L_N_m))};
+    const Wrench now_C = {.force_N = turn_F(X_LC_.Rot().RotateVectorReverse(force_L_N)),
+                          .moment_N_m = turn_F(X_LC_.Rot().RotateVectorReverse(moment_L_N_m))};
     if (first_) {
         first_ = false;  // no step since: nothing was felt yet
     } else {

@@ -19,7 +19,7 @@
 namespace limpet::gazebo11 {
 namespace {
 
-using gazebo_frames::turn;
+using gazebo_frames::turn_W;
 namespace physics = gazebo::physics;
 
 /// The world and the scenario are written by the same program; more than rounding is a difference.
@@ -101,7 +101,7 @@ void check_engine(const physics::PhysicsEngine& engine) {
 }
 
 void check_gravity_and_mass(const physics::Model& model, double expected_kg) {
-    const Vector3 gravity_W = turn(model.GetWorld()->Gravity());
+    const Vector3 gravity_W = turn_W(model.GetWorld()->Gravity());
     const std::string change =
         fmt::format("set the world's <gravity>0 0 {:.9g}</gravity>", -kGravity_m_s2);
     require_same("gravity", gravity_W.z(), kGravity_m_s2, "m/s^2 downwards", change);
@@ -127,16 +127,16 @@ void check_wall(physics::RayShape& ray, const scenario::Scenario& scenario) {
             const TangentFrame spot = tangent_frame(wall, beside_W_m);
             const Vector3 into_W = spot.into_W();
             const Vector3 p_W_m = beside_W_m + spot.gap_m * into_W;
-            ray.SetPoints(turn(Vector3(p_W_m - kBefore_m * into_W)),
-                          turn(Vector3(p_W_m + kBefore_m * into_W)));
+            ray.SetPoints(turn_W(Vector3(p_W_m - kBefore_m * into_W)),
+                          turn_W(Vector3(p_W_m + kBefore_m * into_W)));
             double distance_m = 0.0;
             std::string entity;
             ray.GetIntersection(distance_m, entity);
             if (entity.empty() || std::abs(distance_m - kBefore_m) > 1e-4) {
                 throw InputError(fmt::format(
                     "the wall of the world is not where the scenario's is: no face at x {:.3f} m, "
-                    "y {:.3f} m, z {:.3f} m (north, west, up); export the world anew",
-                    p_W_m.x(), -p_W_m.y(), -p_W_m.z()));
+                    "y {:.3f} m, z {:.3f} m (east, north, up); export the world anew",
+                    p_W_m.y(), p_W_m.x(), -p_W_m.z()));
             }
         }
     }

@@ -14,6 +14,8 @@ namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
+using gazebo_frames::turn_F;
+using gazebo_frames::turn_W;
 using ignition::math::Pose3d;
 using ignition::math::Vector3d;
 namespace physics = gazebo::physics;
@@ -52,8 +54,8 @@ void GazeboPlant::apply(plant::Body body, const Wrench& wrench_W, const Vector3&
         return;
     }
     const physics::LinkPtr& on = link(body);
-    on->AddForceAtWorldPosition(turn(wrench_W.force_N), turn(p_W_m));
-    on->AddTorque(turn(wrench_W.moment_N_m));
+    on->AddForceAtWorldPosition(turn_W(wrench_W.force_N), turn_W(p_W_m));
+    on->AddTorque(turn_W(wrench_W.moment_N_m));
     if (model_->slider_ != nullptr) {
         push(twin_, body, wrench_W, p_W_m);
     }
@@ -158,11 +160,11 @@ Kinematics GazeboPlant::kinematics(plant::Body body) const {
     const physics::LinkPtr& of = link(body);
     const Pose3d pose = of->WorldPose();
     const Quaternion q_WF = turn(pose.Rot());
-    const Vector3d offset = body == plant::Body::cup ? turn(model_->lip_F_m_) : Vector3d::Zero;
-    return {.p_WF_m = turn(pose.Pos() + pose.Rot().RotateVector(offset)),
+    const Vector3d offset = body == plant::Body::cup ? turn_F(model_->lip_F_m_) : Vector3d::Zero;
+    return {.p_WF_m = turn_W(pose.Pos() + pose.Rot().RotateVector(offset)),
             .q_WF = q_WF,
-            .v_WF_W_m_s = turn(of->WorldLinearVel(offset)),
-            .w_WF_F_rad_s = q_WF.conjugate() * turn(of->WorldAngularVel())};
+            .v_WF_W_m_s = turn_W(of->WorldLinearVel(offset)),
+            .w_WF_F_rad_s = q_WF.conjugate() * turn_W(of->WorldAngularVel())};
 }
 
 plant::SliderMotion GazeboPlant::slider() const {
@@ -182,10 +184,10 @@ std::optional<double> GazeboPlant::ray(const Vector3& origin_W_m, const Vector3&
     if (last_) {
         return std::nullopt;
     }
-    const Vector3d along = turn(dir_W);
+    const Vector3d along = turn_W(dir_W);
     double passed_m = 0.0;
     for (int part = 0; part <= kOwnParts; ++part) {
-        const Vector3d from = turn(origin_W_m) + passed_m * along;
+        const Vector3d from = turn_W(origin_W_m) + passed_m * along;
         model_->ray_->SetPoints(from, from + kRayLength_m * along);
         double distance_m = kRayLength_m;
         std::string entity;
@@ -213,7 +215,7 @@ Wrench GazeboPlant::contacts_W() const {
     const physics::ContactManager& manager = *model_->engine_->GetContactManager();
     const auto& contacts = manager.GetContacts();
     Wrench sum;
-    const Vector3 base_m = turn(link(plant::Body::base)->WorldPose().Pos());
+    const Vector3 base_m = turn_W(link(plant::Body::base)->WorldPose().Pos());
     for (unsigned i = 0; i < manager.GetContactCount(); ++i) {
         const physics::Contact& contact = *contacts[i];
         const bool first = contact.collision1->GetModel() == model_->vehicle_;
@@ -227,9 +229,9 @@ Wrench GazeboPlant::contacts_W() const {
         for (int k = 0; k < contact.count; ++k) {
             const Vector3d& force =
                 first ? contact.wrench[k].body1Force : contact.wrench[k].body2Force;
-            const Vector3 force_W_N = turn(own->WorldPose().Rot().RotateVector(force));
+            const Vector3 force_W_N = turn_W(own->WorldPose().Rot().RotateVector(force));
             sum.force_N += force_W_N;
-            sum.moment_N_m += (turn(contact.positions[k]) - base_m).cross(force_W_N);
+            sum.moment_N_m += (turn_W(contact.positions[k]) - base_m).cross(force_W_N);
         }
     }
     return sum;
@@ -272,14 +274,14 @@ void GazeboPlant::restore(const plant::PlantState& state) {
 void GazeboPlant::set_pose(const Vector3& p_WB_m, const Quaternion& q_WB, const Vector3& v_WB_W_m_s,
                            const Vector3& w_WB_B_rad_s) {
     // The model's frame may lie elsewhere than the base's; both move together.
-    const Pose3d base(turn(p_WB_m), turn(Quaternion(q_WB.normalized())));
+    const Pose3d base(turn_W(p_WB_m), turn(Quaternion(q_WB.normalized())));
     const Pose3d before = link(plant::Body::base)->WorldPose();
-    const Vector3d rate = turn(Vector3(q_WB * w_WB_B_rad_s));
+    const Vector3d rate = turn_W(Vector3(q_WB * w_WB_B_rad_s));
     for (const physics::LinkPtr& part : model_->vehicle_->GetLinks()) {
         const Pose3d in_base = part->WorldPose() - before;
         part->SetWorldPose(in_base + base);
         const Vector3d arm = part->WorldCoGPose().Pos() - base.Pos();
-        part->SetLinearVel(turn(v_WB_W_m_s) + rate.Cross(arm));
+        part->SetLinearVel(turn_W(v_WB_W_m_s) + rate.Cross(arm));
         part->SetAngularVel(rate);
     }
     start_twin();

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <boost/algorithm/string/replace.hpp>
 #include <gazebo/common/Console.hh>
 #include <gazebo/physics/physics.hh>
 
 #include "gazebo/frames.hpp"
 #include "gazebo/sdf_reader.hpp"
+#include "gazebo/transport_messages.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/suggestion.hpp"
 
@@ -16,6 +16,8 @@ namespace limpet::gazebo11 {
 namespace {
 
 using gazebo_frames::turn;
+using gazebo_frames::turn_F;
+using gazebo_frames::turn_W;
 using ignition::math::Pose3d;
 
 /// A wall that no lip reaches.
@@ -37,25 +39,25 @@ gazebo::physics::LinkPtr find_link(const gazebo::physics::Model& model, const st
 
 Kinematics lip_kinematics(const gazebo::physics::Link& link, const Pose3d& X_LC) {
     const Pose3d X_WC = link.WorldPose() * X_LC;
-    return {.p_WF_m = turn(X_WC.Pos()),
+    return {.p_WF_m = turn_W(X_WC.Pos()),
             .q_WF = turn(X_WC.Rot()),
-            .v_WF_W_m_s = turn(link.WorldLinearVel(X_LC.Pos())),
-            .w_WF_F_rad_s = turn(X_WC.Rot().RotateVectorReverse(link.WorldAngularVel()))};
+            .v_WF_W_m_s = turn_W(link.WorldLinearVel(X_LC.Pos())),
+            .w_WF_F_rad_s = turn_F(X_WC.Rot().RotateVectorReverse(link.WorldAngularVel()))};
 }
 
 /// What the lip moves by, seen from a target that moves itself.
 void make_relative(Kinematics& lip, const gazebo::physics::Link& target, const Pose3d& X_WC) {
     const auto arm_m =
         target.WorldPose().Rot().RotateVectorReverse(X_WC.Pos() - target.WorldPose().Pos());
-    lip.v_WF_W_m_s -= turn(target.WorldLinearVel(arm_m));
-    lip.w_WF_F_rad_s -= turn(X_WC.Rot().RotateVectorReverse(target.WorldAngularVel()));
+    lip.v_WF_W_m_s -= turn_W(target.WorldLinearVel(arm_m));
+    lip.w_WF_F_rad_s -= turn_F(X_WC.Rot().RotateVectorReverse(target.WorldAngularVel()));
 }
 
 /// On a link, about a point of the world.
 void push(gazebo::physics::Link& link, const Wrench& wrench_W,
           const ignition::math::Vector3d& about_W_m) {
-    link.AddForceAtWorldPosition(turn(wrench_W.force_N), about_W_m);
-    link.AddTorque(turn(wrench_W.moment_N_m));
+    link.AddForceAtWorldPosition(turn_W(wrench_W.force_N), about_W_m);
+    link.AddTorque(turn_W(wrench_W.moment_N_m));
 }
 
 }  // namespace
@@ -93,8 +95,7 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     }
     try {
         topics_ = std::make_unique<SuctionCupTopics>(
-            model->GetWorld(),
-            boost::replace_all_copy(model->GetScopedName(), "::", "/") + "/" + name,
+            model->GetWorld(), name_on_topics(*model, name),
             CupCommands{.pump_on = settings_.pump_on, .valve_open = settings_.valve_open},
             settings_.cup.valve_fitted, settings_.publish_rate_Hz);
     } catch (const InputError& error) {
@@ -102,6 +103,7 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     }
     cup_.parameters = settings_.cup;
     Reset();
+    join(name_on_topics(*model, name));
     on_update_ = gazebo::event::Events::ConnectWorldUpdateBegin(
         [this](const gazebo::common::UpdateInfo& info) {
             run_or_end([this, &info] { update(info); });
@@ -131,10 +133,10 @@ void SuctionCupPlugin::look_for_wall(const Pose3d& X_WC) {
     const auto X_WT = spot_ ? spot_->pose(*model_->GetWorld()) : std::nullopt;
     if (!X_WT || (joint_ && joint_->holds() && joint_->moved(*X_WT))) {
         spot_.reset();
-        cup_.wall = WallGeometry{.p_WT_m = turn(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
+        cup_.wall = WallGeometry{.p_WT_m = turn_W(X_WC.Pos()) + Vector3(kNoWall_m, 0.0, 0.0)};
         return;
     }
-    cup_.wall = {.p_WT_m = turn(X_WT->Pos()), .R_WT = turn(X_WT->Rot()).toRotationMatrix()};
+    cup_.wall = {.p_WT_m = turn_W(X_WT->Pos()), .R_WT = turn(X_WT->Rot()).toRotationMatrix()};
 }
 
 void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
@@ -180,14 +182,17 @@ void SuctionCupPlugin::update(const gazebo::common::UpdateInfo& info) {
         }
     }
     report(output);
-    topics_->publish(state_.status, input.time_s);
+    if (topics_->publish(state_.status, input.time_s)) {
+        tell(state_, input.time_s);
+    }
 }
 
-void SuctionCupPlugin::report(const suction::CupOutput& output) const {
+void SuctionCupPlugin::report(const suction::CupOutput& output) {
     if (!output.event) {
         return;
     }
     topics_->publish(*output.event);
+    tell(*output.event);
     gzmsg << fmt::format("limpet: {:.3f} s {}: {} {}: {}\n", output.event->time_s,
                          model_->GetName(), to_string(output.event->name),
                          spot_ ? (spot_->of_world() ? "the world" : spot_->collision) : "no wall",

@@ -80,11 +80,24 @@ public:
     /// As a message on the topics would.
     void command(const CupCommands& commands) { topics_->command(commands); }
 
+protected:
+    // For a plugin that is on other wires too (ROS).
+
+    /// It is about to run.
+    /// @param name  MODEL/PLUGIN
+    /// @throws InputError
+    virtual void join(const std::string& /*name*/) {}
+    /// When its topics tell it: pressure and state.
+    virtual void tell(const suction::CupState& /*state*/, double /*time_s*/) {}
+    virtual void tell(const Event& /*event*/) {}
+    [[nodiscard]] const SuctionCupSettings& settings() const { return settings_; }
+    [[nodiscard]] CupCommands commands() const { return topics_->commands(); }
+
 private:
     void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);
     void update(const gazebo::common::UpdateInfo& info);
     void look_for_wall(const ignition::math::Pose3d& X_WC);
-    void report(const suction::CupOutput& output) const;
+    void report(const suction::CupOutput& output);
 
     std::string place_;  ///< in messages
     SuctionCupSettings settings_;

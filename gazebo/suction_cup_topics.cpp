@@ -9,22 +9,18 @@
 #include <set>
 #include <string_view>
 
+#include "gazebo/transport_messages.hpp"
 #include "limpet/core/errors.hpp"
 
 namespace limpet::gazebo11 {
 namespace {
 
 gazebo::msgs::Any pressure_message(const CupStatus& status) {
-    gazebo::msgs::Any message;
-    message.set_type(gazebo::msgs::Any::DOUBLE);
-    message.set_double_value(status.pressure_Pa);
-    return message;
+    return number_message(status.pressure_Pa);
 }
 
 gazebo::msgs::GzString state_message(const CupStatus& status) {
-    gazebo::msgs::GzString message;
-    message.set_data(std::string(to_string(status.phase)));
-    return message;
+    return text_message(to_string(status.phase));
 }
 
 std::optional<bool> switch_of(const std::string& text) {
@@ -93,25 +89,25 @@ void SuctionCupTopics::reset() {
     next_s_ = 0.0;
 }
 
-void SuctionCupTopics::publish(const CupStatus& status, double time_s) {
+bool SuctionCupTopics::publish(const CupStatus& status, double time_s) {
     bool changed = false;
     {
         const std::lock_guard lock(mutex_);
         changed = status.phase != status_.phase;
         status_ = status;
     }
-    if (changed || time_s >= next_s_ || time_s < next_s_ - period_s_) {
+    const bool now = changed || time_s >= next_s_ || time_s < next_s_ - period_s_;
+    if (now) {
         next_s_ = time_s + period_s_;
         pressure_->Publish(pressure_message(status));
         state_->Publish(state_message(status));
     }
+    return now;
 }
 
 void SuctionCupTopics::publish(const Event& event) {
-    gazebo::msgs::GzString message;
-    message.set_data(fmt::format("{:.3f} {}: {}", event.time_s, to_string(event.name),
-                                 std::string_view(event.reason)));
-    event_->Publish(message);
+    event_->Publish(text_message(
+        fmt::format("{:.3f} {}: {}", event.time_s, to_string(event.name), event.reason)));
 }
 
 bool SuctionCupTopics::turn(const std::string& what, bool on) {

@@ -37,7 +37,8 @@ public:
     /// Back to what they were at the start.
     void reset();
     /// Once a world update: a change of phase at once, pressure and phase at their rate.
-    void publish(const CupStatus& status, double time_s);
+    /// @return whether they were told now
+    bool publish(const CupStatus& status, double time_s);
     void publish(const Event& event);
 
 private:

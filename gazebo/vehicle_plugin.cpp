@@ -63,6 +63,7 @@ void VehiclePlugin::end_flight() noexcept {
     if (watching_.joinable()) {
         watching_.join();
     }
+    topics_.reset();  // the transport may be gone by now
     if (host_ == nullptr || !host_->under_way()) {
         return;
     }
@@ -119,8 +120,24 @@ void VehiclePlugin::configure(gazebo::physics::ModelPtr model, const sdf::Elemen
     flight.conduct.on_obstacle = [](const std::string& obstacle) {
         say("          " + (obstacle.empty() ? "armed" : obstacle));
     };
-    flight.watch.on_event = [](const Event& event) { say(simulation::event_line(event)); };
+    topics_ = std::make_unique<FlightTopics>(*model, sdf->Get<std::string>("name"),
+                                             options_.scenario.airframe);
+    flight.watch.on_event = [this](const Event& event) {
+        say(simulation::event_line(event));
+        if (topics_) {
+            topics_->tell(event);
+        }
+    };
     prepare(parameters, flight);
+    flight.watch.on_tick = [this, more = std::move(flight.watch.on_tick)](
+                               simulation::Flight& flown, const guidance::EventList& events) {
+        if (topics_) {
+            topics_->tick(flown);
+        }
+        if (more) {
+            more(flown, events);
+        }
+    };
     const bool by_px4 = options_.autopilot == VehicleOptions::Autopilot::px4;
     if (by_px4 || options_.live) {
         watching_ = std::thread([this] { watch_world(); });

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gazebo/flight_host.hpp"
+#include "gazebo/flight_topics.hpp"
 #include "gazebo/vehicle_options.hpp"
 
 namespace limpet::gazebo11 {
@@ -37,10 +38,10 @@ namespace limpet::gazebo11 {
 ///   result     JSON file to write when the flight is over                     none
 ///   when_over  pause the world, or quit the server                            pause
 ///
-/// The environment overrides each: LIMPET_SCENARIO, LIMPET_SET (parts between semicolons),
-/// LIMPET_SPEED, ... What cannot be used stops the server with one line and exit code 2. The
-/// world's own real_time_update_rate is set aside. A world reset begins the flight anew. One
-/// vehicle flies in a gzserver.
+/// How it goes is told on Gazebo's transport, see FlightTopics. The environment overrides each:
+/// LIMPET_SCENARIO, LIMPET_SET (parts between semicolons), LIMPET_SPEED, ... What cannot be used
+/// stops the server with one line and exit code 2. The world's own real_time_update_rate is set
+/// aside. A world reset begins the flight anew. One vehicle flies in a gzserver.
 class VehiclePlugin : public gazebo::ModelPlugin {
 public:
     ~VehiclePlugin() override;
@@ -56,6 +57,8 @@ protected:
     /// @param parameters  all elements
     /// @param flight      may be given stations from outside and a watch
     virtual void prepare(const scenario::YamlNode& /*parameters*/, HostedFlight& /*flight*/) {}
+    /// From prepare() on.
+    [[nodiscard]] gazebo::physics::World& world() const { return *world_; }
     /// Ends a flight that is under way, its recording whole. Whoever gives stations in prepare()
     /// calls it in its destructor: the flight goes on to the end of its tick and asks them.
     void end_flight() noexcept;
@@ -73,6 +76,7 @@ private:
     std::thread watching_;  ///< of a flight with a PX4 or viewers
     std::unique_ptr<px4::Px4Wires> px4_;
     std::unique_ptr<live::LiveFlight> live_;
+    std::unique_ptr<FlightTopics> topics_;
     std::unique_ptr<FlightHost> host_;
     bool told_ = false;  ///< how it ended
     gazebo::event::ConnectionPtr on_update_;

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Interfaces of ROS 2 as structs of C++: of every PACKAGE/{msg,srv}/NAME.{msg,srv} (or PACKAGE/NAME.msg) below the folders
-a header OUT/PACKAGE/NAME.h, named as ROS 1 names it, so that what is written for one is compiled for the other.
+"""Interfaces of ROS 2 as structs of C++: of every PACKAGE/{msg,srv,action}/NAME.{msg,srv,action} (or PACKAGE/NAME.msg) below the
+folders a header OUT/PACKAGE/NAME.h (NAMEAction.h of an action), named as ROS 1 names it, so that what is written for one is
+compiled for the other.
 
     interfaces.py --out OUT [--as PACKAGE:OTHER:NAME,...] FOLDER... PACKAGE=FOLDER...
 
-PACKAGE=FOLDER is ROS 1's layout, FOLDER/{msg,srv}. --as: these of a package are OTHER's on the wire."""
+PACKAGE=FOLDER is ROS 1's layout, FOLDER/{msg,srv,action}. --as: these of a package are OTHER's on the wire."""
 
 import argparse
 import pathlib
@@ -15,14 +16,21 @@ PRIMITIVES = {"bool": "std::uint8_t", "byte": "std::uint8_t", "char": "std::uint
               "string": "std::string",
               **{f"{sign}int{bits}": f"std::{sign}int{bits}_t" for sign in ("", "u") for bits in (8, 16, 32, 64)}}
 STAMP = "builtin_interfaces/Time"
+# What an action is on the wire, beside its goal, result and feedback: (name, kind of the wire, fields).
+OF_ACTION = [("SendGoalRequest", "SendGoal_Request_", "unique_identifier_msgs/UUID goal_id\n{0}Goal goal"),
+             ("SendGoalResponse", "SendGoal_Response_", "bool accepted\nbuiltin_interfaces/Time stamp"),
+             ("GetResultRequest", "GetResult_Request_", "unique_identifier_msgs/UUID goal_id"),
+             ("GetResultResponse", "GetResult_Response_", "int8 status\n{0}Result result"),
+             ("FeedbackMessage", "FeedbackMessage_", "unique_identifier_msgs/UUID goal_id\n{0}Feedback feedback")]
 FIELD = re.compile(r"^([\w/]+)(<=\d+)?(\[(<=)?(\d*)\])?\s+(\w+)\s*(?:=\s*(.+)|\s(.+))?$")
 
 
 class Interface:
     """A struct to be: its fields as (type of C++, name), its constants as lines, what it includes."""
 
-    def __init__(self, package, name, wire, text, place):
-        self.package, self.name, self.wire = package, name, wire
+    def __init__(self, package, name, wire, text, place, of_file="/"):
+        """of_file: how names begin that are in this very file"""
+        self.package, self.name, self.wire, self.of_file = package, name, wire, of_file
         self.fields, self.constants, self.includes = [], [], set()
         for number, line in enumerate(text.splitlines(), 1):
             line = line.split("#")[0].strip()
@@ -42,7 +50,8 @@ class Interface:
         if kind == STAMP:
             self.includes.add("ros/time.h")
             return "::ros::Time"
-        self.includes.add(f"{kind}.h")
+        if not kind.startswith(f"{self.package}/{self.of_file}"):
+            self.includes.add(f"{kind}.h")
         return "::" + kind.replace("/", "::")
 
     def add(self, kind, _, array, bound, count, name, value, default):
@@ -74,6 +83,17 @@ def header(structs, more=""):
                       *(one.struct() for one in structs), more, "}", ""])
 
 
+def action(package, name, wire, text, place):
+    parts = re.split(r"^---$", text, flags=re.M)
+    structs = [Interface(package, f"{name}{part}", f"{wire}_{part}_", body, place)
+               for part, body in zip(("Goal", "Result", "Feedback"), parts)]
+    structs += [Interface(package, f"{name}{part}", f"{wire}_{kind}", body.format(name), place, name)
+                for part, kind, body in OF_ACTION]
+    names = ("Goal", "Result", "Feedback", *(part for part, *_ in OF_ACTION))
+    uses = "".join(f"    using {part} = {name}{part};\n" for part in names)
+    return header(structs, f"struct {name}Action {{\n{uses}}};")
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--out", required=True, type=pathlib.Path)
@@ -86,7 +106,7 @@ def main():
     for folder in given.folders:
         package, equals, path = folder.partition("=")
         for file in sorted(pathlib.Path(path if equals else folder).rglob("*.*")):
-            of = package if equals else next(part for part in reversed(file.parent.parts) if part not in ("msg", "srv"))
+            of = package if equals else next(part for part in reversed(file.parent.parts) if part not in ("msg", "srv", "action"))
             files.append((of, file))
     for package, file in files:
         wire = f"{others.get((package, file.stem), package)}::{file.suffix[1:]}::dds_::{file.stem}"
@@ -99,9 +119,11 @@ def main():
                           for half, part in zip(("Request", "Response"), halves)],
                          f"struct {file.stem} {{\n    using Request = {file.stem}Request;\n    using Response = "
                          f"{file.stem}Response;\n    Request request{{}};\n    Response response{{}};\n}};")
+        elif file.suffix == ".action":
+            out = action(package, file.stem, wire, text, file)
         else:
             continue
-        to = given.out / package / f"{file.stem}.h"
+        to = given.out / package / f"{file.stem}{'Action' if file.suffix == '.action' else ''}.h"
         to.parent.mkdir(parents=True, exist_ok=True)
         if not to.exists() or to.read_text() != out:
             to.write_text(out)

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../../tests/serve/client.hpp"
+#include "gazebo/flight_topics.hpp"
 #include "hosted.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recording.hpp"
@@ -92,7 +98,16 @@ protected:
         flight.recording = std::filesystem::path(::testing::TempDir()) / (test + ".mcap");
         flight.watch.on_event = [this](const Event& event) {
             rests = rests || event.name == EventName::motors_off;
+            if (topics) {
+                topics->tell(event);
+            }
         };
+        flight.watch.on_tick = [this](simulation::Flight& flown, const guidance::EventList&) {
+            if (topics) {
+                topics->tick(flown);
+            }
+        };
+        listen();
         host_it();
         for (int k = 0; k < 60 && !rests; ++k) {
             gazebo::runWorld(world, 1000);
@@ -100,11 +115,80 @@ protected:
         ASSERT_TRUE(rests);
     }
     void TearDown() override { std::filesystem::remove(flight.recording); }
+
+    /// What others hear of it, on threads of the transport's.
+    void listen() {
+        topics = std::make_unique<FlightTopics>(*vehicle, "pilot", flight.scenario.airframe);
+        node = gazebo::transport::NodePtr(new gazebo::transport::Node());
+        node->Init(world->Name());
+        subscribers = {
+            node->Subscribe("~/perching_uav/pilot/pressure", &AtRest::hear_pressure, this),
+            node->Subscribe("~/perching_uav/pilot/state", &AtRest::hear_state, this),
+            node->Subscribe("~/perching_uav/pilot/guidance", &AtRest::hear_guidance, this),
+            node->Subscribe("~/perching_uav/pilot/event", &AtRest::hear_event, this),
+            node->Subscribe("~/visual", &AtRest::hear_visual, this)};
+    }
+    using Text = boost::shared_ptr<const gazebo::msgs::GzString>;
+    void hear_pressure(const boost::shared_ptr<const gazebo::msgs::Any>& message) {
+        const std::lock_guard lock(mutex);
+        pressure_Pa = message->double_value();
+    }
+    void hear_state(const Text& message) { hear("state", message->data()); }
+    void hear_guidance(const Text& message) { hear("guidance", message->data()); }
+    void hear_event(const Text& message) {
+        hear("event", message->data());
+        const std::lock_guard lock(mutex);
+        events += message->data() + "\n";
+    }
+    void hear_visual(const boost::shared_ptr<const gazebo::msgs::Visual>& message) {
+        hear(message->name(), message->visible() ? "seen" : "unseen");
+    }
+    void hear(const std::string& what, const std::string& how) {
+        const std::lock_guard lock(mutex);
+        heard[what] = how;
+    }
+
     bool rests = false;
+    std::unique_ptr<FlightTopics> topics;
+    gazebo::transport::NodePtr node;
+    std::vector<gazebo::transport::SubscriberPtr> subscribers;
+    std::mutex mutex;
+    double pressure_Pa = 0.0;
+    std::string events;
+    std::map<std::string, std::string> heard;
 };
+
+TEST_F(AtRest, IsToldOnTheTransportAndSeenInThePicture) {
+    const std::map<std::string, std::string> wanted = {{"state", "attached"},
+                                                       {"guidance", "resting"},
+                                                       {"perching_uav::base::rotor_0", "unseen"},
+                                                       {"perching_uav::base::blade_0", "seen"},
+                                                       {"perching_uav::base::rotor_3", "unseen"}};
+    const auto has_come = [&] {
+        const std::lock_guard lock(mutex);
+        return std::all_of(wanted.begin(), wanted.end(), [&](const auto& one) {
+            const auto found = heard.find(one.first);
+            return found != heard.end() && found->second == one.second;
+        });
+    };
+    for (int k = 0; k < 100 && !has_come(); ++k) {  // rotors run down; messages take wall time
+        gazebo::runWorld(world, 20);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    const std::lock_guard lock(mutex);
+    for (const auto& [what, how] : wanted) {
+        EXPECT_EQ(heard[what], how) << what;
+    }
+    EXPECT_LT(pressure_Pa, flight.scenario.guidance.land_pressure_Pa);
+    EXPECT_NE(events.find(" cup attached: "), std::string::npos) << events;
+    EXPECT_NE(events.find(" guidance motors_off"), std::string::npos) << events;
+}
 
 TEST_F(AtRest, AFlightWhoseWorldIsTakenApartEndsWhole) {
     on_update.reset();
+    subscribers.clear();
+    node.reset();
+    topics.reset();
     world.reset();
     server.reset();  // as gzserver does on SIGINT: the models go before the plugin does
     host->interrupt();

@@ -23,10 +23,15 @@ std::string plain_surface() {
            "<pump_ripple_Pa>0</pump_ripple_Pa></surface>";
 }
 
+std::string cup_settings(const std::string& attachment, const std::string& more) {
+    return plain_surface() + "<attachment>" + attachment + "</attachment><pump>true</pump>" + more;
+}
+
 std::string bench_world(const std::string& gravity, const std::string& more,
-                        const std::string& in_body) {
+                        const std::string& in_body, const std::string& engine) {
     return "<sdf version='1.6'><world name='bench'><gravity>" + gravity +
-           "</gravity><physics type='ode'><max_step_size>0.001</max_step_size>"
+           "</gravity><physics type='" + engine +
+           "'><max_step_size>0.001</max_step_size>"
            "<real_time_update_rate>0</real_time_update_rate></physics>" +
            box_model("wall", "1.05 0 0 0 0 0", "0.1 2 2") +
            "<model name='body'><pose>0.9 0 0 0 0 0</pose><link name='hull'><inertial><pose>-0.02 0 "
@@ -48,8 +53,8 @@ sdf::ElementPtr plugin_element(const std::string& inside, const std::string& nam
 }
 
 PressBench::PressBench(const std::string& plugin, const std::string& gravity,
-                       const std::string& more)
-    : server(bench_world(gravity, more)), body(server.world()->ModelByName("body")) {
+                       const std::string& more, const std::string& engine)
+    : server(bench_world(gravity, more, "", engine)), body(server.world()->ModelByName("body")) {
     cup.Load(body, plugin_element("<link>hull</link><lip_pose>0.06 0 0 0 0 0</lip_pose>" + plugin));
     on_update =
         gazebo::event::Events::ConnectWorldUpdateBegin([this](const gazebo::common::UpdateInfo&) {

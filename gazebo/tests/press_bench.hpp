@@ -15,8 +15,9 @@ struct PressBench {
     /// @param plugin   children of the plugin's element beside link and lip_pose
     /// @param gravity  "0 0 -9.81"
     /// @param more     further models
+    /// @param engine   of the world
     explicit PressBench(const std::string& plugin, const std::string& gravity = "0 0 0",
-                        const std::string& more = "");
+                        const std::string& more = "", const std::string& engine = "ode");
 
     void run(unsigned int steps) { server.run(steps); }
     /// Steps until it is so. @return steps; -1: not within `limit`
@@ -56,8 +57,11 @@ inline constexpr double kInertia_kg_m2 = 0.004;
 [[nodiscard]] std::string box_model(const std::string& name, const std::string& pose,
                                     const std::string& size, bool is_static = true);
 [[nodiscard]] std::string bench_world(const std::string& gravity, const std::string& more,
-                                      const std::string& in_body = "");
+                                      const std::string& in_body = "",
+                                      const std::string& engine = "ode");
 /// A surface of round numbers that seals at 20 N, always; no ripple.
 [[nodiscard]] std::string plain_surface();
+/// Of a cup on that surface, its pump on.
+[[nodiscard]] std::string cup_settings(const std::string& attachment, const std::string& more = "");
 
 }  // namespace limpet::gazebo11

@@ -62,6 +62,21 @@ INSTANTIATE_TEST_SUITE_P(
                 "model \"body\" has no link \"base\", which perching needs\n"}),
     WhatCannotBeUsed::name);
 
+class OfAnotherEngine : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(OfAnotherEngine, ACupSaysInALineWhatToChange) {
+    for (const std::string attachment : {"compliant", "fixed"}) {
+        const Ended ended = serve(
+            kCup, "<link>hull</link><attachment>" + attachment + "</attachment>", "20", GetParam());
+        EXPECT_EQ(ended.code, 2) << ended.text;
+        EXPECT_THAT(ended.text, ::testing::HasSubstr("limpet: model body: LimpetSuctionCupPlugin"));
+        EXPECT_THAT(ended.text, ::testing::HasSubstr("allowed"));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OfAnotherEngine, ::testing::Values("dart", "simbody"),
+                         [](const auto& info) { return info.param; });
+
 TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
     // It would serve on: the time limit ends it.
     const Ended ended = serve(kCup, "<link>hull</link><pump>true</pump>", "6");

@@ -18,7 +18,7 @@
 namespace limpet::gazebo11 {
 namespace {
 
-using gazebo_frames::turn;
+using gazebo_frames::turn_F;
 
 constexpr double kFlight_s = 12.8;
 constexpr double kContacts_s = 12.3;  ///< from here on the vehicle rests on its legs
@@ -81,9 +81,10 @@ protected:
         hear(*left, said_left, [this] { return Said{0, {left->Range(0), 0, 0}, {}}; });
         hear(*right, said_right, [this] { return Said{0, {right->Range(0), 0, 0}, {}}; });
         hear(*imu, said_imu, [this] {
-            return Said{0, turn(imu->LinearAcceleration(true)), turn(imu->AngularVelocity(true))};
+            return Said{0, turn_F(imu->LinearAcceleration(true)),
+                        turn_F(imu->AngularVelocity(true))};
         });
-        hear(*force, said_force, [this] { return Said{0, turn(force->Force()), {}}; });
+        hear(*force, said_force, [this] { return Said{0, turn_F(force->Force()), {}}; });
         if (now_s > kContacts_s) {
             legs_W_N.push_back(legs());
         }
@@ -112,7 +113,7 @@ protected:
             const bool first = contact.collision1().find(vehicle->GetName()) == 0;
             for (const auto& wrench : contact.wrench()) {
                 const auto& part = first ? wrench.body_1_wrench() : wrench.body_2_wrench();
-                const Vector3 on_body_N = turn(gazebo::msgs::ConvertIgn(part.force()));
+                const Vector3 on_body_N = turn_F(gazebo::msgs::ConvertIgn(part.force()));
                 sum += was.back().truth.base.q_WF * on_body_N;
             }
         }

@@ -11,10 +11,11 @@
 
 namespace limpet::gazebo11 {
 
-Ended serve(const std::string& library, const std::string& inside, const std::string& limit_s) {
-    const TemporaryWorld world(
-        bench_world("0 0 0", box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false),
-                    "<plugin name='it' filename='" + library + "'>" + inside + "</plugin>"));
+Ended serve(const std::string& library, const std::string& inside, const std::string& limit_s,
+            const std::string& engine) {
+    const TemporaryWorld world(bench_world(
+        "0 0 0", box_model("ball", "3 0 0 0 0 0", "0.1 0.1 0.1", false),
+        "<plugin name='it' filename='" + library + "'>" + inside + "</plugin>", engine));
     set_environment();
     ::setenv("GAZEBO_PLUGIN_PATH", LIMPET_PLUGIN_DIR, 1);
     const std::string command =

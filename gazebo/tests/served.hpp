@@ -16,7 +16,7 @@ struct Ended {
 
 /// gzserver on a world whose body carries the plugin, beside a ball that moves.
 [[nodiscard]] Ended serve(const std::string& library, const std::string& inside,
-                          const std::string& limit_s = "30");
+                          const std::string& limit_s = "30", const std::string& engine = "ode");
 
 inline constexpr const char* kCup = "libLimpetSuctionCupPlugin.so";
 inline constexpr const char* kVehicle = "libLimpetVehiclePlugin.so";

@@ -132,6 +132,8 @@ public:
 
     [[nodiscard]] SessionPhase phase() const { return phase_; }
     [[nodiscard]] double since_s() const { return phase_s_; }
+    /// For a flight that has not begun yet.
+    [[nodiscard]] bool asked() const { return asked_; }
     [[nodiscard]] const Setpoint& setpoint() const { return setpoint_; }
     [[nodiscard]] bool streams() const {
         return phase_ == SessionPhase::ready || phase_ == SessionPhase::flying;

@@ -23,10 +23,22 @@ using namespace model_text;
 constexpr sdf::ContactSurface kRigid{
     .friction = 100.0, .stiffness_N_m = 1e12, .damping_N_s_m = 1.0};
 
+/// North-west-up, in which models are written, as Gazebo's world has it: as ROS's map does (REP
+/// 103), so that what gazebo_ros tells is there too.
+Vector3 enu(const Vector3& nwu) {
+    return {-nwu.y(), nwu.x(), nwu.z()};
+}
+
+/// x y z roll pitch yaw of a frame of the world, given north-east-down.
+std::string placed(const Vector3& p_W_m, const Quaternion& q_WF = Quaternion::Identity()) {
+    const Quaternion quarter(Eigen::AngleAxisd(0.5 * kPi, Vector3::UnitZ()));
+    return sdf::pose_up(enu(flu(p_W_m)), quarter * flu(q_WF));
+}
+
 /// x y z roll pitch yaw of something that looks along its own x and is level.
 std::string looking(const Viewpoint& view) {
-    const Vector3 along = view.at - view.from;
-    return text(view.from) + " " +
+    const Vector3 along = enu(view.at - view.from);
+    return text(enu(view.from)) + " " +
            text(0.0, std::atan2(-along.z(), std::hypot(along.x(), along.y())),
                 std::atan2(along.y(), along.x()));
 }
@@ -43,13 +55,13 @@ void write_surroundings(pugi::xml_node node, const GazeboWorld& world) {
     const LevelFrame level =
         level_frame(world.walls.empty() ? WallScene{} : world.walls.front().face);
     const auto place_light = [&](const char* name, const Vector3& p, const Vector3& direction) {
-        fill(named(node, "light", name), "pose", sdf::pose_up(p), "direction",
-             Vector3((level.axes * direction).normalized()));
+        fill(named(node, "light", name), "pose", sdf::pose_up(enu(p)), "direction",
+             enu((level.axes * direction).normalized()));
     };
     place_light("sun", level.point(-2.2, -1.4, 4.0), {0.60, 0.35, -1.0});
     place_light("fill", level.point(-3.0, 3.0, 3.0), {1.0, -1.0, -0.6});
     const auto ground = named(node, "model", "ground");
-    fill(ground, "pose", sdf::pose({0.0, 0.0, world.ground_z_W_m}));
+    fill(ground, "pose", placed({0.0, 0.0, world.ground_z_W_m}));
     sdf::write_surface(ground.first_element_by_path("link/collision"), kRigid);
 }
 
@@ -78,7 +90,7 @@ void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall&
                      .size_m = solid.size_m};
     const Quaternion q_WT(face.R_WT);
     auto model = add(node, "model", "name", wall.name);
-    add_text(model, "static", "true", "pose", sdf::pose(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
+    add_text(model, "static", "true", "pose", placed(face.p_WT_m + q_WT * solid.p_TS_m, q_WT));
     auto link = add(model, "link", "name", "link");
     auto collision = add(link, "collision", "name", "wall");
     sdf::write_geometry(collision, shape);
@@ -144,7 +156,7 @@ void write_camera(pugi::xml_node world, const GazeboCamera& camera) {
 void write_placed(pugi::xml_node world, const vehicle::Airframe& airframe,
                   const PlacedVehicle& vehicle, const std::optional<GazeboSensors>& sensors) {
     auto model = add(world, "model", "name", vehicle.name);
-    add_text(model, "pose", sdf::pose(vehicle.p_WB_m, vehicle.q_WB));
+    add_text(model, "pose", placed(vehicle.p_WB_m, vehicle.q_WB));
     if (vehicle.is_static) {
         add_text(model, "static", "true");
     }

@@ -72,7 +72,7 @@ struct WorldFile {
 /// Material scripts and textures of the world's walls.
 [[nodiscard]] std::vector<WorldFile> write_wall_looks(const GazeboWorld& world);
 
-/// SDF 1.6: ODE, lights, ground, walls, vehicles. World axes: x north, y west, z up, W's origin.
+/// SDF 1.6: ODE, lights, ground, walls, vehicles. World axes: x east, y north, z up, W's origin.
 /// The walls do not move; what a plugin attaches to them, stays.
 [[nodiscard]] std::string write_world(const vehicle::Airframe& airframe, const GazeboWorld& world);
 

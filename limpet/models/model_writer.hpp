@@ -27,9 +27,9 @@ struct Scene {
 };
 
 // All writers turn forward-right-down and north-east-down into forward-left-up and a z-up world
-// (x north, y west, z up): x stays, y and z change sign. Names of bodies, joints and geoms, alike
-// in the three formats: base, carriage, cup; joints slider, cup_pitch, cup_yaw; leg_left,
-// leg_right; rotor_0, rotor_1, ...; wall, ground.
+// (x north, y west, z up; Gazebo's: gazebo_world.hpp): x stays, y and z change sign. Names of
+// bodies, joints and geoms, alike in the three formats: base, carriage, cup; joints slider,
+// cup_pitch, cup_yaw; leg_left, leg_right; rotor_0, rotor_1, ...; wall, ground.
 
 /// A whole MuJoCo model: vehicle (free joint), wall, floor, lights, materials, cameras.
 /// Bodies base > carriage > cup; contacts only by explicit pairs (each leg tip with the wall).
@@ -38,10 +38,17 @@ struct Scene {
 [[nodiscard]] std::string write_sdf(const vehicle::Airframe& airframe);
 /// URDF of the vehicle; links and joints named as in the other two.
 [[nodiscard]] std::string write_urdf(const vehicle::Airframe& airframe);
+/// How a description calls meshes: package://VEHICLE/NAME, which a recording carries along; or the
+/// files here, for viewers of this machine.
+enum class MeshNames {
+    of_package,
+    of_files
+};
 /// URDF as recordings and ROS carry it: links are the frames of the messages (base_link, carriage,
-/// cup_yoke, cup, lip, lidar_left, lidar_right), meshes are package://VEHICLE/NAME.
-[[nodiscard]] std::string write_robot_description(const vehicle::Airframe& airframe);
-/// NAME of a mesh's file there.
+/// cup_yoke, cup, lip, lidar_left, lidar_right).
+[[nodiscard]] std::string write_robot_description(const vehicle::Airframe& airframe,
+                                                  MeshNames meshes = MeshNames::of_package);
+/// NAME of a mesh's file.
 [[nodiscard]] std::string mesh_name(const std::string& path);
 
 }  // namespace limpet::models

@@ -30,6 +30,7 @@ void write_inertial(pugi::xml_node link, const Link& spec) {
 struct Names {
     const vehicle::Airframe& airframe;
     bool of_messages = false;
+    MeshNames meshes = MeshNames::of_files;
 
     [[nodiscard]] std::string operator()(std::string_view part) const {
         if (of_messages) {
@@ -37,10 +38,11 @@ struct Names {
         }
         return called(airframe, part);
     }
-    /// Nothing of this machine goes into a message.
+    /// Nothing of this machine goes into a recording.
     [[nodiscard]] std::string mesh(const std::string& path) const {
-        return of_messages ? "package://" + airframe.name + "/" + mesh_name(path)
-                           : "file://" + path;
+        return meshes == MeshNames::of_package
+                   ? "package://" + airframe.name + "/" + mesh_name(path)
+                   : "file://" + path;
     }
 };
 
@@ -137,9 +139,10 @@ std::string write_urdf(const vehicle::Airframe& airframe) {
     return to_string(document);
 }
 
-std::string write_robot_description(const vehicle::Airframe& airframe) {
+std::string write_robot_description(const vehicle::Airframe& airframe, MeshNames meshes) {
     pugi::xml_document document;
-    const auto robot = write_robot(document, {.airframe = airframe, .of_messages = true});
+    const auto robot =
+        write_robot(document, {.airframe = airframe, .of_messages = true, .meshes = meshes});
     if (airframe.has_cup) {
         const double side_m = 0.5 * airframe.lidar_separation_m;
         const auto mount = [&](double y_m) {

@@ -18,16 +18,14 @@ using ros::flu_from_frd;
 /// geometry_msgs/TransformStamped.
 struct Transform {
     Stamp at = {};
-    std::string_view parent, child;
-    Vector3 p = Vector3::Zero();
-    Quaternion q = Quaternion::Identity();
+    PlacedFrame frame = {};
 };
 void put(Cdr& cdr, const Transform& transform) {
     put(cdr, transform.at);
-    put(cdr, transform.parent);
-    put(cdr, transform.child);
-    put(cdr, transform.p);
-    put(cdr, transform.q);
+    put(cdr, transform.frame.parent);
+    put(cdr, transform.frame.child);
+    put(cdr, transform.frame.p);
+    put(cdr, transform.frame.q);
 }
 
 struct Colour {
@@ -138,15 +136,8 @@ CupAngles cup_angles(const Truth& truth) {
             .yaw_rad = std::asin(std::clamp(mouth_B.y(), -1.0, 1.0))};
 }
 
-SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
-    : writer_(writer), scene_(scene) {
-    constexpr std::size_t kLongestMarks = 8192, kBesideText = 64;
-    writer.make_room(std::max(kLongestMarks, scene.robot_description.size() + kBesideText));
-    writer.write(writer.add_channel(kDescriptionTopic, "std_msgs/msg/String"), 0.0,
-                 LongText{scene.robot_description});
-    moving_ = writer.add_channel(kMovingTopic, "tf2_msgs/msg/TFMessage");
-    markers_ = writer.add_channel(kMarkersTopic, "visualization_msgs/msg/MarkerArray");
-    std::vector<Transform> standing;
+std::vector<PlacedFrame> standing_frames(const Scene& scene) {
+    std::vector<PlacedFrame> standing;
     if (scene.has_cup) {
         for (std::size_t k = 0; k < kLidarFrames.size(); ++k) {
             standing.push_back({.parent = kBaseFrame,
@@ -162,6 +153,35 @@ SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
                             .p = ros::enu_from_ned(scene.wall->p_WT_m),
                             .q = ros::enu_flu_from_ned_frd(Quaternion(scene.wall->R_WT))});
     }
+    return standing;
+}
+
+MovingFrames moving_frames(const Scene& scene, const Truth& truth) {
+    const CupAngles cup = cup_angles(truth);
+    const Vector3 slid(truth.slider.position_m, 0.0, 0.0);
+    return {.frames = {PlacedFrame{kMapFrame, kBaseFrame, ros::enu_from_ned(truth.base.p_WF_m),
+                                   ros::enu_flu_from_ned_frd(truth.base.q_WF)},
+                       PlacedFrame{kBaseFrame, kCarriageFrame, flu_from_frd(scene.joint_B_m + slid),
+                                   Quaternion::Identity()},
+                       PlacedFrame{kCarriageFrame, kYokeFrame, Vector3::Zero(),
+                                   turn_about(Vector3::UnitY(), cup.pitch_rad)},
+                       PlacedFrame{kYokeFrame, kCupFrame, Vector3::Zero(),
+                                   turn_about(Vector3::UnitZ(), cup.yaw_rad)}},
+            .count = scene.has_cup ? 4U : 1U};
+}
+
+SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
+    : writer_(writer), scene_(scene) {
+    constexpr std::size_t kLongestMarks = 8192, kBesideText = 64;
+    writer.make_room(std::max(kLongestMarks, scene.robot_description.size() + kBesideText));
+    writer.write(writer.add_channel(kDescriptionTopic, "std_msgs/msg/String"), 0.0,
+                 LongText{scene.robot_description});
+    moving_ = writer.add_channel(kMovingTopic, "tf2_msgs/msg/TFMessage");
+    markers_ = writer.add_channel(kMarkersTopic, "visualization_msgs/msg/MarkerArray");
+    std::vector<Transform> standing;
+    for (const PlacedFrame& frame : standing_frames(scene)) {
+        standing.push_back({.frame = frame});
+    }
     writer.write(writer.add_channel(kStandingTopic, "tf2_msgs/msg/TFMessage"), 0.0,
                  Sequence<Transform>{standing});
     if (scene.wall) {
@@ -170,38 +190,37 @@ SceneWriter::SceneWriter(MessageWriter& writer, const Scene& scene)
     scene_.robot_description.clear();  // has been said
 }
 
-void SceneWriter::write_wall() {
-    const WallSolid solid = solid_of(*scene_.wall);
+WallShown wall_shown(const WallGeometry& wall) {
+    const WallSolid solid = solid_of(wall);
     const bool box = solid.kind == WallSolid::Kind::box;
+    const Vector3& size = solid.size_m;
+    return {.box = box,
+            .p = flu_from_frd(solid.p_TS_m),
+            .size_m = box ? size : Vector3(2.0 * size.x(), 2.0 * size.y(), size.z())};
+}
+
+void SceneWriter::write_wall() {
+    const WallShown shown = wall_shown(*scene_.wall);
     const auto& [r, g, b] = scene_.wall_colour;
     const std::string name = "wall/" + scene_.surface;
-    // A cylinder's size is its diameters; its axis is z in both.
-    const Marker mark = {
-        .frame = kWallFrame,
-        .name = name,
-        .type = box ? Marker::cube : Marker::cylinder,
-        .p = flu_from_frd(solid.p_TS_m),
-        .scale = box ? solid.size_m
-                     : Vector3(2.0 * solid.size_m.x(), 2.0 * solid.size_m.y(), solid.size_m.z()),
-        .colour = {r, g, b, 1.0F}};
+    const Marker mark = {.frame = kWallFrame,
+                         .name = name,
+                         .type = shown.box ? Marker::cube : Marker::cylinder,
+                         .p = shown.p,
+                         .scale = shown.size_m,
+                         .colour = {r, g, b, 1.0F}};
     writer_.write(markers_, 0.0, Sequence<Marker>{{&mark, 1}});
 }
 
 void SceneWriter::move(const Truth& truth) {
     const Stamp at = stamp(truth.time_s);
-    const CupAngles cup = cup_angles(truth);
-    const Vector3 slid(truth.slider.position_m, 0.0, 0.0);
-    const std::array<Transform, 4> moving = {
-        Transform{at, kMapFrame, kBaseFrame, ros::enu_from_ned(truth.base.p_WF_m),
-                  ros::enu_flu_from_ned_frd(truth.base.q_WF)},
-        Transform{at, kBaseFrame, kCarriageFrame, flu_from_frd(scene_.joint_B_m + slid),
-                  Quaternion::Identity()},
-        Transform{at, kCarriageFrame, kYokeFrame, Vector3::Zero(),
-                  turn_about(Vector3::UnitY(), cup.pitch_rad)},
-        Transform{at, kYokeFrame, kCupFrame, Vector3::Zero(),
-                  turn_about(Vector3::UnitZ(), cup.yaw_rad)}};
+    const MovingFrames moving = moving_frames(scene_, truth);
+    std::array<Transform, std::tuple_size_v<decltype(moving.frames)>> transforms;
+    for (std::size_t k = 0; k < moving.count; ++k) {
+        transforms[k] = {.at = at, .frame = moving.frames[k]};
+    }
     writer_.write(moving_, truth.time_s,
-                  Sequence<Transform>{std::span(moving).first(scene_.has_cup ? 4 : 1)});
+                  Sequence<Transform>{std::span(transforms).first(moving.count)});
 }
 
 void SceneWriter::mark(const Truth& truth, const Readings& readings, const Setpoint& setpoint) {

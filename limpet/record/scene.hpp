@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/signals/readings.hpp"
@@ -49,6 +51,33 @@ struct CupAngles {
     double pitch_rad = 0.0, yaw_rad = 0.0;
 };
 [[nodiscard]] CupAngles cup_angles(const Truth& truth);
+
+/// A frame in its parent, in ROS's axes.
+struct PlacedFrame {
+    std::string_view parent, child;
+    Vector3 p = Vector3::Zero();
+    Quaternion q = Quaternion::Identity();
+};
+/// LiDARs, lip and wall: what does not move.
+[[nodiscard]] std::vector<PlacedFrame> standing_frames(const Scene& scene);
+/// Vehicle, slider and the cup's joint, in this order.
+struct MovingFrames {
+    std::array<PlacedFrame, 4> frames;
+    std::size_t count = 0;  ///< 1 without a cup
+
+    [[nodiscard]] std::span<const PlacedFrame> span() const {
+        return std::span(frames).first(count);
+    }
+};
+[[nodiscard]] MovingFrames moving_frames(const Scene& scene, const Truth& truth);
+
+/// The solid behind the wall's face, in the axes of its frame.
+struct WallShown {
+    bool box = true;                   ///< else a cylinder along z
+    Vector3 p = Vector3::Zero();       ///< its centre
+    Vector3 size_m = Vector3::Zero();  ///< edges; of a cylinder its diameters and its height
+};
+[[nodiscard]] WallShown wall_shown(const WallGeometry& wall);
 
 /// Writes description, /tf_static and the wall at time 0, then what moves.
 class SceneWriter {

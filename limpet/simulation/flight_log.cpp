@@ -29,6 +29,8 @@ void attach_meshes(const vehicle::Airframe& airframe, std::vector<mcap::Attachme
     }
 }
 
+}  // namespace
+
 record::Scene scene_of_recording(const FlightModel& model) {
     const scenario::Scenario& scenario = *model.scenario;
     const vehicle::Airframe& airframe = scenario.airframe;
@@ -51,6 +53,8 @@ record::Scene scene_of_recording(const FlightModel& model) {
     }
     return scene;
 }
+
+namespace {
 
 record::RecordingInfo describe(const FlightModel& model, const FlightLog::Options& options) {
     const scenario::Scenario& scenario = *model.scenario;

@@ -10,6 +10,9 @@
 
 namespace limpet::simulation {
 
+/// What a viewer is shown of it; also on ROS's topics.
+[[nodiscard]] record::Scene scene_of_recording(const FlightModel& model);
+
 /// Writes a flight's signals as they come: sensors with each new sample, the rest at the scenario's
 /// recording rate.
 class FlightLog {

@@ -1,20 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gazebo/vehicle_plugin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "ros/gazebo/join_ros.hpp"
 #include "ros/src/ros_vehicle.hpp"
 #include "ros/src/setup.hpp"
 
 namespace limpet::ros {
+namespace {
+
+/// Who has /clock already: another plugin of this gzserver (gazebo_ros's), or a node elsewhere.
+std::string clock_publisher() {
+    const std::string& self = ::ros::this_node::getName();
+    std::vector<std::string> own;
+    ::ros::this_node::getAdvertisedTopics(own);
+    if (std::find(own.begin(), own.end(), "/clock") != own.end()) {
+        return "another plugin of this gzserver";
+    }
+    XmlRpc::XmlRpcValue arguments, result, state;
+    arguments[0] = self;
+    if (!::ros::master::execute("getSystemState", arguments, result, state, false)) {
+        return "";
+    }
+    XmlRpc::XmlRpcValue& publishers = state[0];  // pairs of a topic and its nodes
+    for (int topic = 0; topic < publishers.size(); ++topic) {
+        XmlRpc::XmlRpcValue& nodes = publishers[topic][1];
+        for (int i = 0;
+             static_cast<std::string>(publishers[topic][0]) == "/clock" && i < nodes.size(); ++i) {
+            if (static_cast<std::string>(nodes[i]) != self) {
+                return static_cast<std::string>(nodes[i]);
+            }
+        }
+    }
+    return "";
+}
+
+/// The world's time, as gazebo_ros has it on /clock too.
+HostClock clock_of(gazebo::physics::World& world) {
+    return {.now_s =
+                [&world] {
+                    // It is ahead by the step that is about to be taken.
+                    return world.SimTime().Double() - world.Physics()->GetMaxStepSize();
+                },
+            .publisher = clock_publisher};
+}
+
+}  // namespace
 
 /// LimpetRosVehiclePlugin: LimpetVehiclePlugin (its elements are those of this one too) with ROS at
-/// its boundary. It publishes /clock, LiDARs, force, battery and the built-in autopilot's estimate,
-/// and is flown by set-points on MAVROS's topics (ros/README.md). Needs a ROS master.
+/// its boundary. It publishes /clock (the world's time, unless gazebo_ros does), LiDARs, force,
+/// battery and the built-in autopilot's estimate, and is flown by set-points on MAVROS's topics
+/// (ros/README.md). Needs a ROS master.
 ///
 ///   element            what                                                      default
 ///   cup_by_node        the cup's seal and pressure come from suction_cup_node    true
@@ -46,27 +89,18 @@ protected:
             node != nullptr && read_text(*node) != "builtin") {
             fail(*node, "flies with autopilot builtin only: a PX4 has its MAVROS");
         }
-        join_ros();
+        join_ros("LimpetRosVehiclePlugin");
         tell_flight(read_arguments(parameters));
-        vehicle_ = std::make_unique<RosVehicle>(flight.scenario, options);
+        vehicle_ = std::make_unique<RosVehicle>(flight.scenario, options, clock_of(world()));
+        flight.watch.on_tick = [this](simulation::Flight& flown, const guidance::EventList&) {
+            vehicle_->show(flown);
+        };
         const simulation::Outside outside = vehicle_->outside();
         flight.conduct.outside.guidance = outside.guidance;
         flight.conduct.outside.cup = outside.cup;
     }
 
 private:
-    static void join_ros() {
-        if (!::ros::isInitialized()) {
-            int argc = 0;
-            ::ros::init(argc, nullptr, "gazebo",
-                        ::ros::init_options::NoSigintHandler | ::ros::init_options::AnonymousName);
-        }
-        if (!::ros::master::check()) {
-            throw InputError("LimpetRosVehiclePlugin: no ROS master at " + ::ros::master::getURI() +
-                             ": start roscore or roslaunch first");
-        }
-    }
-
     std::unique_ptr<RosVehicle> vehicle_;
 };
 

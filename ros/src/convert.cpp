@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/record/scene.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -17,15 +18,14 @@ using record::ros::enu_flu_from_ned_frd;
 using record::ros::enu_from_ned;
 using record::ros::flu_from_frd;
 
-constexpr const char* kWorld = "map";
-constexpr const char* kBody = "base_link";
-constexpr const char* kCup = "cup";
+constexpr std::string_view kWorld = record::kMapFrame;
+constexpr std::string_view kBody = record::kBaseFrame;
 constexpr double kUnitTolerance = 1e-3;
 
 template <class Message>
-Message in_frame(const char* frame) {
+Message in_frame(std::string_view frame) {
     Message message;
-    message.header.frame_id = frame;
+    message.header.frame_id = std::string(frame);
     return message;
 }
 
@@ -141,9 +141,10 @@ std::optional<Vector3> rate_B(const sensor_msgs::Imu& message) {
     return finite(flu_from_frd(triple(message.angular_velocity)));
 }
 
-sensor_msgs::Range range_message(const RangeReading& reading, double minimum_m, double maximum_m) {
+sensor_msgs::Range range_message(const RangeReading& reading, std::string_view frame,
+                                 double minimum_m, double maximum_m) {
     constexpr double kFieldOfView_deg = 3.6;  // TFmini Plus, its data sheet
-    sensor_msgs::Range message;
+    auto message = in_frame<sensor_msgs::Range>(frame);
     message.radiation_type = sensor_msgs::Range::INFRARED;
     message.field_of_view = static_cast<float>(radians(kFieldOfView_deg));
     message.min_range = static_cast<float>(minimum_m);
@@ -160,7 +161,7 @@ std::optional<RangeReading> range_reading(const sensor_msgs::Range& message) {
 }
 
 geometry_msgs::WrenchStamped force_message(const ForceReading& reading) {
-    auto message = in_frame<geometry_msgs::WrenchStamped>(kCup);
+    auto message = in_frame<geometry_msgs::WrenchStamped>(record::kCarriageFrame);
     message.wrench.force.x = reading.axial_N;
     return message;
 }
@@ -171,7 +172,7 @@ std::optional<ForceReading> force_reading(const geometry_msgs::WrenchStamped& me
 }
 
 sensor_msgs::FluidPressure pressure_message(const PressureReading& reading) {
-    auto message = in_frame<sensor_msgs::FluidPressure>(kCup);
+    auto message = in_frame<sensor_msgs::FluidPressure>(record::kLipFrame);
     message.fluid_pressure = reading.pressure_Pa;
     return message;
 }
@@ -182,7 +183,7 @@ std::optional<PressureReading> pressure_reading(const sensor_msgs::FluidPressure
 }
 
 sensor_msgs::BatteryState battery_message(const BatteryReading& reading) {
-    sensor_msgs::BatteryState message;
+    auto message = in_frame<sensor_msgs::BatteryState>(kBody);
     constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
     message.voltage = static_cast<float>(reading.voltage_V);
     message.current = static_cast<float>(-reading.current_A);
@@ -274,7 +275,7 @@ std::optional<Motion> motion_from(const geometry_msgs::PoseStamped& message) {
 }
 
 CupContact contact_message(const suction::LipContact& contact) {
-    auto message = in_frame<CupContact>(kCup);
+    auto message = in_frame<CupContact>(record::kLipFrame);
     message.touches = contact.touches ? 1 : 0;
     message.lies_still = contact.lies_still ? 1 : 0;
     message.let_go = static_cast<std::uint8_t>(contact.let_go);
@@ -297,7 +298,7 @@ std::optional<suction::LipContact> lip_contact(const CupContact& message) {
 }
 
 limpet_ros::CupState cup_message(const suction::CupState& state) {
-    auto message = in_frame<limpet_ros::CupState>(kCup);
+    auto message = in_frame<limpet_ros::CupState>(record::kLipFrame);
     message.touches = static_cast<std::uint32_t>(state.touches);
     message.phase = static_cast<std::uint8_t>(state.status.phase);
     message.sealed = suction::is_sealed(state.status.phase) ? 1 : 0;

@@ -16,6 +16,7 @@
 #include <sensor_msgs/Range.h>
 
 #include <optional>
+#include <string_view>
 #include <variant>
 
 #include "limpet/core/signals/estimate.hpp"
@@ -52,10 +53,12 @@ namespace limpet::ros {
 // --- sensors of the mechanism -------------------------------------------------------------------
 
 /// Out of range, or no echo: +infinity (REP 117).
-[[nodiscard]] sensor_msgs::Range range_message(const RangeReading& reading, double minimum_m,
-                                               double maximum_m);
+/// @param frame  whose x is the beam
+[[nodiscard]] sensor_msgs::Range range_message(const RangeReading& reading, std::string_view frame,
+                                               double minimum_m, double maximum_m);
 [[nodiscard]] std::optional<RangeReading> range_reading(const sensor_msgs::Range& message);
-/// x of the wrench is the force through the slider: positive in tension.
+/// x of the wrench is the force through the slider, along whose axis "carriage" has its x: positive
+/// in tension.
 [[nodiscard]] geometry_msgs::WrenchStamped force_message(const ForceReading& reading);
 [[nodiscard]] std::optional<ForceReading> force_reading(
     const geometry_msgs::WrenchStamped& message);

@@ -13,10 +13,13 @@ constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not
 
 }  // namespace
 
-bool Heard::tick(double time_s) {
+bool Heard::tick(double time_s, double clock_s) {
     const bool anew = clock_ >= 0 && time_s < flight_s_;
     if (anew) {
         begin_anew();
+    }
+    if (clock_ < 0) {
+        start_s_ = clock_s;
     }
     flight_s_ = time_s;
     ++clock_;

@@ -26,16 +26,19 @@ namespace limpet::ros {
 /// Whoever calls from two threads locks.
 class Heard {
 public:
+    static constexpr double kClockStart_s = 1.0;  ///< ROS takes a time of zero for none
+
     Heard(const OffboardManners& manners, bool ends_with_mission)
         : manners_(manners), ends_with_mission_(ends_with_mission), mode_(manners) {}
 
     /// The next tick of the flight.
-    /// @param time_s  of the flight; one earlier than the last: it begins anew
-    /// @return whether it does
-    bool tick(double time_s);
+    /// @param time_s   of the flight; one earlier than the last: it begins anew
+    /// @param clock_s  of /clock, where it begins
+    /// @return whether it begins anew
+    bool tick(double time_s, double clock_s = kClockStart_s);
     /// Ticks on /clock, from 0.
     [[nodiscard]] Tick clock() const { return clock_; }
-    [[nodiscard]] double clock_s() const { return kClockStart_s + seconds(clock_); }
+    [[nodiscard]] double clock_s() const { return start_s_ + seconds(clock_); }
 
     void hear(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
     void hear(const limpet_ros::MechanismCommand& message) { store(message, command_); }
@@ -74,7 +77,6 @@ private:
     void take_events(guidance::EventList& events);
     [[nodiscard]] std::string_view keep(std::string_view text);
 
-    static constexpr double kClockStart_s = 1.0;  ///< ROS takes a time of zero for none
     static constexpr double kStampError_s =
         1e-6;  ///< of a time as a message has it, in nanoseconds
 
@@ -82,6 +84,7 @@ private:
     bool ends_with_mission_ = false;
     std::deque<std::string> texts_;  ///< addresses stay, also those of the flight before
     double flight_s_ = 0.0;
+    double start_s_ = kClockStart_s;
     Tick clock_ = -1;
 
     VehicleMode mode_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guidance as a ROS node: sensors and the autopilot's estimate in, set-points, pump and valve out;
-// perch, take_off and abort by services. What it does is limpet/companion/session.hpp, here are its
-// wires.
+// perch, take_off and abort by services and as actions. What it does is
+// limpet/companion/session.hpp, here are its wires.
+#include <fmt/format.h>
 #include <limpet_ros/MechanismCommand.h>
 #include <limpet_ros/PerchingEvent.h>
 #include <limpet_ros/PerchingStatus.h>
@@ -17,6 +18,9 @@
 #include "limpet/scenario/yaml_reader.hpp"
 #include "ros/src/autopilot_calls.hpp"
 #include "ros/src/convert.hpp"
+#include "ros/src/diagnostics.hpp"
+#include "ros/src/manoeuvre_goal.hpp"
+#include "ros/src/perching_actions.hpp"
 #include "ros/src/setup.hpp"
 #include "ros/src/topics.hpp"
 #include "ros/src/vehicle_mode.hpp"
@@ -50,6 +54,54 @@ companion::SessionSetup read_setup() {
     return session;
 }
 
+Diagnosis diagnosis_of_guidance(const companion::PerchingSession& session) {
+    using companion::SessionPhase;
+    const bool flies = session.phase() == SessionPhase::flying;
+    Diagnosis told{.name = "guidance", .level = Diagnosis::Level::ok};
+    told.values = {
+        {"phase", std::string(to_string(session.phase()))},
+        {"state", flies ? std::string(guidance::to_string(session.memory().state)) : ""},
+        {"place", std::string(companion::to_string(session.place()))},
+        {"outcome", session.outcome() ? std::string(limpet::to_string(*session.outcome())) : ""},
+        {"reason", session.reason()}};
+    told.message = told.values[flies ? 2 : 0].second;
+    if (session.phase() == SessionPhase::handed_back) {
+        told.level = session.end() == companion::CompanionEnd::handed_back ? Diagnosis::Level::error
+                                                                           : Diagnosis::Level::warn;
+        told.message = "control was handed back: " + session.reason();
+    } else if (!session.obstacle().empty()) {
+        told.level = Diagnosis::Level::warn;
+        told.message += ": " + session.obstacle();
+    }
+    return told;
+}
+
+/// How old each input is.
+Diagnosis diagnosis_of_inputs(const companion::SessionInputs& in, double now_s) {
+    constexpr double kOld_s = 1.0;  // whatever comes, comes more often
+    Diagnosis told{.name = "inputs", .level = Diagnosis::Level::ok, .message = "all come"};
+    const auto look = [&](const char* name, double measured_s) {
+        const bool ever = measured_s >= 0.0;
+        told.values.emplace_back(std::string(name) + " age_s",
+                                 ever ? fmt::format("{:.3f}", now_s - measured_s) : "never came");
+        if (!ever || now_s - measured_s > kOld_s) {
+            const bool first = told.level == Diagnosis::Level::ok;
+            told.message = first ? "do not come: " + std::string(name) : told.message + ", " + name;
+            told.level = Diagnosis::Level::error;
+        }
+    };
+    look("mavros/state", in.autopilot.time_s);
+    look("pose", in.pose.time_s);
+    look("velocity", in.velocity_W_m_s.time_s);
+    look("imu", in.rate_B_rad_s.time_s);
+    look("battery", in.readings.battery.time_s);
+    look("lidar/left", in.readings.lidar_left.time_s);
+    look("lidar/right", in.readings.lidar_right.time_s);
+    look("cup/force", in.readings.force.time_s);
+    look("cup/pressure", in.readings.cup_pressure.time_s);
+    return told;
+}
+
 class PerchingNode {
 public:
     explicit PerchingNode(const companion::SessionSetup& setup)
@@ -58,18 +110,22 @@ public:
               {.on_event = [this](const Event& event) { tell(event); },
                .on_line = [](double, const std::string& text) { ROS_INFO("%s", text.c_str()); }}),
           own_("~"),
-          calls_(kRetry_s) {
+          calls_(kRetry_s),
+          actions_(own_, session_),
+          diagnostics_(node_, "perching_node") {
         status_ = own_.advertise<limpet_ros::PerchingStatus>("status", kQueue, true);
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
         position_ = node_.advertise<limpet_ros::PositionTarget>("mavros/setpoint_raw/local", 1);
         attitude_ = node_.advertise<limpet_ros::AttitudeTarget>("mavros/setpoint_raw/attitude", 1);
         mechanism_ = node_.advertise<limpet_ros::MechanismCommand>("mechanism/command", 1, true);
         subscribe();
-        serve("perch", [this](double now_s) { return session_.perch(now_s); });
-        serve("take_off", [this](double now_s) { return session_.take_off(now_s); });
-        serve("abort", [this](double) { return session_.abort(); });
+        for (const auto manoeuvre : {Manoeuvre::perch, Manoeuvre::take_off, Manoeuvre::abort}) {
+            serve(manoeuvre);
+        }
         timer_ = node_.createTimer(::ros::Duration(1.0 / setup.limits.guidance_rate_Hz),
                                    [this](const ::ros::TimerEvent&) { tick(); });
+        slow_timer_ = node_.createTimer(::ros::Duration(1.0 / Diagnostics::kRate_Hz),
+                                        [this](const ::ros::TimerEvent&) { diagnose(); });
     }
 
 private:
@@ -112,13 +168,13 @@ private:
         read<sensor_msgs::FluidPressure>("cup/pressure", readings.cup_pressure, pressure_reading);
         read<sensor_msgs::BatteryState>("mavros/battery", readings.battery, battery_reading);
     }
-    /// @param service  (time) -> Answer
-    template <class Service>
-    void serve(const std::string& name, Service service) {
+    void serve(Manoeuvre manoeuvre) {
+        const std::string name(to_string(manoeuvre));
         using Asked = std_srvs::TriggerRequest;
         using Answered = std_srvs::TriggerResponse;
-        const boost::function<bool(Asked&, Answered&)> call = [=](Asked&, Answered& response) {
-            const companion::Answer answer = service(::ros::Time::now().toSec());
+        const boost::function<bool(Asked&, Answered&)> call = [this, manoeuvre, name](
+                                                                  Asked&, Answered& response) {
+            const companion::Answer answer = ask(session_, manoeuvre, ::ros::Time::now().toSec());
             response.success = answer.done ? 1 : 0;
             response.message = answer.message;
             ROS_INFO("%s: %s", name.c_str(), answer.message.c_str());
@@ -136,6 +192,7 @@ private:
         actuate(now);
         calls_.want(std::string(session_.wanted_mode()), session_.wanted_armed());
         tell(now);
+        actions_.tick(now.toSec());
     }
 
     template <class Target>
@@ -189,14 +246,23 @@ private:
         send(status_, status, now);
     }
 
+    void diagnose() {
+        const ::ros::Time now = ::ros::Time::now();
+        diagnostics_.tell(
+            {diagnosis_of_guidance(session_), diagnosis_of_inputs(session_.inputs(), now.toSec())},
+            now);
+    }
+
     companion::PerchingSession session_;
     ::ros::NodeHandle node_;
     ::ros::NodeHandle own_;
     AutopilotCalls calls_;
+    PerchingActions actions_;
+    Diagnostics diagnostics_;
     ::ros::Publisher status_, event_, position_, attitude_, mechanism_;
     std::vector<::ros::Subscriber> subscribers_;
     std::vector<::ros::ServiceServer> services_;
-    ::ros::Timer timer_;
+    ::ros::Timer timer_, slow_timer_;
     companion::MechanismPace pace_;
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/src/ros_vehicle.hpp"
 
+#include <fmt/format.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
@@ -33,9 +35,12 @@ std::vector<BoundParameter> RosVehicleOptions::rows() {
     return rows;
 }
 
-RosVehicle::RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options)
+RosVehicle::RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options,
+                       std::optional<HostClock> host)
     : options_(options),
       sensors_(scenario.sensors),
+      host_(std::move(host)),
+      diagnostics_(node_, "vehicle"),
       heard_(options.manners, options.ends_with_mission) {
     node_.setCallbackQueue(&queue_);
     advertise();
@@ -53,7 +58,6 @@ simulation::Outside RosVehicle::outside() {
 }
 
 void RosVehicle::advertise() {
-    clock_out_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
     pose_ = node_.advertise<geometry_msgs::PoseStamped>("mavros/local_position/pose", kQueue);
     velocity_ = node_.advertise<geometry_msgs::TwistStamped>("mavros/local_position/velocity_local",
                                                              kQueue);
@@ -143,11 +147,15 @@ void RosVehicle::send_new(const ::ros::Publisher& to, const Sample<T>& sample,
 }
 
 void RosVehicle::send_readings(const Readings& readings) {
-    const auto range = [this](const RangeReading& reading) {
-        return range_message(reading, sensors_.lidar_range_min_m, sensors_.lidar_range_max_m);
+    const auto range_in = [this](std::string_view frame) {
+        return [this, frame](const RangeReading& reading) {
+            return range_message(reading, frame, sensors_.lidar_range_min_m,
+                                 sensors_.lidar_range_max_m);
+        };
     };
-    send_new(left_, readings.lidar_left, last_.lidar_left, range);
-    send_new(right_, readings.lidar_right, last_.lidar_right, range);
+    const auto& [left, right] = record::kLidarFrames;
+    send_new(left_, readings.lidar_left, last_.lidar_left, range_in(left));
+    send_new(right_, readings.lidar_right, last_.lidar_right, range_in(right));
     send_new(force_, readings.force, last_.force, force_message);
     send_new(battery_, readings.battery, last_.battery, battery_message);
     if (!options_.cup_by_node) {
@@ -156,7 +164,64 @@ void RosVehicle::send_readings(const Readings& readings) {
     last_ = readings;
 }
 
+void RosVehicle::show(const simulation::Flight& flight) {
+    if (scene_ == nullptr) {
+        scene_ = std::make_unique<SceneTopics>(node_, flight.model());
+    }
+    if (due(clock_, kEstimate_Hz)) {
+        scene_->show(flight.state().truth, ros_time(clock_s_));
+    }
+    if (due(clock_, Diagnostics::kRate_Hz)) {
+        diagnose();
+    }
+}
+
+void RosVehicle::diagnose() {
+    const std::lock_guard lock(mutex_);
+    Diagnosis simulation{.name = "simulation",
+                         .level = Diagnosis::Level::ok,
+                         .message = "in step with perching_node",
+                         .values = {{"mode", std::string(heard_.mode().mode())},
+                                    {"armed", heard_.mode().armed() ? "yes" : "no"},
+                                    {"flight_s", fmt::format("{:.1f}", flight_s_)}}};
+    if (!heard_.guidance_heard()) {
+        simulation.level = Diagnosis::Level::warn;
+        simulation.message = "no perching_node is heard: holds";
+    } else if (!waits_) {
+        simulation.level = Diagnosis::Level::error;
+        simulation.message =
+            fmt::format("perching_node has said nothing for {:g} s of real time: flown on without",
+                        options_.patience_s);
+    }
+    diagnostics_.tell({simulation}, ros_time(clock_s_));
+}
+
 // --- the simulation's calls ---------------------------------------------------------------------
+
+/// Of /clock, at the first tick of a flight. Nodes begin anew by its going back; where it is the
+/// simulator's and goes on they do not, and are told how they would.
+double RosVehicle::clock_start_s(double time_s) {
+    const std::string other = host_ && !clock_out_ ? host_->publisher() : "";
+    if (!clock_out_ && other.empty()) {
+        clock_out_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
+    }
+    if (!host_) {
+        return Heard::kClockStart_s;
+    }
+    const double now_s = host_->now_s() - time_s;
+    const bool goes_on = clock_ >= 0 && now_s >= clock_s_;
+    if (!other.empty()) {
+        ROS_INFO("/clock is that of %s", other.c_str());
+        if (goes_on) {
+            ROS_WARN(
+                "the flight begins anew and /clock goes on, by which the nodes do not know it: "
+                "reset "
+                "the world's time too (/gazebo/reset_simulation)");
+        }
+        return now_s;
+    }
+    return goes_on ? Heard::kClockStart_s : now_s;
+}
 
 void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, double time_s,
                           guidance::PerchingMemory& guidance, guidance::EventList& events) {
@@ -164,7 +229,8 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
     bool shows_state = false;
     {
         const std::lock_guard lock(mutex_);
-        const bool anew = heard_.tick(time_s);
+        const bool begins = clock_ < 0 || time_s < flight_s_;
+        const bool anew = heard_.tick(time_s, begins ? clock_start_s(time_s) : 0.0);
         clock_ = heard_.clock();
         clock_s_ = heard_.clock_s();
         flight_s_ = time_s;
@@ -181,10 +247,10 @@ void RosVehicle::exchange(const Readings& readings, const Estimate& estimate, do
             lip_.hear(*heard_.answer());
         }
     }
-    if (due(clock_, kClock_Hz)) {
+    if (clock_out_ && due(clock_, kClock_Hz)) {
         rosgraph_msgs::Clock clock;
         clock.clock = ros_time(clock_s_);
-        clock_out_.publish(clock);
+        clock_out_->publish(clock);
     }
     send_readings(readings);
     const ::ros::Time now = ros_time(clock_s_);

@@ -12,6 +12,7 @@
 #include <ros/ros.h>
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,10 +21,12 @@
 
 #include "limpet/core/time.hpp"
 #include "limpet/scenario/scenario.hpp"
-#include "limpet/simulation/outside.hpp"
+#include "limpet/simulation/flight.hpp"
 #include "ros/src/apart_lip.hpp"
 #include "ros/src/convert.hpp"
+#include "ros/src/diagnostics.hpp"
 #include "ros/src/heard.hpp"
+#include "ros/src/scene_topics.hpp"
 
 namespace limpet::ros {
 
@@ -41,6 +44,15 @@ struct RosVehicleOptions {
     [[nodiscard]] std::vector<BoundParameter> rows();
 };
 
+/// The clock of a simulator that has one of its own, and others that look at it (Gazebo's world).
+/// Called at the first tick of each flight.
+struct HostClock {
+    /// Of the state that the flight begins with [s].
+    std::function<double()> now_s;
+    /// Who has it on /clock already; empty: nobody.
+    std::function<std::string()> publisher;
+};
+
 /// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
 /// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
 /// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
@@ -50,11 +62,15 @@ struct RosVehicleOptions {
 class RosVehicle final : public simulation::ExternalGuidance, public simulation::ExternalCup {
 public:
     /// ros::init() has been called.
-    RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options);
+    /// @param host  where /clock is the simulator's; else it begins at 1 s with each flight
+    RosVehicle(const scenario::Scenario& scenario, const RosVehicleOptions& options,
+               std::optional<HostClock> host = std::nullopt);
     ~RosVehicle() override;
 
     /// Guidance, and the cup if it is kept by the node; `this` outlives the flight.
     [[nodiscard]] simulation::Outside outside();
+    /// For viewers; after every tick.
+    void show(const simulation::Flight& flight);
 
     void exchange(const Readings& readings, const Estimate& estimate, double time_s,
                   guidance::PerchingMemory& guidance, guidance::EventList& events) override;
@@ -65,6 +81,8 @@ public:
 
 private:
     void keep_step();
+    [[nodiscard]] double clock_start_s(double time_s);
+    void diagnose();
     void advertise();
     void subscribe();
     [[nodiscard]] ::ros::Time on_clock(double time_s) const;
@@ -84,10 +102,14 @@ private:
     ::ros::CallbackQueue queue_;
     std::vector<::ros::Subscriber> subscribers_;
     std::vector<::ros::ServiceServer> services_;
-    ::ros::Publisher clock_out_, pose_, velocity_, imu_, state_, battery_, left_, right_, force_,
-        pressure_, contact_;
+    std::optional<::ros::Publisher> clock_out_;  ///< none: /clock is somebody else's
+    ::ros::Publisher pose_, velocity_, imu_, state_, battery_, left_, right_, force_, pressure_,
+        contact_;
 
     // of the simulation's thread
+    std::optional<HostClock> host_;
+    Diagnostics diagnostics_;
+    std::unique_ptr<SceneTopics> scene_;  ///< from the first tick on
     Tick clock_ = -1;
     double clock_s_ = 0.0;   ///< time on /clock
     double flight_s_ = 0.0;  ///< the flight's own time at this clock

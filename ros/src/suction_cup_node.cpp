@@ -2,12 +2,14 @@
 // The suction cup as a ROS node (the paper's Figs. 5 and 6): what the lip feels comes in, from the
 // simulator's plugin; the state of the cup, which is its order to attach or detach, and the
 // pressure sensor go out. What it does is suction_cup.hpp, here are its wires.
+#include <fmt/format.h>
 #include <limpet_ros/MechanismCommand.h>
 #include <limpet_ros/PerchingEvent.h>
 #include <std_srvs/SetBool.h>
 
 #include "limpet/core/errors.hpp"
 #include "ros/src/convert.hpp"
+#include "ros/src/diagnostics.hpp"
 #include "ros/src/setup.hpp"
 #include "ros/src/suction_cup.hpp"
 #include "ros/src/topics.hpp"
@@ -25,7 +27,8 @@ scenario::Scenario read_scenario() {
 
 class SuctionCupNode {
 public:
-    explicit SuctionCupNode(const scenario::Scenario& scenario) : cup_(scenario), own_("~") {
+    explicit SuctionCupNode(const scenario::Scenario& scenario)
+        : cup_(scenario), own_("~"), diagnostics_(node_, "suction_cup_node") {
         state_ = node_.advertise<limpet_ros::CupState>("cup/state", kQueue);
         pressure_ = node_.advertise<sensor_msgs::FluidPressure>("cup/pressure", kQueue);
         event_ = own_.advertise<limpet_ros::PerchingEvent>("event", kQueue);
@@ -38,6 +41,8 @@ public:
             });
         pump_ = own_.advertiseService("pump", &SuctionCupNode::switch_pump, this);
         valve_ = own_.advertiseService("valve", &SuctionCupNode::open_valve, this);
+        timer_ = node_.createTimer(::ros::Duration(1.0 / Diagnostics::kRate_Hz),
+                                   [this](const ::ros::TimerEvent&) { diagnose(); });
     }
 
 private:
@@ -47,6 +52,7 @@ private:
             ROS_WARN_THROTTLE(5.0, "cup/contact: a message with a number that is none");
             return;
         }
+        felt_s_ = message.header.stamp.toSec();
         const auto event = cup_.feel(*contact, message.header.stamp.toSec());
         limpet_ros::CupState state = cup_message(cup_.state());
         state.contact = message.number;
@@ -78,13 +84,39 @@ private:
         return true;
     }
 
+    void diagnose() {
+        constexpr double kOld_s = 1.0;  // also away from a wall the plugin tells now and then
+        const ::ros::Time now = ::ros::Time::now();
+        const CupStatus& status = cup_.state().status;
+        const bool holds = status.phase == CupPhase::attached;
+        Diagnosis told{
+            .name = "cup",
+            .level = Diagnosis::Level::ok,
+            .message = std::string(limpet::to_string(status.phase)),
+            .values = {{"pressure_hPa", fmt::format("{:.1f}", 0.01 * status.pressure_Pa)},
+                       {"pump", status.pump_running ? "runs" : "rests"},
+                       {"valve", status.valve_open ? "open" : "shut"}}};
+        // A clock that has begun anew is not behind for long.
+        if (felt_s_ < 0.0 || now.toSec() - felt_s_ > kOld_s) {
+            told.level = Diagnosis::Level::warn;
+            told.message = "nothing is felt: no cup/contact comes from the simulator";
+        } else if (holds && !cup_.pump_on()) {
+            told.level = Diagnosis::Level::warn;
+            told.message = "holds with its pump off: lets go as air comes in";
+        }
+        diagnostics_.tell({told}, now);
+    }
+
     SuctionCup cup_;
     ::ros::NodeHandle node_;
     ::ros::NodeHandle own_;
+    Diagnostics diagnostics_;
+    ::ros::Timer timer_;
     ::ros::Publisher state_, pressure_, event_;
     ::ros::Subscriber contacts_, commands_;
     ::ros::ServiceServer pump_, valve_;
     double sensed_s_ = -1.0;
+    double felt_s_ = -1.0;
 };
 
 void suction_cup_node() {

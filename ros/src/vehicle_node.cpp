@@ -42,7 +42,8 @@ void vehicle_node() {
                  std::string(to_string(event.name)).c_str(), event.reason.empty() ? "" : ": ",
                  std::string(event.reason).c_str());
     };
-    watch.on_tick = [&stop](simulation::Flight&, const guidance::EventList&) {
+    watch.on_tick = [&](simulation::Flight& flight, const guidance::EventList&) {
+        vehicle.show(flight);
         stop = !::ros::ok();
     };
     const std::unique_ptr<record::MessageSink> seen = recording_topics();

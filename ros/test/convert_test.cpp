@@ -71,10 +71,11 @@ TEST(RosConvert, VelocityAndRatesTurnWithTheirFrames) {
 }
 
 TEST(RosConvert, NoEchoIsInfinity) {
-    const auto none = range_message({.distance_m = 0.0, .valid = false}, 0.1, 12.0);
+    const auto none = range_message({.distance_m = 0.0, .valid = false}, "lidar_left", 0.1, 12.0);
+    EXPECT_EQ(none.header.frame_id, "lidar_left");
     EXPECT_TRUE(std::isinf(none.range));
     EXPECT_FALSE(range_reading(none)->valid);
-    const auto echo = range_message({.distance_m = 1.5, .valid = true}, 0.1, 12.0);
+    const auto echo = range_message({.distance_m = 1.5, .valid = true}, "lidar_left", 0.1, 12.0);
     EXPECT_TRUE(range_reading(echo)->valid);
     EXPECT_NEAR(range_reading(echo)->distance_m, 1.5, 1e-6);
     auto far = echo;

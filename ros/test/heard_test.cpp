@@ -94,6 +94,13 @@ TEST_F(AWorldReset, SetsTheClockBackByWhichTheNodesNotice) {
     EXPECT_EQ(heard_.clock_s(), 1.0 + seconds(1));
 }
 
+TEST_F(AWorldReset, BeginsWhereTheSimulatorsClockIs) {
+    EXPECT_TRUE(heard_.tick(0.0, 57.25));
+    EXPECT_EQ(heard_.clock_s(), 57.25);
+    EXPECT_FALSE(heard_.tick(seconds(1), 99.0)) << "it has begun";
+    EXPECT_EQ(heard_.clock_s(), 57.25 + seconds(1));
+}
+
 TEST_F(AWorldReset, DoesNotBelieveWhatWasOnItsWay) {
     const double before_s = heard_.clock_s();
     heard_.tick(0.0);

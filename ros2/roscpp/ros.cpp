@@ -243,7 +243,8 @@ std::shared_ptr<ros2::Client> detail::client(const std::string& service,
 
 ros2::Profile detail::profile_of(const std::string& type, std::uint32_t queue) {
     const auto is = [&type](const char* begin) { return type.starts_with(begin); };
-    const bool once = is("sensor_msgs::") || is("geometry_msgs::") || is("rosgraph_msgs::") ||
+    const bool measured = is("sensor_msgs::") && !is("sensor_msgs::msg::dds_::JointState_");
+    const bool once = measured || is("geometry_msgs::") || is("rosgraph_msgs::") ||
                       is("mavros_msgs::msg::dds_::PositionTarget_") ||
                       is("mavros_msgs::msg::dds_::AttitudeTarget_");
     constexpr std::uint32_t kMost = 100;

@@ -2,9 +2,10 @@
 #include "ros/src/recording_topics.hpp"
 
 #include <ros/ros.h>
-#include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "limpet/record/topics.hpp"
@@ -21,35 +22,22 @@ std::string wire_type(std::string_view type) {
            "::msg::dds_::" + std::string(type.substr(name + 1)) + "_";
 }
 
-/// Time zero of a flight, on /clock.
-double flight_start_s() {
-    Heard heard({}, false);
-    static_cast<void>(heard.tick(0.0));
-    return heard.clock_s();
-}
-
 class RecordingTopics final : public record::MessageSink {
 public:
     void channel(const record::SinkChannel& channel) override {
-        using record::is_of_scene;
-        if (channel.topic == record::kMarkersTopic) {
-            return;  // arrows and beams: their stamps lie deep inside, and RViz has its own
+        if (record::is_of_scene(channel.topic)) {
+            return;  // those of ros/src/scene_topics.hpp
         }
-        const bool stays =
-            channel.topic == record::kDescriptionTopic || channel.topic == record::kStandingTopic;
-        // Of viewers, under the names that they look for.
-        const std::string name =
-            (is_of_scene(channel.topic) ? "" : "limpet") + std::string(channel.topic);
+        const std::string name = "limpet" + std::string(channel.topic);
         ros2::Node& node = ::ros::detail::node();
         const std::string type = wire_type(channel.type);
-        constexpr std::uint32_t kAsTf2 = 100;
-        topics_[channel.id] = {
-            .writer = node.advertise(
-                node.settings().resolve(is_of_scene(channel.topic) ? name.substr(1) : name), type,
-                stays ? ros2::kLatched : ::ros::detail::profile_of(type, kAsTf2)),
-            .kind = channel.topic == record::kDescriptionTopic ? Kind::timeless
-                    : is_of_scene(channel.topic)               ? Kind::transforms
-                                                               : Kind::stamped};
+        constexpr std::uint32_t kDepth = 100;
+        std::shared_ptr<ros2::Writer>& writer = writers_[name];  // the flight before had it too
+        if (!writer) {
+            writer = node.advertise(node.settings().resolve(name), type,
+                                    ::ros::detail::profile_of(type, kDepth));
+        }
+        topics_[channel.id] = writer;
     }
 
     void message(std::uint16_t channel, std::uint64_t /*time_ns*/, mcap::ByteView data) override {
@@ -58,24 +46,12 @@ public:
             return;
         }
         ros2::Bytes bytes(data.begin(), data.end());
-        switch (topic->second.kind) {
-            case Kind::timeless: break;
-            case Kind::stamped: shift(bytes); break;
-            case Kind::transforms: shift_transforms(bytes); break;
-        }
-        topic->second.writer->write(bytes);
+        shift(bytes);
+        topic->second->write(bytes);
     }
 
 private:
-    enum class Kind {
-        stamped,     ///< begins with its stamp
-        transforms,  ///< a TFMessage
-        timeless,
-    };
-    struct Topic {
-        std::unique_ptr<ros2::Writer> writer;
-        Kind kind = Kind::stamped;
-    };
+    /// What a message begins with.
     struct Stamp {
         ::ros::Time stamp;
         template <class Self, class Visit>
@@ -84,24 +60,16 @@ private:
         }
     };
 
-    [[nodiscard]] ::ros::Time on_clock(const ::ros::Time& flight) const {
-        return ::ros::Time(flight.toSec() + start_s_);
-    }
-    void shift(ros2::Bytes& bytes) const {
+    /// From the flight's time to /clock's.
+    static void shift(ros2::Bytes& bytes) {
         const auto told = ros2::decode<Stamp>(bytes);
-        const ros2::Bytes stamp = ros2::encode(Stamp{on_clock(told.value().stamp)});
+        const ros2::Bytes stamp =
+            ros2::encode(Stamp{::ros::Time(told.value().stamp.toSec() + Heard::kClockStart_s)});
         std::copy(stamp.begin(), stamp.end(), bytes.begin());
     }
-    void shift_transforms(ros2::Bytes& bytes) const {
-        auto transforms = ros2::decode<tf2_msgs::TFMessage>(bytes).value();
-        for (auto& transform : transforms.transforms) {
-            transform.header.stamp = on_clock(transform.header.stamp);
-        }
-        bytes = ros2::encode(transforms);
-    }
 
-    double start_s_ = flight_start_s();
-    std::map<std::uint16_t, Topic> topics_;
+    std::map<std::string, std::shared_ptr<ros2::Writer>> writers_;
+    std::map<std::uint16_t, std::shared_ptr<ros2::Writer>> topics_;  ///< of this flight
 };
 
 }  // namespace

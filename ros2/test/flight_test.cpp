@@ -2,58 +2,21 @@
 // Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched
 // by another DDS library.
 #include <gtest/gtest.h>
+#include <limpet_ros/PerchingAction.h>
 #include <limpet_ros/PerchingStatus.h>
-#include <spawn.h>
 #include <std_srvs/Trigger.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <map>
 #include <mutex>
 
 #include "peer.h"
 #include "ros2/dds/node.hpp"
 #include "ros2/test/peer.hpp"
+#include "ros2/test/process.hpp"
 
 namespace limpet::ros2 {
 namespace {
-
-/// A node's process; ends with this.
-class Process {
-public:
-    Process(const std::string& program, std::vector<std::string> parameters) {
-        std::vector<std::string> words = {program, "--ros-args"};
-        for (std::string& parameter : parameters) {
-            words.insert(words.end(), {"-p", std::move(parameter)});
-        }
-        std::vector<char*> arguments;
-        for (std::string& word : words) {
-            arguments.push_back(word.data());
-        }
-        arguments.push_back(nullptr);
-        const std::string path = std::string(LIMPET_ROS2_NODES) + "/" + program;
-        require(posix_spawn(&id_, path.c_str(), nullptr, nullptr, arguments.data(), environ) == 0,
-                "a node starts");
-    }
-    ~Process() { static_cast<void>(end()); }
-    Process(const Process&) = delete;
-    Process& operator=(const Process&) = delete;
-
-    /// @return its exit code after Ctrl-C, -1 when it did not end well
-    int end() {
-        if (id_ == 0) {
-            return -1;
-        }
-        kill(id_, SIGINT);
-        int status = 0;
-        waitpid(std::exchange(id_, 0), &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-
-private:
-    pid_t id_ = 0;
-};
 
 class Ros2Flight : public testing::Test {
 protected:
@@ -80,13 +43,31 @@ protected:
             .value_or(std_srvs::TriggerResponse());
     }
 
+    /// A word of rclcpp's action client.
+    template <class Request, class Response>
+    Response ask(const std::string& service, const Request& request, double patience_s) {
+        const auto client = node_->client(service, Request::kType, Response::kType);
+        EXPECT_TRUE(soon([&] { return client->is_served(); })) << service;
+        const auto answer = client->call(encode(request), patience_s);
+        EXPECT_TRUE(answer) << service;
+        return decode<Response>(answer.value_or(Bytes())).value_or(Response());
+    }
+    bool send_goal(std::uint8_t id) {
+        using Action = limpet_ros::PerchingAction;
+        Action::SendGoalRequest request;
+        request.goal_id.uuid[0] = id;
+        return ask<Action::SendGoalRequest, Action::SendGoalResponse>(
+                   "/perching_node/take_off/_action/send_goal", request, 5.0)
+                   .accepted != 0;
+    }
+
     int domain_ = 1 + static_cast<int>(getpid() % 100);
     std::unique_ptr<Node> node_;
     std::mutex mutex_;
     limpet_ros::PerchingStatus status_;
 };
 
-TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
+TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
     Process vehicle("vehicle_node", {"scenario:=perch_concrete", "speed:=3.0",
                                      "set:=simulation.time_limit_s=3600"});
     Process cup("suction_cup_node", {"as_vehicle:=true", "use_sim_time:=true"});
@@ -114,6 +95,7 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
 
     ASSERT_TRUE(status_is(60, [](const auto& s) { return s.phase == "ready"; }));
     EXPECT_FALSE(call("/perching_node/take_off").success);
+    EXPECT_FALSE(send_goal(1));
     const auto begins = call("/perching_node/perch");
     ASSERT_TRUE(begins.success) << begins.message;
     ASSERT_TRUE(status_is(90, [](const auto& s) { return s.outcome == "perched"; }));
@@ -150,9 +132,26 @@ TEST_F(Ros2Flight, PerchesRestsAndTakesOffByService) {
         descriptions, [&](const std_msgs_msg_dds__String_& text) { description = text.data; });
     EXPECT_NE(description.find("<robot"), std::string::npos);
 
-    const auto leaves = call("/perching_node/take_off");
-    ASSERT_TRUE(leaves.success) << leaves.message;
-    EXPECT_TRUE(status_is(120, [](const auto& s) { return s.outcome == "released"; }));
+    using Action = limpet_ros::PerchingAction;
+    std::set<std::string> states;  // of the take-off's feedback; by mutex_
+    const auto feedback = node_->subscribe(
+        "/perching_node/take_off/_action/feedback", Action::FeedbackMessage::kType, {},
+        [&](const Bytes& bytes) {
+            const std::lock_guard lock(mutex_);
+            states.insert(decode<Action::FeedbackMessage>(bytes).value().feedback.state);
+        });
+    ASSERT_TRUE(send_goal(2));
+    Action::GetResultRequest of_goal;
+    of_goal.goal_id.uuid[0] = 2;
+    const auto end = ask<Action::GetResultRequest, Action::GetResultResponse>(
+        "/perching_node/take_off/_action/get_result", of_goal, 120.0);
+    constexpr int kSucceeded = 4;
+    EXPECT_EQ(end.status, kSucceeded);
+    EXPECT_EQ(end.result.outcome, "released") << end.result.reason;
+    {
+        const std::lock_guard lock(mutex_);
+        EXPECT_GE(states.size(), 2U);  // on its way it comes through several
+    }
     EXPECT_EQ(guidance.end(), 0);
     EXPECT_EQ(cup.end(), 0);
     EXPECT_EQ(vehicle.end(), 0);

@@ -64,8 +64,9 @@ std::pair<Vector3, Vector3> face_of(const Written& world) {
 TEST(GazeboWorld, TheWallsFaceIsWhereTheScenesIs) {
     const Written world(flight());
     const auto [point, normal] = face_of(world);
-    EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
-    EXPECT_LT((normal - Vector3(-1.0, 0.0, 0.0)).norm(), 1e-12);
+    // In the north: y, as in ROS's map.
+    EXPECT_LT((point - Vector3(0.0, 2.2, 0.0)).norm(), 1e-12);
+    EXPECT_LT((normal - Vector3(0.0, -1.0, 0.0)).norm(), 1e-12);
     EXPECT_STREQ(world.model("wall").child("static").text().get(), "true");
 }
 
@@ -79,7 +80,7 @@ TEST(GazeboWorld, ARoundWallStandsARadiusBehindItsFace) {
     const auto shape = wall.child("link").child("collision").child("geometry").child("cylinder");
     EXPECT_EQ(shape.child("radius").text().as_double(), 3.0);
     EXPECT_EQ(shape.child("length").text().as_double(), 2.0 * face.half_height_m);
-    EXPECT_LT((pose_of(wall).translation() - Vector3(5.2, 0.0, 0.0)).norm(), 1e-12);
+    EXPECT_LT((pose_of(wall).translation() - Vector3(0.0, 5.2, 0.0)).norm(), 1e-12);
 }
 
 TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
@@ -87,9 +88,9 @@ TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
     east.walls[0].face.p_WT_m = {0.0, 2.2, -0.3};
     east.walls[0].face.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
     const auto [point, normal] = face_of(Written(east));
-    // East is minus west, up is minus down.
-    EXPECT_LT((point - Vector3(0.0, -2.2, 0.3)).norm(), 1e-12);
-    EXPECT_LT((normal - Vector3(0.0, 1.0, 0.0)).norm(), 1e-12);
+    // East is x, up is minus down.
+    EXPECT_LT((point - Vector3(2.2, 0.0, 0.3)).norm(), 1e-12);
+    EXPECT_LT((normal - Vector3(-1.0, 0.0, 0.0)).norm(), 1e-12);
 }
 
 TEST(GazeboWorld, AWallThatLeansAwayLooksUp) {
@@ -98,8 +99,8 @@ TEST(GazeboWorld, AWallThatLeansAwayLooksUp) {
     leaning.walls[0].face.R_WT =
         Eigen::AngleAxisd(radians(-20.0), Vector3::UnitY()).toRotationMatrix();
     const auto [point, normal] = face_of(Written(leaning));
-    EXPECT_LT((point - Vector3(2.2, 0.0, 0.0)).norm(), 1e-12);
-    EXPECT_NEAR(normal.x(), -0.9396926207859084, 1e-12);
+    EXPECT_LT((point - Vector3(0.0, 2.2, 0.0)).norm(), 1e-12);
+    EXPECT_NEAR(normal.y(), -0.9396926207859084, 1e-12);
     EXPECT_NEAR(normal.z(), 0.3420201433256687, 1e-12);
 }
 
@@ -109,10 +110,10 @@ TEST(GazeboWorld, TheVehicleStandsAtItsStart) {
     world.vehicles[0].q_WB =
         quaternion_from_euler({.pitch_rad = radians(10.0), .yaw_rad = radians(6.0)});
     const Eigen::Isometry3d pose = pose_of(Written(world).model("uav"));
-    EXPECT_LT((pose.translation() - Vector3(0.5, -0.1, 0.25)).norm(), 1e-12);
-    // Six degrees to the right and ten up, by hand: north cos 6 cos 10, east sin 6 cos 10, up
-    // sin 10.
-    const Vector3 nose(0.9794128730990714, -0.10294044103643694, 0.17364817766693033);
+    EXPECT_LT((pose.translation() - Vector3(0.1, 0.5, 0.25)).norm(), 1e-12);
+    // Six degrees to the right of north and ten up, by hand: east sin 6 cos 10, north cos 6 cos 10,
+    // up sin 10.
+    const Vector3 nose(0.10294044103643694, 0.9794128730990714, 0.17364817766693033);
     EXPECT_LT((pose.linear().col(0) - nose).norm(), 1e-12);
     EXPECT_NEAR(pose.linear().col(1).z(), 0.0, 1e-12);  // no roll
 }
@@ -190,7 +191,8 @@ TEST(GazeboWorld, TheCameraLooksAtItsTarget) {
                                 .folder = "/frames"};
     const Written written(world);
     const Eigen::Isometry3d pose = pose_of(written.model("camera"));
-    const Vector3 along = (Vector3(1.0, 0.5, 0.25) - Vector3(-3.0, -4.0, 2.0)).normalized();
+    // North-west-up there, east-north-up here.
+    const Vector3 along = (Vector3(-0.5, 1.0, 0.25) - Vector3(4.0, -3.0, 2.0)).normalized();
     EXPECT_LT((pose.linear().col(0) - along).norm(), 1e-12);
     EXPECT_GT(pose.linear().col(2).z(), 0.0);
     EXPECT_NEAR(pose.linear().col(1).z(), 0.0, 1e-12);

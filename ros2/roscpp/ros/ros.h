@@ -226,8 +226,22 @@ public:
     template <class Request, class Response>
     [[nodiscard]] ServiceServer advertiseService(
         const std::string& service, boost::function<bool(Request&, Response&)> call) const {
+        return serveLater<Request>(
+            service, Response::kType,
+            [call](Request& request, const limpet::ros2::Node::Reply& reply) {
+                Response response;
+                if (call(request, response)) {
+                    reply(limpet::ros2::encode(response));
+                }
+            });
+    }
+    /// One that replies when it likes, of this process's threads in any: roscpp has none of these.
+    /// @param call  (Request&, reply)
+    template <class Request, class Call>
+    [[nodiscard]] ServiceServer serveLater(const std::string& service,
+                                           const std::string& response_type, Call call) const {
         const std::string name = resolve(service);
-        return {detail::node().serve(name, Request::kType, Response::kType,
+        return {detail::node().serve(name, Request::kType, response_type,
                                      [=, calls = queue()](const limpet::ros2::Bytes& bytes,
                                                           const limpet::ros2::Node::Reply& reply) {
                                          const auto request = limpet::ros2::decode<Request>(bytes);
@@ -236,10 +250,7 @@ public:
                                              return;
                                          }
                                          calls->add([call, reply, asked = *request]() mutable {
-                                             Response response;
-                                             if (call(asked, response)) {
-                                                 reply(limpet::ros2::encode(response));
-                                             }
+                                             call(asked, reply);
                                          });
                                      })};
     }
