@@ -31,6 +31,7 @@ serve::ServerOptions server_for_viewers(std::uint16_t port) {
     serve::ServerOptions options;
     options.port = port;
     options.token = serve::make_token();
+    options.most_queued_bytes = std::size_t{4} << 20U;  // some ten seconds of a flight
     // Foxglove's page, and the two programs, whose pages are files; the lab's.
     options.origins = {"https://app.foxglove.dev", "file://", "http://127.0.0.1:*",
                        "http://localhost:*"};

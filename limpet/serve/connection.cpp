@@ -117,6 +117,7 @@ public:
                 [self = shared_from_this()](error_code error, std::size_t /*bytes*/) {
                     self->writing_ = false;
                     if (!error) {
+                        self->shared_.last_frame_out = std::chrono::steady_clock::now();
                         self->flush();
                     }
                 });

@@ -3,6 +3,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <chrono>
 #include <map>
 #include <memory>
 #include <set>
@@ -47,6 +48,7 @@ struct Shared {
     Routes routes = {};
     std::set<Connection*> connections = {};
     bool stopping = false;
+    std::chrono::steady_clock::time_point last_frame_out = {};  ///< to anybody
 };
 
 /// Serves requests until the client goes, or becomes a WebSocket.

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/asio/steady_timer.hpp>
 #include <thread>
 
@@ -19,7 +20,9 @@ using std::chrono::milliseconds;
 
 // Assumed: quicker than a viewer draws, and so seldom that nobody notices the waking.
 constexpr milliseconds kFlush(10);
-constexpr milliseconds kLastWords(500);
+// Assumed: who takes nothing for a second, as a page takes that draws slowly, has gone; nobody is
+// waited for longer than ten.
+constexpr milliseconds kLastWords(1000), kLongestGoodbye(10'000);
 
 tcp::endpoint endpoint_of(const ServerOptions& options) {
     error_code error;
@@ -84,10 +87,7 @@ struct Server::Inside {
                     connection->flush();
                 }
             }
-            const bool over =
-                shared.stopping &&
-                (shared.connections.empty() || std::chrono::steady_clock::now() > last_words_end);
-            if (over) {
+            if (shared.stopping && (shared.connections.empty() || all_is_said())) {
                 const auto rest = shared.connections;
                 for (Connection* connection : rest) {
                     connection->drop();
@@ -98,9 +98,16 @@ struct Server::Inside {
         });
     }
 
+    /// Or there is nobody who listens.
+    [[nodiscard]] bool all_is_said() const {
+        const auto now = std::chrono::steady_clock::now();
+        return now > std::max(shared.last_frame_out, stopped) + kLastWords ||
+               now > stopped + kLongestGoodbye;
+    }
+
     void finish() {
         shared.stopping = true;
-        last_words_end = std::chrono::steady_clock::now() + kLastWords;
+        stopped = std::chrono::steady_clock::now();
         error_code ignored;
         acceptor.close(ignored);
         pause.cancel();
@@ -114,7 +121,7 @@ struct Server::Inside {
     boost::asio::io_context io{1};
     tcp::acceptor acceptor{io};
     boost::asio::steady_timer timer{io}, pause{io};
-    std::chrono::steady_clock::time_point last_words_end;
+    std::chrono::steady_clock::time_point stopped;
     std::uint16_t port = 0;
     std::thread thread;
 };

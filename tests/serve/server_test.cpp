@@ -253,6 +253,28 @@ TEST_F(Served, StopSendsWhatIsQueuedAndSaysGoodbye) {
     EXPECT_FALSE(session->is_open());
 }
 
+TEST_F(Served, StopWaitsForWhoReadsSlowly) {
+    serve();
+    SocketClient client(server->port(), 4096);
+    client.shake_hands("/secret/", "new");
+    const auto session = echo.opened.get_future().get();
+    const std::string frame(10'000, 'x');
+    int sent = 0;
+    while (session->send_binary({frame})) {
+        ++sent;
+    }
+    auto heard = std::async(std::launch::async, [&client, &frame] {
+        int count = 0;
+        while (client.receive() == frame) {
+            ++count;
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));  // two seconds in all
+        }
+        return count;
+    });
+    server->stop();
+    EXPECT_EQ(heard.get(), sent);
+}
+
 TEST_F(Served, StopDoesNotWaitForWhoDoesNotRead) {
     serve();
     SocketClient client(server->port(), 4096);
