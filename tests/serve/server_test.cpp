@@ -267,7 +267,7 @@ TEST_F(Served, StopWaitsForWhoReadsSlowly) {
         int count = 0;
         while (client.receive() == frame) {
             ++count;
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));  // two seconds in all
+            std::this_thread::sleep_for(std::chrono::milliseconds(15));  // well over a second
         }
         return count;
     });
