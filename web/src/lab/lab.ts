@@ -43,6 +43,7 @@ export class Lab {
   private catalogue: server.Catalogue | undefined;
   private readonly reflights: Reflights;
   private telling: ReturnType<typeof setTimeout> | undefined;
+  private building = 0; // asked for and not there yet
   readonly many: Many;
   readonly learn: Learn;
   readonly swing: Swing;
@@ -125,7 +126,12 @@ export class Lab {
       const value = this.changes.get(key);
       return value === undefined ? [] : [`${key}=${value}`];
     });
-    const schema = await server.schema({ scenario: this.changes.scenario, set: named });
+    this.building += 1;
+    const schema = await server
+      .schema({ scenario: this.changes.scenario, set: named })
+      .finally(() => {
+        this.building -= 1;
+      });
     this.buildChoices(schema);
     this.many.offer(schema.sections, this.catalogue?.campaigns ?? []);
     this.swing.offer(schema.sections);
@@ -378,7 +384,7 @@ export class Lab {
   /** For those who look at the page from outside. */
   state(): Record<string, unknown> {
     return {
-      idle: this.reflights.idle,
+      idle: this.reflights.idle && this.building === 0,
       changes: this.changes.list(),
       command: this.changes.command(),
       delays: [...this.reflights.delays],
