@@ -60,7 +60,7 @@ OptionList options_of(DossierChoices& options) {
 
 Verb dossier_verb() {
     return verb<DossierChoices>(
-        "dossier", "Write a credibility report: use, numerical error, inputs, evidence, bounds",
+        "dossier", "Write a credibility report: errors, inputs, evidence and bounds",
         options_of, make_dossier,
         "In the shape of NASA-STD-7009 and ASME V&V 40, from campaigns and tests that it flies "
         "itself: over\nseeds, with half the steps, on another engine, over uncertain inputs, and "

@@ -52,9 +52,9 @@ void say_how(const Px4LinkOptions& options, const std::string& scenario, Termina
 
 Option px4_start_option(std::optional<std::string>& start) {
     return {"--px4 BUILD", &start,
-            "starts it: the folder of a PX4 built for simulation, which flies with the\n"
-            "parameters that px4-params would write; or a command, {instance} and\n"
-            "{folder} in it, as in 'my_px4 -i {instance} -w {folder}'"};
+            "starts it: the folder of a PX4 built for simulation, which flies\n"
+            "with the parameters that px4-params would write; or a command,\n"
+            "{instance} and {folder} in it: 'my_px4 -i {instance} -w {folder}'"};
 }
 
 OptionList options_of(Px4LinkOptions& options, bool flies) {

@@ -184,7 +184,7 @@ OptionList options_of(StudyOptions& options) {
 
 Verb study_verb() {
     return verb<StudyOptions>(
-        "study", "Ask which inputs make a number what it is: Sobol indices, spread, probability",
+        "study", "Ask which inputs make a number what it is: Sobol indices, its spread",
         options_of, make_study,
         "  limpet study perch_concrete --of impact_force_N \\\n"
         "    --vary guidance.dock_speed_m_s=0.9..1.2 --vary vehicle.slider.stiffness_N_m=300..800\n"

@@ -31,7 +31,6 @@ serve::ServerOptions server_for_viewers(std::uint16_t port) {
     serve::ServerOptions options;
     options.port = port;
     options.token = serve::make_token();
-    options.most_queued_bytes = std::size_t{4} << 20U;  // some ten seconds of a flight
     // Foxglove's page, and the two programs, whose pages are files; the lab's.
     options.origins = {"https://app.foxglove.dev", "file://", "http://127.0.0.1:*",
                        "http://localhost:*"};
@@ -50,7 +49,8 @@ Live::~Live() {
 void Live::channel(const record::SinkChannel& channel) {
     const std::lock_guard lock(guards_all_);
     if (channel.id < channels_.size() && channels_[channel.id].topic == channel.topic) {
-        latches_[channel.id] = {.holds = latches_[channel.id].holds};
+        latches_[channel.id] = {.holds = latches_[channel.id].holds,
+                                .rare = latches_[channel.id].rare};
         next_time_ns_ = 0;  // another flight begins
         return;
     }
@@ -58,9 +58,12 @@ void Live::channel(const record::SinkChannel& channel) {
     channels_.push_back({channel.id, std::string(channel.topic), std::string(channel.type),
                          std::string(channel.encoding), std::string(channel.schema_encoding),
                          std::string(channel.schema)});
-    latches_.push_back({.holds = channel.topic == record::kDescriptionTopic ||
-                                 channel.topic == record::kStandingTopic ||
-                                 channel.topic == record::kMarkersTopic});
+    const bool holds = channel.topic == record::kDescriptionTopic ||
+                       channel.topic == record::kStandingTopic ||
+                       channel.topic == record::kMarkersTopic;
+    latches_.push_back(
+        {.holds = holds,
+         .rare = holds || channel.topic == record::info(record::Topic::events).name});
     for (auto& [session, viewer] : viewers_) {
         viewer.subscriptions.emplace_back();
         viewer.session->send_text(advertise({&channels_.back(), 1}));
@@ -94,7 +97,7 @@ void Live::message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView 
     }
     for (auto& [session, viewer] : viewers_) {
         if (time) {
-            viewer.session->send_binary({view_of(time_message(time_ns))});
+            viewer.session->stream({view_of(time_message(time_ns))});
         }
         send(viewer, channel, time_ns, data);
     }
@@ -103,7 +106,12 @@ void Live::message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView 
 void Live::send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) {
     if (const auto& subscription = viewer.subscriptions[channel]) {
         ++count_.messages;
-        viewer.session->send_binary({view_of(message_head(*subscription, time_ns)), view_of(data)});
+        const auto head = message_head(*subscription, time_ns);
+        if (latches_[channel].rare) {
+            viewer.session->send_binary({view_of(head), view_of(data)});
+        } else {
+            viewer.session->stream({view_of(head), view_of(data)});
+        }
     }
 }
 

@@ -92,6 +92,7 @@ private:
     /// Of a channel whose messages hold on: its first one and the latest.
     struct Latch {
         bool holds = false;
+        bool rare = false;  ///< none is dropped for later ones, as events
         std::optional<Kept> first = {}, latest = {};
     };
     struct Viewer {

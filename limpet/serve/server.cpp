@@ -20,9 +20,9 @@ using std::chrono::milliseconds;
 
 // Assumed: quicker than a viewer draws, and so seldom that nobody notices the waking.
 constexpr milliseconds kFlush(10);
-// Assumed: who takes nothing for a second, as a page takes that draws slowly, has gone; nobody is
-// waited for longer than ten.
-constexpr milliseconds kLastWords(1000), kLongestGoodbye(10'000);
+// Assumed: who takes nothing for so long has gone, a page that draws slowly has not; nobody is
+// waited for longer than that.
+constexpr milliseconds kLastWords(2000), kLongestGoodbye(10'000);
 
 tcp::endpoint endpoint_of(const ServerOptions& options) {
     error_code error;

@@ -20,10 +20,14 @@ class FrameQueue {
 public:
     explicit FrameQueue(std::size_t most_bytes);
 
-    /// One frame made of `parts`. The last eighth of the room is for texts: data that a client
-    /// reads too slowly leaves place for what is said about it.
-    /// @return false where there is no room: the frame is dropped and counted
-    bool put(bool text, std::initializer_list<std::string_view> parts);
+    enum class Kind : std::uint32_t {
+        stream,  ///< binary; where there is no room, what was is dropped for what is
+        kept,    ///< binary
+        text     ///< kept
+    };
+    /// One frame made of `parts`. Frames that are dropped are counted.
+    /// @return false where there is no room, though all that streams was dropped
+    bool put(Kind kind, std::initializer_list<std::string_view> parts);
 
     struct Frame {
         bool text = false;
@@ -35,6 +39,8 @@ public:
     [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
 private:
+    void drop_stream();
+
     const std::size_t most_bytes_;
     std::mutex guards_filling_;
     std::vector<char> filling_;  ///< frames, each behind its size and kind
@@ -56,6 +62,9 @@ public:
     /// @return false: dropped, the queue is full or the client has gone
     bool send_text(std::string_view text);
     bool send_binary(std::initializer_list<std::string_view> parts);
+    /// Of many that follow one another, each older than the next: whoever reads slowly gets the
+    /// newest ones.
+    bool stream(std::initializer_list<std::string_view> parts);
     /// What a client has asked for and no queue has room for, on the server's thread; a few of
     /// them may wait. They go out when the queue is empty.
     /// @return false: too many wait already, or the client has gone

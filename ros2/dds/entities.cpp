@@ -242,12 +242,18 @@ public:
         return static_cast<int>(readers_.size());
     }
     void wait_for_reader(const Guid& reader, double patience_s) override {
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, std::chrono::duration<double>(patience_s),
-                          [&] { return readers_.contains(reader); });
+        wait(patience_s, [&] { return readers_.contains(reader); });
+    }
+    void wait_for_readers(int count, double patience_s) override {
+        wait(patience_s, [&] { return static_cast<int>(readers_.size()) >= count; });
     }
 
 private:
+    template <class Come>
+    void wait(double patience_s, Come come) {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, std::chrono::duration<double>(patience_s), come);
+    }
     void on_publication_matched(fast::DataWriter*,
                                 const fast::PublicationMatchedStatus& status) override {
         const Guid reader = guid_of(rtps::iHandle2GUID(status.last_subscription_handle));

@@ -144,10 +144,11 @@ private:
     void hear(Bytes bytes, const dds::Sample& sample) {
         if (way_ == ServiceWay::cyclone) {
             if (const auto header = header_of(bytes)) {
-                serve_(std::move(bytes),
-                       [replies = replies_, header = *header](const Bytes& reply) {
-                           (*replies)->write(with_header(header, reply), {});
-                       });
+                serve_(std::move(bytes), [replies = replies_, header = *header,
+                                          clients = (*requests_)->writers()](const Bytes& reply) {
+                    (*replies)->wait_for_readers(clients, kMatch_s);  // each client has one
+                    (*replies)->write(with_header(header, reply), {});
+                });
             }
             return;
         }
@@ -165,7 +166,9 @@ private:
         });
     }
 
-    static constexpr double kMatch_s = 0.1;  ///< as rmw_fastrtps waits
+    /// For who asks is known before its reader of replies may be. rmw_fastrtps waits 0.1 s, which
+    /// on a busy machine is too short.
+    static constexpr double kMatch_s = 0.5;
 
     ServiceWay way_;
     std::shared_ptr<ListedWriter> replies_;

@@ -238,8 +238,9 @@ TEST_F(Simulation, LoadsOtherWorldsAndStaysWhereAFlightHasEnded) {
                 });
     EXPECT_EQ(set_state(kPaused), kOk);
     EntityState falls = state_of(kVehicle);
-    falls.twist.linear.z = -15.0;  // more than it can brake
-    EXPECT_EQ(put(kVehicle, falls, false, true), kOk);
+    falls.pose.orientation = {1.0, 0.0, 0.0, 0.0};  // on its back, rotors below
+    falls.twist.linear.z = -15.0;                   // before it can turn
+    EXPECT_EQ(put(kVehicle, falls, true, true), kOk);
     EXPECT_EQ(step(2'000), kFailed);  // it has hit the ground
     EXPECT_EQ(state(), kPaused);
     EXPECT_EQ(set_state(kPlaying), kSpecial + 1);  // STATE_TRANSITION_ERROR

@@ -75,7 +75,7 @@ TEST(LiveView, TheSurroundingsAreWatchedAlone) {
     const nlohmann::json info = next(*viewer, "serverInfo");
     EXPECT_EQ(info.at("name"), "limpet sim-io: perch_concrete");
     EXPECT_EQ(info.at("capabilities"),
-              nlohmann::json({"time", "parameters", "parametersSubscribe"}));
+              nlohmann::json({"time", "assets", "parameters", "parametersSubscribe"}));
 }
 
 }  // namespace

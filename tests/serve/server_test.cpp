@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <future>
 #include <list>
 #include <thread>
+#include <vector>
 
 #include "../support/allocations.hpp"
 #include "client.hpp"
@@ -197,25 +199,61 @@ TEST_F(Served, AListenersMistakeEndsThatSessionAlone) {
     EXPECT_EQ(status(http::verb::get, "/secret/"), 200U);
 }
 
-TEST_F(Served, ASlowReaderLosesFramesAndNobodyWaits) {
+TEST_F(Served, ASlowReaderGetsWhatIsNewAndNobodyWaits) {
     serve({.most_queued_bytes = 100'000});
     SocketClient client(server->port(), 4096);
     client.shake_hands("/secret/", "new");
     const auto session = echo.opened.get_future().get();
-    const std::string frame(1000, 'x');
     // It reads nothing: what kernel and queue hold, some megabytes at most, is full some time.
-    std::uint64_t sent = 0;
-    while (session->dropped() == 0 && sent < 100'000) {
-        sent += session->send_binary({frame}) ? 1U : 0U;
+    int last = 0;
+    const auto send = [&] {
+        std::string frame = std::to_string(++last);
+        frame.resize(1000);
+        return session->stream({frame});
+    };
+    while (session->dropped() == 0 && last < 100'000) {
+        EXPECT_TRUE(send());
+        if (last == 3) {
+            EXPECT_TRUE(session->send_text("you are slow"));
+        }
     }
+    EXPECT_TRUE(session->send_binary({"kept"}));
+    const std::string two(2000, 'x');
     const long before = allocations();
     for (int i = 0; i < 1000; ++i) {
-        session->send_binary({frame, frame});
+        session->stream({two});
     }
     EXPECT_EQ(allocations(), before);
-    EXPECT_GT(session->dropped(), 0U);
-    EXPECT_TRUE(session->send_text("you are slow")) << "there is room to say so";
-    // What was taken arrives, whole and in order.
+    EXPECT_TRUE(send());
+    // In order, with a gap; what is kept and the newest are there.
+    std::vector<std::string> heard;
+    int highest = 0;
+    while (highest < last) {
+        heard.push_back(client.receive());
+        ASSERT_FALSE(heard.back().empty());
+        if (const int number = std::atoi(heard.back().c_str()); number > 0) {
+            EXPECT_GT(number, highest);
+            highest = number;
+        }
+    }
+    EXPECT_THAT(heard, testing::Contains("you are slow"));
+    EXPECT_THAT(heard, testing::Contains("kept"));
+    EXPECT_GT(session->dropped(), 500U);
+}
+
+TEST_F(Served, WhatIsKeptIsBounded) {
+    serve({.most_queued_bytes = 10'000});
+    SocketClient client(server->port(), 4096);
+    client.shake_hands("/secret/", "new");
+    const auto session = echo.opened.get_future().get();
+    const std::string frame(1000, 'x');
+    int sent = 0;
+    while (session->send_binary({frame}) && sent < 100'000) {
+        ++sent;
+    }
+    EXPECT_LT(sent, 100'000);
+    EXPECT_EQ(session->dropped(), 1U);
+    EXPECT_FALSE(session->stream({frame})) << "there is nothing to drop for it";
     EXPECT_EQ(client.receive(), frame);
 }
 
@@ -282,7 +320,7 @@ TEST_F(Served, StopDoesNotWaitForWhoDoesNotRead) {
     const auto session = echo.opened.get_future().get();
     const std::string frame(10'000, 'x');
     while (session->dropped() == 0) {
-        session->send_binary({frame});
+        session->stream({frame});
     }
     server->stop();
     EXPECT_FALSE(session->is_open());

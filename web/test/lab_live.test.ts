@@ -35,6 +35,7 @@ interface Shown {
   lab: { live: { outside(): LiveShown } };
 }
 const folder = mkdtempSync(join(tmpdir(), "limpet_lab_live_"));
+const layouts = process.env.LIMPET_LAYOUTS ?? ""; // a folder beside the shipped vehicles
 const flights: ChildProcess[] = [];
 useLab("perch_concrete", ["ws://127.0.0.1:"]);
 after(() => {
@@ -147,7 +148,7 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const problem = await page.$eval("#problem", (e) => e.textContent);
   assert.match(problem ?? "", /as a flight of this machine prints it/);
 
-  const { line, ended } = await fly(2);
+  const { line, ended } = await fly(0.5); // not on the wall before a slow page has paused it
   await watch(line);
   await until(({ messages }) => messages > 500);
   assert.deepEqual((await live()).services, ["Pause", "Resume", "Take off", "Abort"]);
@@ -254,7 +255,11 @@ test("its parameters are set, within what they may be", { skip }, async () => {
 });
 
 test("a vehicle from CAD has its meshes", { skip }, async () => {
-  const { line } = await fly(1, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
+  const { line } = await fly(
+    1,
+    "--set",
+    `vehicle=${join(layouts, "../vehicles/cad_uav/cad_uav.yaml")}`,
+  );
   await watch(line);
   await until(({ messages }) => messages > 100);
   await page.waitForFunction(() => {

@@ -2,7 +2,7 @@
 // The page in a real browser, with a real flight: LIMPET_VIEW is a page that `limpet view` wrote,
 // LIMPET_RECORDING the recording in it. LIMPET_PICTURES: a folder for what it looked like.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -162,6 +162,52 @@ test("an event and a chart lead to their time", { skip }, async () => {
   const { time, end } = await state();
   assert.ok(Math.abs(time / end - 0.5) < 0.02, `${time} of ${end}`);
 });
+
+test(
+  "a chart is saved with its title, its numbers and the mark of the time",
+  { skip },
+  async () => {
+    await seek((await state()).end / 2);
+    const saved = await page.evaluate(async () => {
+      let href = "";
+      const { click } = HTMLAnchorElement.prototype;
+      HTMLAnchorElement.prototype.click = function () {
+        href = this.href;
+      };
+      const chart = [...document.querySelectorAll(".chart:not([hidden])")][0] as Element;
+      (chart.querySelector(".save") as HTMLElement).click();
+      HTMLAnchorElement.prototype.click = click;
+      const picture = await createImageBitmap(await (await fetch(href)).blob());
+      const canvas = document.createElement("canvas");
+      canvas.width = picture.width;
+      canvas.height = picture.height;
+      const context = canvas.getContext("2d") as CanvasRenderingContext2D;
+      context.drawImage(picture, 0, 0);
+      const plot = chart.querySelector("canvas") as HTMLCanvasElement;
+      const inked = (x: number, y: number, width: number, height: number): number => {
+        const { data } = context.getImageData(x, y, width, height);
+        const ground = context.getImageData(0, 0, 1, 1).data;
+        let count = 0;
+        for (let k = 0; k < data.length; k += 4) {
+          count += Math.abs((data[k] as number) - (ground[0] as number)) > 60 ? 1 : 0;
+        }
+        return count;
+      };
+      const head = picture.height - plot.height;
+      let whole = 0; // columns that are inked from top to bottom
+      for (let x = Math.round(0.4 * picture.width); x < 0.7 * picture.width; ++x) {
+        whole += inked(x, head + 12, 1, 80) === 80 ? 1 : 0;
+      }
+      return { href, head, whole, left: inked(0, 0, 300, head), width: picture.width };
+    });
+    if (process.env.LIMPET_PICTURES !== undefined) {
+      const bytes = Buffer.from(saved.href.slice(saved.href.indexOf(",") + 1), "base64");
+      writeFileSync(join(process.env.LIMPET_PICTURES, "chart.png"), bytes);
+    }
+    assert.ok(saved.head > 10 && saved.left > 50, JSON.stringify({ ...saved, href: "" }));
+    assert.ok(saved.whole >= 1 && saved.whole <= 3, `${saved.whole} marks`);
+  },
+);
 
 test("recordings dropped on it fly, rubbish is told in one line", { skip }, async () => {
   const bytes = readFileSync(recording_file);

@@ -8,7 +8,7 @@ import { McapStreamReader } from "@mcap/core";
 import { decompress } from "fzstd";
 import { Track } from "../src/recording/poses";
 import { NotARecording, readRecording } from "../src/recording/recording";
-import { indexAt, valueAt } from "../src/recording/series";
+import { between, indexAt, valueAt } from "../src/recording/series";
 import { Shapes } from "../src/recording/shape";
 
 test("indexAt finds what holds at a time", () => {
@@ -19,6 +19,18 @@ test("indexAt finds what holds at a time", () => {
   assert.equal(indexAt([], 1), -1);
   assert.equal(valueAt([0, 1], [5, 6], 0.5), 5);
   assert.equal(valueAt([0, 1], [5, 6], -0.5), undefined);
+});
+
+test("between samples lies the straight line, beyond them nothing", () => {
+  const [time, values] = [
+    [0, 1, 3],
+    [2, 4, 0],
+  ];
+  assert.deepEqual(
+    [0, 0.5, 1, 2, 3].map((t) => between(time, values, t)),
+    [2, 3, 4, 2, 0],
+  );
+  assert.ok([-0.1, 3.1].every((t) => Number.isNaN(between(time, values, t))));
 });
 
 test("a track goes straight between its samples, the short way round", () => {

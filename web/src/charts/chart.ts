@@ -77,7 +77,8 @@ export class Chart {
         return samples === undefined ? [] : [{ line, ghost: k > 0, ...samples }];
       }),
     );
-    this.element.hidden = this.drawn.length === 0;
+    // A pendulum's thrust, say: there is nothing to see.
+    this.element.hidden = this.drawn.every(({ values }) => values.every((value) => value === 0));
     const lines = JSON.stringify([
       look.colours,
       this.drawn.map(({ line, ghost }) => [line.label, ghost]),
@@ -94,8 +95,8 @@ export class Chart {
     const series: uPlot.Series[] = this.drawn.map(({ line, ghost }) => ({
       label: line.label,
       stroke: ghost ? `${line.colour}80` : line.colour,
-      width: ghost ? 1 : 1.5,
-      dash: ghost ? [2, 2] : line.dash,
+      width: ghost ? 1 : (line.width ?? 1.5),
+      dash: ghost ? [2, 2] : undefined,
       spanGaps: true,
       points: { show: false },
       facets: [
@@ -184,32 +185,63 @@ export class Chart {
       this.mark.style.transform = `translateX(${x.toFixed(1)}px)`;
     }
   }
+  /** As it is seen: with its title, the numbers at the mark, and the mark. */
   private save(): void {
-    const canvas = this.plot?.ctx.canvas;
-    if (canvas !== undefined) {
-      saveCanvas(canvas, `${this.panel.title.toLowerCase().replaceAll(" ", "_")}.png`);
+    const { plot } = this;
+    if (plot === undefined) {
+      return;
     }
+    const scale = window.devicePixelRatio;
+    const head = kHead_px * scale;
+    const { canvas } = plot.ctx;
+    savePicture(
+      [canvas.width, canvas.height + head],
+      `${this.panel.title.toLowerCase().replaceAll(" ", "_")}.png`,
+      (context) => {
+        context.drawImage(canvas, 0, head);
+        const texts = [this.element.querySelector("h2") as HTMLElement, this.readout];
+        for (const [k, text] of texts.entries()) {
+          const { color, fontFamily } = getComputedStyle(text);
+          context.fillStyle = color;
+          context.font = `${k === 0 ? "bold " : ""}${12 * scale}px ${fontFamily}`;
+          context.textAlign = k === 0 ? "left" : "right";
+          const x = k === 0 ? plot.bbox.left : plot.bbox.left + plot.bbox.width;
+          context.fillText(text.innerText, x, 0.7 * head, plot.bbox.width);
+        }
+        if (!this.mark.hidden) {
+          context.fillStyle = getComputedStyle(this.mark).backgroundColor;
+          const x = plot.bbox.left + plot.valToPos(this.now, "x") * scale;
+          context.fillRect(x, head + plot.bbox.top, scale, plot.bbox.height);
+        }
+      },
+    );
   }
 }
 
 const kHeight_px = 132;
+const kHead_px = 24; // above it, in a picture that is saved
 
 function digits(value: number): number {
-  return Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
+  return Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : Math.abs(value) >= 1 ? 2 : 3;
 }
 
 /** On white or on the page's dark, as it is seen. */
-export function saveCanvas(canvas: HTMLCanvasElement, name: string): void {
+/** @param draw  onto the page's own background */
+export function savePicture(
+  [width, height]: [number, number],
+  name: string,
+  draw: (context: CanvasRenderingContext2D) => void,
+): void {
   const copy = document.createElement("canvas");
-  copy.width = canvas.width;
-  copy.height = canvas.height;
+  copy.width = width;
+  copy.height = height;
   const context = copy.getContext("2d");
   if (context === null) {
     return;
   }
   context.fillStyle = getComputedStyle(document.body).backgroundColor;
-  context.fillRect(0, 0, copy.width, copy.height);
-  context.drawImage(canvas, 0, 0);
+  context.fillRect(0, 0, width, height);
+  draw(context);
   const link = document.createElement("a");
   link.download = name;
   link.href = copy.toDataURL("image/png");

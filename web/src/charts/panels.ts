@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which numbers of a recording are charted, in which units.
 import type { Recording, Wanted } from "../recording/recording";
+import { between } from "../recording/series";
 
 export interface Line {
   label: string;
   topic: string;
   column: string;
+  /** A topic whose column of the same name is taken off, at each of its times. */
+  minus?: string;
   scale?: number;
   colour: string;
-  dash?: number[];
+  width?: number; // [px]
 }
 export interface Panel {
   title: string;
@@ -21,6 +24,9 @@ const blue = "#2f7ed8";
 const orange = "#e07b39";
 const green = "#3a9d5d";
 const grey = "#8a939c";
+/** Where two lines coincide nearly everywhere, both are seen. */
+const under = { colour: blue, width: 4 };
+const over = { colour: orange, width: 1 };
 
 export const kPanels: Panel[] = [
   {
@@ -42,22 +48,22 @@ export const kPanels: Panel[] = [
     title: "Pressure in the cup",
     unit: "hPa",
     lines: [
+      { label: "true", topic: "/cup", column: "pressure_pa", scale: 0.01, ...under },
       {
         label: "measured",
         topic: "/sensors/cup_pressure",
         column: "fluid_pressure",
         scale: 0.01,
-        colour: grey,
+        ...over,
       },
-      { label: "true", topic: "/cup", column: "pressure_pa", scale: 0.01, colour: blue },
     ],
   },
   {
     title: "Force through the slider",
     unit: "N",
     lines: [
-      { label: "measured", topic: "/sensors/force", column: "wrench.force.x", colour: grey },
-      { label: "true", topic: "/truth/vehicle", column: "slider_force_n", colour: blue },
+      { label: "true", topic: "/truth/vehicle", column: "slider_force_n", ...under },
+      { label: "measured", topic: "/sensors/force", column: "wrench.force.x", ...over },
     ],
   },
   {
@@ -79,16 +85,19 @@ export const kPanels: Panel[] = [
   {
     title: "Height",
     unit: "m",
-    lines: [
-      { label: "true", topic: "/truth/pose", column: "pose.position.z", colour: blue },
-      {
-        label: "estimated",
-        topic: "/estimate/pose",
-        column: "pose.position.z",
-        colour: orange,
-        dash: [4, 3],
-      },
-    ],
+    lines: [{ label: "true", topic: "/truth/pose", column: "pose.position.z", colour: blue }],
+  },
+  {
+    title: "Error of the estimate",
+    unit: "mm",
+    lines: (["x", "y", "z"] as const).map((axis, k) => ({
+      label: ["away from the wall", "along the wall", "up"][k] as string,
+      topic: "/estimate/pose",
+      column: `pose.position.${axis}`,
+      minus: "/truth/pose",
+      scale: 1000,
+      colour: [blue, orange, green][k] as string,
+    })),
   },
   {
     title: "Thrust",
@@ -117,8 +126,16 @@ export function samplesOf(recording: Recording, line: Line): Samples | undefined
   if (before !== undefined) {
     return before;
   }
+  const other = line.minus === undefined ? undefined : recording.tables.get(line.minus);
+  const taken = other?.columns.get(line.column);
+  if (line.minus !== undefined && (other === undefined || taken === undefined)) {
+    return undefined;
+  }
   const scale = line.scale ?? 1;
-  const values = column.map((value) => (Number.isFinite(value) ? scale * value : Number.NaN));
+  const values = column.map((value, k) => {
+    const off = other && taken ? between(other.time, taken, table.time[k] as number) : 0;
+    return Number.isFinite(value) ? scale * (value - off) : Number.NaN;
+  });
   const samples = { time: table.time, values };
   known.set(column, samples);
   return samples;
@@ -131,8 +148,10 @@ export const kColumns: Wanted = (() => {
     ["/truth/vehicle", ["rotor_speed_rad_s[0]"]],
     ["/cup", ["gap_m"]],
   ]);
-  for (const { topic, column } of kPanels.flatMap(({ lines }) => lines)) {
-    all.set(topic, [...(all.get(topic) ?? []), column]);
+  for (const { topic, column, minus } of kPanels.flatMap(({ lines }) => lines)) {
+    for (const one of [topic, minus ?? topic]) {
+      all.set(one, [...new Set([...(all.get(one) ?? []), column])]);
+    }
   }
   return all;
 })();

@@ -40,9 +40,10 @@ export class Parameters {
   take(changed: Parameter[]): void {
     for (const parameter of changed.filter(({ settable }) => settable === true)) {
       const row = this.rows.get(parameter.name) ?? this.make(parameter);
-      row.input.value = String(Number(parameter.value.toPrecision(12)));
+      row.input.value = String(Number(parameter.value.toPrecision(6)));
     }
     this.element.hidden = this.rows.size === 0;
+    this.filter();
   }
   private make({ name, minimum, maximum }: Parameter): Row {
     const input = element("input", { type: "number", step: "any" });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Chart, type Range, saveCanvas } from "../charts/chart";
+import { Chart, type Range, savePicture } from "../charts/chart";
 import { kColumns, kPanels } from "../charts/panels";
 import { Lab } from "../lab/lab";
 import { type Recording, readRecording } from "../recording/recording";
@@ -61,9 +61,12 @@ class Page {
     by<HTMLSelectElement>("speed").addEventListener("change", (event) => {
       this.player.speed = Number((event.target as HTMLSelectElement).value);
     });
-    by("save").addEventListener("click", () =>
-      saveCanvas(this.stage.renderer.domElement, "flight.png"),
-    );
+    by("save").addEventListener("click", () => {
+      const { domElement } = this.stage.renderer;
+      savePicture([domElement.width, domElement.height], "flight.png", (context) =>
+        context.drawImage(domElement, 0, 0),
+      );
+    });
     by<HTMLInputElement>("file").addEventListener("change", (event) => {
       void this.open([...((event.target as HTMLInputElement).files ?? [])]);
     });

@@ -43,6 +43,17 @@ export function indexAt(time: ArrayLike<number>, t: number): number {
 }
 
 /** @returns the sample that holds at `t`, undefined before the first */
+/** On the straight line between the samples around it; NaN outside of them. */
+export function between(time: ArrayLike<number>, values: ArrayLike<number>, t: number): number {
+  const at = indexAt(time, t);
+  const [t0, v0] = [time[at] ?? Number.NaN, values[at] ?? Number.NaN];
+  const [t1, v1] = [time[at + 1], values[at + 1]];
+  if (t0 === t || t1 === undefined || v1 === undefined) {
+    return t0 === t ? v0 : Number.NaN;
+  }
+  return v0 + ((v1 - v0) * (t - t0)) / (t1 - t0);
+}
+
 export function valueAt(
   time: ArrayLike<number>,
   values: ArrayLike<number>,
