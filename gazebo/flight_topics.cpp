@@ -14,7 +14,7 @@ constexpr int kAgain_Hz = 1;  ///< for a window that was opened meanwhile
 /// Slower than this a rotor is seen to stand. Source: limpet/report/moments.cpp.
 constexpr double kStanding_rad_s = 20.0;
 
-bool has_visual(const gazebo::physics::Link& link, const std::string& name) {
+bool has_visual(gazebo::physics::Link& link, const std::string& name) {
     const sdf::ElementPtr sdf = link.GetSDF();
     for (auto visual = sdf->HasElement("visual") ? sdf->GetElement("visual") : nullptr; visual;
          visual = visual->GetNextElement("visual")) {

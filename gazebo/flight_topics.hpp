@@ -35,7 +35,7 @@ public:
 private:
     struct Rotor {
         gazebo::msgs::Visual disc, blade;
-        std::optional<bool> turns;  ///< as shown; nothing was shown yet
+        std::optional<bool> turns = {};  ///< as shown; nothing was shown yet
     };
     void show_rotors(const Truth& truth, bool anew);
 

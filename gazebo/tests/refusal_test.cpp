@@ -75,7 +75,7 @@ TEST_P(OfAnotherEngine, ACupSaysInALineWhatToChange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OfAnotherEngine, ::testing::Values("dart", "simbody"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& one) { return one.param; });
 
 TEST(Gzserver, LoadsTheCupAsALibraryAndRunsIt) {
     // It would serve on: the time limit ends it.
