@@ -76,14 +76,12 @@ void SuctionCupPlugin::configure(gazebo::physics::ModelPtr model, const sdf::Ele
     settings_ = suction_cup_settings(sdf_tree(sdf, {.place = place_, .lists = {"target"}}));
     model_ = model;
     link_ = find_link(*model, settings_.link, place_);
+    // Rays, forces on links and joints that are made as the world runs: others lack one or another.
+    if (const std::string engine = model->GetWorld()->Physics()->GetType(); engine != "ode") {
+        throw InputError(
+            fmt::format("{}: the world's physics is of {}, allowed ode", place_, engine));
+    }
     if (settings_.attachment != Attachment::compliant) {
-        const std::string engine = model->GetWorld()->Physics()->GetType();
-        if (engine != "ode") {
-            throw InputError(
-                fmt::format("{}: attachment: a joint that is made as the world runs "
-                            "does not hold in {}, allowed compliant, or ode",
-                            place_, engine));
-        }
         joint_ =
             std::make_unique<CupJoint>(model, link_, link_->GetName() + "_" + name, settings_.X_LC,
                                        settings_.attachment, settings_.load_time_constant_s);

@@ -69,7 +69,7 @@ WallFinder::WallFinder(gazebo::physics::ModelPtr own, const SuctionCupSettings& 
           world_->Physics()->CreateShape("ray", gazebo::physics::CollisionPtr()))),
       settings_(settings) {
     if (!ray_) {
-        throw InputError(place + ": the world's physics engine has no rays, allowed ode, bullet");
+        throw InputError(place + ": the world's physics engine has no rays, allowed ode");
     }
 }
 
@@ -92,9 +92,7 @@ std::optional<WallFinder::Hit> WallFinder::cast(const Vector3d& from_W_m, const 
         std::string name;
         ray_->GetIntersection(distance_m, name);
         begin_m += distance_m;
-        const auto collision = name.empty() || begin_m > beyond_m
-                                   ? nullptr
-                                   : collision_of(name, from_W_m + axis_W * begin_m);
+        const auto collision = name.empty() || begin_m > beyond_m ? nullptr : collision_of(name);
         if (!collision) {
             return std::nullopt;
         }
@@ -106,28 +104,12 @@ std::optional<WallFinder::Hit> WallFinder::cast(const Vector3d& from_W_m, const 
     return std::nullopt;
 }
 
-gazebo::physics::CollisionPtr WallFinder::collision_of(const std::string& name,
-                                                       const Vector3d& at_W_m) const {
-    boost::weak_ptr<gazebo::physics::Entity>& known = known_[name];
+gazebo::physics::CollisionPtr WallFinder::collision_of(const std::string& name) const {
+    boost::weak_ptr<gazebo::physics::Collision>& known = known_[name];
     if (known.expired()) {
-        known = world_->EntityByName(name);
+        known = boost::dynamic_pointer_cast<gazebo::physics::Collision>(world_->EntityByName(name));
     }
-    const gazebo::physics::EntityPtr met = known.lock();
-    const auto link = boost::dynamic_pointer_cast<gazebo::physics::Link>(met);
-    if (!link) {
-        return boost::dynamic_pointer_cast<gazebo::physics::Collision>(met);
-    }
-    const auto all = link->GetCollisions();
-    const auto off_m = [&at_W_m](const gazebo::physics::CollisionPtr& collision) {
-        const auto box = collision->BoundingBox();
-        Vector3d in_box = at_W_m;
-        in_box.Max(box.Min());
-        in_box.Min(box.Max());
-        return at_W_m.Distance(in_box);
-    };
-    const auto nearest = std::min_element(
-        all.begin(), all.end(), [&](const auto& a, const auto& b) { return off_m(a) < off_m(b); });
-    return nearest == all.end() ? nullptr : *nearest;
+    return known.lock();
 }
 
 const suction::Surface* WallFinder::surface_of(const gazebo::physics::Collision& collision) const {

@@ -58,10 +58,7 @@ private:
     [[nodiscard]] std::optional<Hit> cast(const ignition::math::Vector3d& from_W_m,
                                           const ignition::math::Vector3d& axis_W,
                                           double beyond_m) const;
-    /// What a ray met: ODE's name a collision, Bullet's a link, of which it is the one nearest to
-    /// the point.
-    [[nodiscard]] gazebo::physics::CollisionPtr collision_of(
-        const std::string& name, const ignition::math::Vector3d& at_W_m) const;
+    [[nodiscard]] gazebo::physics::CollisionPtr collision_of(const std::string& name) const;
     [[nodiscard]] const suction::Surface* surface_of(
         const gazebo::physics::Collision& collision) const;
     [[nodiscard]] std::optional<WallSpot> on_model(const ignition::math::Pose3d& X_WC) const;
@@ -72,7 +69,7 @@ private:
     gazebo::physics::WorldPtr world_;
     gazebo::physics::RayShapePtr ray_;
     const SuctionCupSettings& settings_;
-    mutable std::map<std::string, boost::weak_ptr<gazebo::physics::Entity>> known_;
+    mutable std::map<std::string, boost::weak_ptr<gazebo::physics::Collision>> known_;
 };
 
 }  // namespace limpet::gazebo11

@@ -92,7 +92,8 @@ TEST_P(OfEachAttachment, HundredCyclesLeaveNothingBehind) {
 
 TEST_P(OfEachAttachment, IsPulledOffAtTheVacuumsForce) {
     ASSERT_TRUE(bench.attaches());
-    bench.run(3000);  // 15 time constants: P_vac
+    bench.push_N.X(0.0);  // else a body on a hinge buckles
+    bench.run(3000);      // 15 time constants: P_vac
     // 1 N in 20 ms: slow against what the lip and the filter do.
     double pull_N = 0.0;
     const int steps = bench.run_until(
@@ -189,24 +190,6 @@ TEST_F(ACompliantCup, APauseStopsTheAirAndALaterStepGoesOn) {
     bench.server.world()->SetPaused(false);
     stepping.join();
     EXPECT_NEAR(bench.pressure_Pa(), 60000.0 + (before_Pa - 60000.0) * std::exp(-0.05 / 0.2), 1.0);
-}
-
-TEST(SuctionCup, InBulletACompliantOneSealsHangsAndIsPulledOff) {
-    PressBench bench(cup_settings("compliant", "<target model='wall' collision='face'/>"),
-                     "0 0 -9.81", "", "bullet");
-    bench.push_N.Z(9.81);
-    ASSERT_TRUE(bench.attaches());
-    bench.run(3000);
-    const double x_m = bench.body->WorldPose().Pos().X();
-    bench.push_N = Vector3d::Zero;
-    bench.run(1000);
-    EXPECT_EQ(bench.phase(), CupPhase::attached);
-    EXPECT_NEAR(bench.cup.status().shear_N, 9.81, 0.03 * 9.81);
-    EXPECT_NEAR(bench.body->WorldPose().Pos().X(), x_m, 0.01);
-    bench.push_N = {-1.2 * kVacuum_N, 0.0, 9.81};
-    ASSERT_GE(bench.run_until(CupPhase::free, 2000), 0);
-    bench.run(100);
-    EXPECT_LT(bench.body->WorldPose().Pos().X(), x_m - 0.01);
 }
 
 TEST(SuctionCup, TwoOnOneLinkHoldEachWithItsOwnName) {

@@ -49,10 +49,8 @@ struct Outside {
     ExternalGuidance* guidance = nullptr;
     ExternalCup* cup = nullptr;
 
-    /// What is outside is met at every tick.
-    [[nodiscard]] bool any() const {
-        return autopilot != nullptr || guidance != nullptr || cup != nullptr;
-    }
+    /// It is met at every tick; an autopilot where ours would be, at its rate.
+    [[nodiscard]] bool wants_every_tick() const { return guidance != nullptr || cup != nullptr; }
 };
 
 }  // namespace limpet::simulation

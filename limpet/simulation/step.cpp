@@ -125,7 +125,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     if (controls) {
         state.command = control(model, state, outside.autopilot);
     }
-    const Stride stride = outside.any() ? one_tick(model, state) : next_stride(model, state);
+    const Stride stride =
+        outside.wants_every_tick() ? one_tick(model, state) : next_stride(model, state);
     // Over a tick the rotors push as they turn at its end. In a longer step the bodies' rates are
     // those of its middle: a force must be that of its beginning, or it comes half a step too soon.
     const RotorList<double> before_rad_s = state.rotors.speed_rad_s;
