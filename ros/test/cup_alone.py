@@ -57,8 +57,9 @@ class CupAlone(unittest.TestCase):
         self.until("attached", lambda: self.state.attached and self.pressure.fluid_pressure < 65000.0)
         self.assertGreater(self.pressure.header.stamp.to_sec(), 0.1, "the world's time")
         self.assertTrue(self.switch("pump", False).success)
-        self.until("free again", lambda: not self.state.sealed)
-        self.assertEqual(self.events[:1], ["attached"])
+        # It lies on the block by its weight: the lip still touches.
+        self.until("let go", lambda: not self.state.attached and self.pressure.fluid_pressure > 101000.0)
+        self.assertIn("attached", self.events)  # it may have bounced before
         print("cup alone: %s" % ", ".join(self.events))
 
 
