@@ -32,6 +32,8 @@ class OneClock(unittest.TestCase):
     def test_is_the_worlds(self):
         watch, tree = Watch(), Tree()
         watch.until("ready", lambda w: w.status.phase == "ready", 90)
+        with self.lock:
+            del self.times[:]  # by now either has seen the other, as it may not have at first
         answer = call("/perching_node/perch")
         self.assertTrue(answer.success, answer.message)
         watch.until("approaching", lambda w: w.status.state_name == "approaching", 90)
