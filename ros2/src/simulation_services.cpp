@@ -200,7 +200,7 @@ void SimulationServices::serve_steps() {
             };
             const std::string obstacle =
                 simulator_.step(request.steps, [answer](const Stepping& stepping) {
-                    if (stepping.left == 0) {
+                    if (stepping.left == 0 || !stepping.obstacle.empty()) {
                         answer(stepping.obstacle);
                     }
                 });
