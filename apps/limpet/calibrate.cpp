@@ -13,6 +13,7 @@
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/model.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -115,6 +116,21 @@ CalibrateJson json_of(const identification::VehicleFit& fit, const std::vector<C
     return json;
 }
 
+/// In what steps a flight of ours went on, by the scenario in its recording; none where another
+/// program flew, or where the scenario is of a version that this one does not read.
+std::vector<int> strides_of(const identification::FlightData& data) {
+    if (data.scenario_yaml.empty()) {
+        return {};
+    }
+    try {
+        const auto model =
+            simulation::build_model(scenario::load_scenario_text(data.scenario_yaml, "recording"));
+        return {model->strides.begin(), model->strides.end()};
+    } catch (const InputError&) {
+        return {};
+    }
+}
+
 void calibrate(const CalibrateOptions& options) {
     const scenario::Scenario scenario =
         scenario::load_scenario("perch_concrete", {.overrides = {"vehicle=" + options.vehicle}});
@@ -122,6 +138,7 @@ void calibrate(const CalibrateOptions& options) {
     identification::FlightData data;
     try {
         data = identification::read_flight(options.log, options.span);
+        data.strides = strides_of(data);
         fit = identify_vehicle(data, scenario.airframe);
     } catch (const InputError& error) {
         const std::string why = error.what();

@@ -67,6 +67,9 @@ void add_commands(const Rows& rows, const char* name, FlightData& data) {
 FlightData of_recording(const record::Recording& recording) {
     using record::ros::flu_from_frd;
     FlightData data{.kind = "recording"};
+    if (const auto* text = recording.attachment("scenario.yaml")) {
+        data.scenario_yaml = text->text;
+    }
     const Rows imu(recording, "/sensors/imu"), twist(recording, "/estimate/twist");
     for (std::size_t row = 0; row < imu.count(); ++row) {
         data.rate_B_rad_s.push_back(flu_from_frd(imu.xyz("angular_velocity", row)));

@@ -23,7 +23,11 @@ struct FlightData {
     std::vector<double> force_s = {};
     std::vector<double> force_N = {};  ///< through the slider, < 0 pressed
     PressureTrace pressure = {};
-    std::string kind = {};  ///< "recording", "PX4 log", "CSV"
+    /// Of a flight of ours: from each tick of a second how far the bodies went in a step
+    /// (simulation/stride.hpp), which says when a command acts. Empty: nothing went in steps.
+    std::vector<int> strides = {};
+    std::string scenario_yaml = {};  ///< that a flight of ours was flown by
+    std::string kind = {};           ///< "recording", "PX4 log", "CSV"
 };
 
 struct FlightSpan {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/identification/driven.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -13,117 +14,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFine_s = 1e-3;  ///< of the motors' model, as the simulation's
 constexpr int kLags = 2, kInertias = 3;
-
-/// Moment of the rotors, integrated over time, and the sum of their speeds, at the IMU's samples.
-struct Driven {
-    std::array<VectorXd, 3> spin_N_m_s;
-    std::vector<double> speed_sum_rad_s;
-};
-
-/// A rotor's moment in B for each squared speed.
-std::vector<Vector3> arms_of(const vehicle::AirframeNumbers& airframe) {
-    std::vector<Vector3> arms;
-    for (const vehicle::Rotor& rotor : airframe.rotors) {
-        const double thrust = rotor.thrust_share * airframe.rotor.motor_constant_kg_m;
-        arms.emplace_back(-rotor.p_B_m.y() * thrust, rotor.p_B_m.x() * thrust,
-                          rotor.direction * airframe.rotor.moment_constant_m *
-                              airframe.rotor.motor_constant_kg_m);
-    }
-    return arms;
-}
-
-/// The motors' model under the log's commands. A gyro's sample is the mean since the one before,
-/// and so is the integral.
-Driven drive(const FlightData& data, const vehicle::AirframeNumbers& airframe, double lag_up_s,
-             double lag_down_s) {
-    const vehicle::RotorParameters& rotor = airframe.rotor;
-    const std::vector<Vector3> arms = arms_of(airframe);
-    const std::size_t samples = data.imu_s.size();
-    Driven driven;
-    driven.speed_sum_rad_s.resize(samples);
-    for (VectorXd& axis : driven.spin_N_m_s) {
-        axis = VectorXd::Zero(static_cast<Eigen::Index>(samples));
-    }
-    const double keep_up = std::exp(-kFine_s / lag_up_s);
-    const double keep_down = std::exp(-kFine_s / lag_down_s);
-    std::vector<double> speeds(arms.size(), 0.0);
-    std::size_t command = 0, sample = 0, count = 0;
-    Vector3 spin = Vector3::Zero(), sum = Vector3::Zero();
-    double time_s = std::max(data.command_s.front(), data.imu_s.front() - 0.5);
-    bool begins = true;
-    while (sample < samples) {
-        while (command + 1 < data.command_s.size() &&
-               data.command_s[command + 1] + rotor.command_delay_s <= time_s + 0.5 * kFine_s) {
-            ++command;
-        }
-        Vector3 moment = Vector3::Zero();
-        double all = 0.0;
-        for (std::size_t i = 0; i < arms.size(); ++i) {
-            const double share = i < data.command[command].size() ? data.command[command][i] : 0.0;
-            const double asked =
-                share > 0.0 ? std::min(rotor.speed_max_rad_s,
-                                       rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * share)
-                            : 0.0;
-            const double off = begins ? 0.0 : speeds[i] - asked;
-            speeds[i] = asked + off * (off < 0.0 ? keep_up : keep_down);
-            moment += arms[i] * speeds[i] * speeds[i];
-            all += speeds[i];
-        }
-        begins = false;
-        // Half of the step's moment acts before its middle.
-        sum += spin + 0.5 * kFine_s * moment;
-        spin += kFine_s * moment;
-        ++count;
-        time_s += kFine_s;
-        // Samples before the first command find nothing that drives.
-        while (sample < samples && time_s >= data.imu_s[sample] - 0.5 * kFine_s) {
-            const Vector3 mean = count > 0 ? Vector3(sum / static_cast<double>(count)) : spin;
-            for (int axis = 0; axis < 3; ++axis) {
-                driven
-                    .spin_N_m_s[static_cast<std::size_t>(axis)][static_cast<Eigen::Index>(sample)] =
-                    mean[axis];
-            }
-            driven.speed_sum_rad_s[sample++] = all;
-            sum.setZero();
-            count = 0;
-        }
-    }
-    return driven;
-}
-
-/// What a filter that knows the model would not have foreseen: its gain is `gain`, each stretch
-/// begins anew. The first samples of a stretch, while it settles, are 0.
-VectorXd unforeseen(const VectorXd& values, const std::vector<Stretch>& stretches, double gain) {
-    VectorXd left = VectorXd::Zero(values.size());
-    const auto settle = static_cast<std::size_t>(std::ceil(5.0 / gain));
-    for (const Stretch& stretch : stretches) {
-        double last = 0.0;
-        for (std::size_t k = stretch.first + 1; k < stretch.last; ++k) {
-            const auto i = static_cast<Eigen::Index>(k);
-            last = values[i] - values[i - 1] + (1.0 - gain) * last;
-            left[i] = k < stretch.first + settle ? 0.0 : last;
-        }
-    }
-    return left;
-}
-
-std::size_t counted(const std::vector<Stretch>& stretches, double gain) {
-    const auto settle = static_cast<std::size_t>(std::ceil(5.0 / gain));
-    std::size_t count = 0;
-    for (const Stretch& stretch : stretches) {
-        const std::size_t all = stretch.last - stretch.first;
-        count += all > settle ? all - settle : 0;
-    }
-    return count;
-}
 
 /// An axis: what the gyro did, and by what it is told.
 struct TurningAxis {
-    VectorXd rate;  ///< unforeseen
-    VectorXd ramp;  ///< of a steady moment, unforeseen
-    double gain = 0.05;
+    VectorXd rate;  ///< whitened
+    VectorXd ramp;  ///< of a steady moment, whitened
+    double ratio = 0.0;
     double per_inertia = 0.0;
     double deviation = 1.0;  ///< of what is left
 };
@@ -142,21 +39,22 @@ VectorXd solve_axis(TurningAxis& axis, const VectorXd& spin) {
     return axis.rate - axis.per_inertia * spin - steady * axis.ramp;
 }
 
-/// One search: lags, and for each axis inertia, steady moment, gain and noise.
+/// One search: lags, and for each axis inertia, steady moment, wander and noise.
 class TurningSearch {
 public:
-    TurningSearch(const FlightData& data, const vehicle::AirframeNumbers& airframe,
+    TurningSearch(const FlightData& data, const vehicle::Airframe& airframe,
                   const std::vector<Stretch>& free)
         : data_(data),
           airframe_(airframe),
           free_(free),
+          velocity_B_m_s_(velocities_of(data)),
           logs_(std::log(airframe.rotor.time_constant_up_s),
                 std::log(airframe.rotor.time_constant_down_s)) {}
 
     TurningFit fit() {
         constexpr int kRounds = 3;
         for (int round = 0; round < kRounds; ++round) {
-            choose_gains();
+            choose_ratios();
             improve();
         }
         return conclude();
@@ -166,7 +64,7 @@ private:
     using Lags = Eigen::Vector2d;
 
     [[nodiscard]] Driven driven_by(const Lags& logs) const {
-        return drive(data_, airframe_, std::exp(logs[0]), std::exp(logs[1]));
+        return drive(data_, airframe_, velocity_B_m_s_, std::exp(logs[0]), std::exp(logs[1]));
     }
 
     VectorXd rate_of(int axis) const {
@@ -177,35 +75,33 @@ private:
         return rate;
     }
 
-    /// The gain of each axis' filter is the one that foresees best.
-    void choose_gains() {
+    /// How much each axis wanders beside its noise is what is likeliest.
+    void choose_ratios() {
+        constexpr std::size_t kFewest = 100;
+        const std::size_t count = samples_of(free_);
+        if (count < kFewest) {
+            throw InputError("too little free flight: half a second and more is needed");
+        }
         const Driven driven = driven_by(logs_);
         const VectorXd time = Eigen::Map<const VectorXd>(
             data_.imu_s.data(), static_cast<Eigen::Index>(data_.imu_s.size()));
         for (int a = 0; a < 3; ++a) {
+            const auto at = static_cast<std::size_t>(a);
             double least = std::numeric_limits<double>::infinity();
-            TurningAxis best;
-            for (double gain = 0.01; gain < 0.9; gain *= 1.25) {
-                const std::size_t count = counted(free_, gain);
-                if (count < 100) {
-                    continue;
-                }
-                TurningAxis axis{.rate = unforeseen(rate_of(a), free_, gain),
-                                 .ramp = unforeseen(time, free_, gain),
-                                 .gain = gain};
-                const VectorXd left = solve_axis(
-                    axis, unforeseen(driven.spin_N_m_s[static_cast<std::size_t>(a)], free_, gain));
-                const double mean2 = left.squaredNorm() / static_cast<double>(count);
-                if (mean2 < least) {
-                    least = mean2;
-                    axis.deviation = std::sqrt(mean2);
-                    best = axis;
+            for (double ratio = kLeastRatio; ratio < kMostRatio; ratio *= kRatioStep) {
+                const Whitened rate = whiten(rate_of(a), free_, ratio);
+                TurningAxis axis{
+                    .rate = rate.values, .ramp = whiten(time, free_, ratio).values, .ratio = ratio};
+                const double squares =
+                    solve_axis(axis, whiten(driven.spin_N_m_s[at], free_, ratio).values)
+                        .squaredNorm();
+                const double told = unlikelihood(squares, rate.logs, count);
+                if (told < least) {
+                    least = told;
+                    axis.deviation = std::sqrt(squares / static_cast<double>(count));
+                    axes_[at] = axis;
                 }
             }
-            if (!std::isfinite(least)) {
-                throw InputError("too little free flight: half a second and more is needed");
-            }
-            axes_[static_cast<std::size_t>(a)] = best;
         }
     }
 
@@ -215,7 +111,7 @@ private:
         const auto n = static_cast<Eigen::Index>(data_.imu_s.size());
         VectorXd all(3 * n);
         for (std::size_t a = 0; a < 3; ++a) {
-            const VectorXd spin = unforeseen(driven.spin_N_m_s[a], free_, axes_[a].gain);
+            const VectorXd spin = whiten(driven.spin_N_m_s[a], free_, axes_[a].ratio).values;
             all.segment(static_cast<Eigen::Index>(a) * n, n) =
                 solve_axis(axes_[a], spin) / axes_[a].deviation;
             if (spins != nullptr) {
@@ -257,7 +153,7 @@ private:
     TurningFit conclude() {
         constexpr double kSmall = 1e-3;
         std::array<VectorXd, 3> spins, spins_aside;
-        const VectorXd here = left_by(logs_, &spins);
+        (void)left_by(logs_, &spins);
         const auto per_inertia = [this] {
             return Eigen::Vector3d(axes_[0].per_inertia, axes_[1].per_inertia,
                                    axes_[2].per_inertia);
@@ -289,20 +185,21 @@ private:
         fit.lag_up_s = std::exp(logs_[0]);
         fit.lag_down_s = std::exp(logs_[1]);
         fit.covariance = covariance.topLeftCorner(kInertias + kLags, kInertias + kLags);
-        fit.speed_sum_rad_s = driven_by(logs_).speed_sum_rad_s;
+        fit.hub_flow_m = driven_by(logs_).hub_flow_m;
         return fit;
     }
 
     const FlightData& data_;
-    const vehicle::AirframeNumbers& airframe_;
+    const vehicle::Airframe& airframe_;
     const std::vector<Stretch>& free_;
+    std::vector<Vector3> velocity_B_m_s_;  ///< at the IMU's samples
     Lags logs_;
     std::array<TurningAxis, 3> axes_;
 };
 
 }  // namespace
 
-TurningFit fit_turning(const FlightData& data, const vehicle::AirframeNumbers& airframe,
+TurningFit fit_turning(const FlightData& data, const vehicle::Airframe& airframe,
                        const std::vector<Stretch>& free) {
     require(!data.imu_s.empty() && !data.command_s.empty(), "a log with IMU and commands");
     return TurningSearch(data, airframe, free).fit();

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/identification/turning_fit.hpp"
 
 namespace limpet::identification {
@@ -62,7 +63,7 @@ std::vector<double> contacts_s(const FlightData& data) {
 
 /// Stretches with motors on and nothing touched for half a second to either side.
 std::vector<Stretch> free_flight(const FlightData& data) {
-    constexpr double kBeside_s = 0.5, kLeast_s = 0.4, kRuns = 0.05;
+    constexpr double kBeside_s = 0.5, kLeast_s = 0.4, kRuns = 0.05, kForgotten_s = 0.4;
     const std::vector<double> contacts = contacts_s(data);
     LastKnown command(data.command_s);
     std::vector<Stretch> all;
@@ -81,7 +82,9 @@ std::vector<Stretch> free_flight(const FlightData& data) {
         const bool on = at && std::all_of(data.command[*at].begin(), data.command[*at].end(),
                                           [](double share) { return share > kRuns; });
         const bool gap = k > 0 && time_s - data.imu_s[k - 1] > 0.02;
-        if (!on || gap || (touch != contacts.end() && *touch < time_s + kBeside_s)) {
+        // How fast the rotors turned when the log began nobody knows.
+        const bool begins = time_s < data.command_s.front() + kForgotten_s;
+        if (!on || gap || begins || (touch != contacts.end() && *touch < time_s + kBeside_s)) {
             if (k > 0) {
                 close(k);
             }
@@ -123,25 +126,100 @@ Fitted fitted(double value, double variance) {
     return {value, kNormal * std::sqrt(variance)};
 }
 
-void fit_drag(const FlightData& data, const vehicle::AirframeNumbers& airframe,
-              const std::vector<Stretch>& free, const std::vector<double>& speed_sum_rad_s,
-              VehicleFit& fit) {
-    constexpr double kLeast_m_s = 0.2, kMemory_s = 0.5;
+/// When a command acts is known to a tick: anywhere in it, as far as a lag is concerned.
+Fitted fitted_lag(double lag_s, double log_variance) {
+    return fitted(lag_s, lag_s * lag_s * log_variance + kTick_s * kTick_s / 12.0);
+}
+
+/// Slope of whitened outputs on inputs, both axes in one. How much it wanders is not known: slopes
+/// by each ratio, weighed by how likely it is.
+Fitted wandering_slope(const std::array<VectorXd, 2>& inputs,
+                       const std::array<VectorXd, 2>& outputs,
+                       const std::vector<Stretch>& stretches) {
+    struct ByRatio {
+        double slope, variance, told;
+    };
+    std::vector<ByRatio> all;
+    double least = std::numeric_limits<double>::infinity();
+    const std::size_t count = 2 * samples_of(stretches);
+    for (double ratio = kLeastRatio; ratio < kMostRatio; ratio *= kRatioStep) {
+        double xx = 0.0, xy = 0.0, yy = 0.0, logs = 0.0;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const VectorXd x = whiten(inputs[axis], stretches, ratio).values;
+            const Whitened y = whiten(outputs[axis], stretches, ratio);
+            xx += x.squaredNorm();
+            xy += x.dot(y.values);
+            yy += y.values.squaredNorm();
+            logs += y.logs;
+        }
+        const double squares = yy - xy * xy / xx;
+        all.push_back({xy / xx, squares / static_cast<double>(count) / xx,
+                       unlikelihood(squares, logs, count)});
+        least = std::min(least, all.back().told);
+    }
+    double sum = 0.0, mean = 0.0, square = 0.0;
+    for (const auto& [slope, variance, told] : all) {
+        const double weight = std::exp(-0.5 * (told - least));
+        sum += weight;
+        mean += weight * slope;
+        square += weight * (slope * slope + variance);
+    }
+    mean /= sum;
+    return fitted(mean, square / sum - mean * mean);
+}
+
+/// Half of how long the steps of our engine are, on the way to a sample; 0 of other logs.
+double half_stride_s(const FlightData& data, std::size_t sample) {
+    if (data.strides.empty() || sample == 0) {
+        return 0.0;
+    }
+    const auto tick = [](double time_s) { return std::llround(time_s / kTick_s); };
+    const std::int64_t first = tick(data.imu_s[sample - 1]), last = tick(data.imu_s[sample]);
+    double squares = 0.0;
+    for (std::int64_t at = first; at < last;) {
+        const int ticks = data.strides[static_cast<std::size_t>(at) % data.strides.size()];
+        squares += ticks * ticks;
+        at += ticks;
+    }
+    return 0.5 * kTick_s * squares / static_cast<double>(std::max<std::int64_t>(1, last - first));
+}
+
+/// An accelerometer has a bias an axis, which wanders as far in seconds as a slow flight's drag.
+void fit_drag(const FlightData& data, const vehicle::Airframe& airframe,
+              const std::vector<Stretch>& free, const TurningFit& turning, VehicleFit& fit) {
+    constexpr double kLeast_m_s = 0.2;
     LastKnown velocity(data.velocity_s);
-    std::vector<std::array<double, 3>> rows;  // both axes, of one sample after the other
+    const auto n = static_cast<Eigen::Index>(data.imu_s.size());
+    std::array<VectorXd, 2> inputs, outputs;
+    inputs.fill(VectorXd::Zero(n));
+    outputs.fill(VectorXd::Zero(n));
+    std::vector<Stretch> told;  // of what is free, what has a velocity and an accelerometer
     double fastest_m_s = 0.0;
     for (const Stretch& stretch : free) {
+        bool goes_on = false;
         for (std::size_t k = stretch.first; k < stretch.last; ++k) {
             const auto at = velocity.at(data.imu_s[k]);
             if (!at || !data.specific_force_B_m_s2[k].allFinite()) {
+                goes_on = false;
                 continue;
             }
-            const Vector3& v = data.velocity_B_m_s[*at];
-            fastest_m_s = std::max(fastest_m_s, v.head<2>().norm());
-            for (int axis = 0; axis < 2; ++axis) {
-                rows.push_back({-speed_sum_rad_s[k] * v[axis] / airframe.mass_kg,
-                                data.specific_force_B_m_s2[k][axis], axis == 0 ? 1.0 : 0.0});
+            fastest_m_s = std::max(fastest_m_s, data.velocity_B_m_s[*at].head<2>().norm());
+            // In a step of our engine thrust keeps the direction that it had at the step's
+            // beginning.
+            const Vector3 turned_m_s2 =
+                half_stride_s(data, k) * data.rate_B_rad_s[k].cross(data.specific_force_B_m_s2[k]);
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const auto i = static_cast<Eigen::Index>(axis);
+                inputs[axis][static_cast<Eigen::Index>(k)] =
+                    turning.hub_flow_m[k][i] / airframe.mass_kg;
+                outputs[axis][static_cast<Eigen::Index>(k)] =
+                    data.specific_force_B_m_s2[k][i] + turned_m_s2[i];
             }
+            if (!goes_on) {
+                told.push_back({k, k});
+            }
+            goes_on = true;
+            told.back().last = k + 1;
         }
     }
     if (fastest_m_s < kLeast_m_s) {
@@ -150,16 +228,7 @@ void fit_drag(const FlightData& data, const vehicle::AirframeNumbers& airframe,
                                    : "it never flies faster than 0.2 m/s: nothing tells the drag");
         return;
     }
-    MatrixXd inputs(static_cast<Eigen::Index>(rows.size()), 3);
-    VectorXd outputs(inputs.rows());
-    for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
-        const auto& [moved, force, is_x] = rows[static_cast<std::size_t>(i)];
-        inputs.row(i) << moved, is_x, 1.0 - is_x;  // an accelerometer has a bias an axis
-        outputs[i] = force;
-    }
-    const auto memory = static_cast<Eigen::Index>(2.0 * kMemory_s / spacing_s(data.imu_s));
-    const LinearFit line = linear_fit(inputs, outputs, memory);
-    fit.drag_constant_kg = fitted(line.value[0], line.covariance(0, 0));
+    fit.drag_constant_kg = wandering_slope(inputs, outputs, told);
 }
 
 /// From the first touch until the slider comes back: its force over travel and speed.
@@ -230,7 +299,25 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
     fit.slider_preload_N = fitted(line.value[2], line.covariance(2, 2));
 }
 
-void fit_motion(const FlightData& data, const vehicle::AirframeNumbers& airframe, VehicleFit& fit) {
+/// Of the turning fitted by the airframe's lambda_1, which itself is known so far alone.
+TurningFit with_unsure_drag(const FlightData& data, const vehicle::Airframe& airframe,
+                            const std::vector<Stretch>& free,
+                            const std::optional<Fitted>& drag_kg) {
+    TurningFit turning = fit_turning(data, airframe, free);
+    if (drag_kg) {
+        vehicle::Airframe more = airframe;
+        more.rotor.drag_constant_kg += drag_kg->half_width / kNormal;
+        const TurningFit other = fit_turning(data, more, free);
+        Eigen::Matrix<double, 5, 1> moved;
+        moved << other.per_inertia - turning.per_inertia,
+            std::log(other.lag_up_s / turning.lag_up_s),
+            std::log(other.lag_down_s / turning.lag_down_s);
+        turning.covariance += moved * moved.transpose();
+    }
+    return turning;
+}
+
+void fit_motion(const FlightData& data, const vehicle::Airframe& airframe, VehicleFit& fit) {
     if (data.imu_s.empty() || data.command_s.empty()) {
         fit.notes.emplace_back(
             "no gyro or no motor commands in the log: nothing tells inertia, "
@@ -256,26 +343,32 @@ void fit_motion(const FlightData& data, const vehicle::AirframeNumbers& airframe
             fmt::format("{:.1f} s of free flight: inertia, lag and drag need 2 s", fit.free_s));
         return;
     }
-    const TurningFit turning = fit_turning(data, airframe, free);
+    // What air and cup do to the turning needs lambda_1 and the inertia: once more with those
+    // found.
+    const TurningFit first = fit_turning(data, airframe, free);
+    fit_drag(data, airframe, free, first, fit);
+    vehicle::Airframe found = airframe;
+    found.inertia_kg_m2 = first.per_inertia.cwiseInverse().cwiseMax(0.5 * airframe.inertia_kg_m2);
+    if (fit.drag_constant_kg) {
+        found.rotor.drag_constant_kg = std::max(0.0, fit.drag_constant_kg->value);
+    }
+    const TurningFit turning = with_unsure_drag(data, found, free, fit.drag_constant_kg);
     for (int axis = 0; axis < 3; ++axis) {
         const double inertia = 1.0 / turning.per_inertia[axis];
         fit.inertia_kg_m2[static_cast<std::size_t>(axis)] =
             fitted(inertia, std::pow(inertia, 4) * turning.covariance(axis, axis));
     }
-    fit.lag_up_s =
-        fitted(turning.lag_up_s, turning.lag_up_s * turning.lag_up_s * turning.covariance(3, 3));
-    fit.lag_down_s = fitted(turning.lag_down_s,
-                            turning.lag_down_s * turning.lag_down_s * turning.covariance(4, 4));
+    fit.lag_up_s = fitted_lag(turning.lag_up_s, turning.covariance(3, 3));
+    fit.lag_down_s = fitted_lag(turning.lag_down_s, turning.covariance(4, 4));
     fit.notes.push_back(fmt::format(
         "taken as known: the rotors' places, thrust, torque and speeds, a dead time of {:.0f} ms, "
         "the mass",
         1000.0 * airframe.rotor.command_delay_s));
-    fit_drag(data, airframe, free, turning.speed_sum_rad_s, fit);
 }
 
 }  // namespace
 
-VehicleFit identify_vehicle(const FlightData& data, const vehicle::AirframeNumbers& airframe) {
+VehicleFit identify_vehicle(const FlightData& data, const vehicle::Airframe& airframe) {
     VehicleFit fit;
     fit_motion(data, airframe, fit);
     fit_slider(data, fit);

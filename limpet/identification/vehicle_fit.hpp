@@ -27,15 +27,17 @@ struct VehicleFit {
     std::vector<std::string> notes = {};  ///< what is missing or assumed: a sentence each
 };
 
-/// Inertia and lag: commands through the motor model (vehicle/rotor.hpp) turn into a moment, whose
-/// integral over I the gyro follows but for its noise and for a wandering moment: one-step-ahead
-/// prediction errors of that model are white, and are made small in squares. So a loop that flies
-/// on the gyro's noise biases nothing (Ljung, "System identification", 1999, 13.4). Drag: specific
-/// force across the rotors' axes over velocity in still air. Slider: the force in it over how far
-/// and how fast the body goes on after the touch, its acceleration integrated twice.
-/// @param airframe  what is taken as known: rotors' places and thrust, mass
+/// Inertia and lag: commands through the motor model (vehicle/rotor.hpp), with air and hanging cup,
+/// turn into a moment, whose integral over I the gyro follows but for its noise and for a wandering
+/// moment: one-step-ahead prediction errors of that model are white, and are made small in squares.
+/// So a loop that flies on the gyro's noise biases nothing (Ljung, "System identification", 1999,
+/// 13.4). Drag: specific force across the rotors' axes over the hubs' velocity in still air, on a
+/// bias that wanders. Slider: the force in it over how far and how fast the body goes on after the
+/// touch, its acceleration integrated twice.
+/// @param airframe  what is taken as known: rotors' places and thrust, the cup's hinges, mass; its
+///                  inertia, lags and lambda_1 are where the search begins
 /// @throws InputError when nothing at all can be told
 [[nodiscard]] VehicleFit identify_vehicle(const FlightData& data,
-                                          const vehicle::AirframeNumbers& airframe);
+                                          const vehicle::Airframe& airframe);
 
 }  // namespace limpet::identification

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include "limpet/core/errors.hpp"
@@ -20,6 +21,7 @@ namespace {
 FlightData flown(const scenario::Scenario& scenario, std::uint32_t run, double seconds_flown) {
     simulation::Flight flight(simulation::build_model(scenario), run);
     FlightData data;
+    data.strides.assign(flight.model().strides.begin(), flight.model().strides.end());
     double imu_s = -1.0, force_s = -1.0, pressure_s = -1.0;
     constexpr int kControl_Hz = 250;
     while (!flight.ended() && seconds(flight.state().tick) < seconds_flown) {
@@ -122,6 +124,33 @@ TEST(VehicleFit, SyntheticTruthsAreRecoveredInNinetyToNinetyNineOfAHundred) {
     }
     EXPECT_GE(held, 0.90 * asked);
     EXPECT_LE(held, 0.99 * asked);
+}
+
+/// A recording of `limpet fly` says what the flight's own sensors and commands said.
+TEST(VehicleFit, ARecordingTellsWhatItsFlightTold) {
+    scenario::LoadOptions options;
+    options.overrides = {"simulation.record_rate_Hz=250", "simulation.time_limit_s=6"};
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete", options);
+    const auto model = simulation::build_model(scenario);
+    const auto path = std::filesystem::path(testing::TempDir()) / "vehicle_fit.mcap";
+    (void)simulation::fly(model, path);
+    FlightData recorded = read_flight(path);
+    std::filesystem::remove(path);
+    EXPECT_EQ(recorded.scenario_yaml, scenario.yaml);
+    recorded.strides.assign(model->strides.begin(), model->strides.end());
+    const VehicleFit fit = identify_vehicle(recorded, scenario.airframe);
+    const VehicleFit there = identify_vehicle(flown(scenario, 0, 6.0), scenario.airframe);
+    const auto same = [](const std::optional<Fitted>& a, const std::optional<Fitted>& b) {
+        ASSERT_TRUE(a && b);
+        EXPECT_NEAR(a->value, b->value, 0.2 * b->half_width);  // the estimate is read a tick later
+        EXPECT_NEAR(a->half_width, b->half_width, 0.1 * b->half_width);
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        same(fit.inertia_kg_m2[axis], there.inertia_kg_m2[axis]);
+    }
+    same(fit.lag_up_s, there.lag_up_s);
+    same(fit.lag_down_s, there.lag_down_s);
+    same(fit.drag_constant_kg, there.drag_constant_kg);
 }
 
 }  // namespace
