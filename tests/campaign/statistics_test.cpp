@@ -108,8 +108,7 @@ TEST(Quantile, OfNumbersThatPassByIsThatOfAllOfThem) {
         }
         std::size_t at = 0;
         const std::vector<double> shares = {0.0, 0.05, 0.1, 0.5, 0.95, 1.0};
-        const std::vector<double> found =
-            quantiles(count, shares, [&] { return sorted.at(at++); });
+        const std::vector<double> found = quantiles(count, shares, [&] { return sorted.at(at++); });
         for (std::size_t k = 0; k < shares.size(); ++k) {
             EXPECT_EQ(found[k], quantile(sorted, shares[k])) << count << " " << shares[k];
             const double place = shares[k] * static_cast<double>(count - 1);
