@@ -140,12 +140,32 @@ std::optional<LogisticFit> fit_logistic(const std::vector<Trials>& trials) {
 }
 
 double quantile(const std::vector<double>& sorted, double share) {
-    require(!sorted.empty(), "a quantile is of something");
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    const double rest = at - static_cast<double>(below);
-    return sorted[below] + rest * (sorted[above] - sorted[below]);
+    std::size_t at = 0;
+    return quantiles(sorted.size(), {share}, [&] { return sorted[at++]; }).front();
+}
+
+std::vector<double> quantiles(std::size_t count, const std::vector<double>& shares,
+                              const std::function<double()>& next) {
+    require(count > 0, "a quantile is of something");
+    std::vector<double> found;
+    std::size_t taken = 0;  // of the numbers, the last two of which are
+    double before = 0.0, last = 0.0;
+    const auto take = [&](std::size_t place) {
+        while (taken <= place) {
+            before = taken == 0 ? 0.0 : last;
+            last = next();
+            ++taken;
+        }
+        return taken == place + 1 ? last : before;
+    };
+    for (const double share : shares) {
+        const double at = share * static_cast<double>(count - 1);
+        const auto below = static_cast<std::size_t>(at);
+        const double low = take(below);
+        const double high = take(std::min(below + 1, count - 1));
+        found.push_back(low + (at - static_cast<double>(below)) * (high - low));
+    }
+    return found;
 }
 
 }  // namespace limpet::campaign

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -53,5 +55,11 @@ struct Trials {
 /// @param share   0..1
 /// @return quantile by linear interpolation between the order statistics (R's type 7)
 [[nodiscard]] double quantile(const std::vector<double>& sorted, double share);
+/// The same of numbers that only pass by, of which none is kept.
+/// @param count   of them, > 0
+/// @param shares  ascending
+/// @param next    the next number, ascending; is called `count` times at most
+[[nodiscard]] std::vector<double> quantiles(std::size_t count, const std::vector<double>& shares,
+                                            const std::function<double()>& next);
 
 }  // namespace limpet::campaign

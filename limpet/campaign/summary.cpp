@@ -61,7 +61,7 @@ std::vector<Group> groups_by_bin(const std::vector<Trials>& trials) {
 }
 
 KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
-                         const std::string& success) {
+                         const std::string& success, std::uint32_t finished) {
     KeySummary summary{.key = key.key, .named = is_named(key), .groups = {}, .fit = {}};
     if (summary.named) {
         for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
@@ -69,11 +69,14 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
         });
         return summary;
     }
-    std::vector<Trials> trials;
+    std::vector<Trials> trials;  // all that a summary keeps of each run: 16 bytes, a key at a time
+    trials.reserve(key.values.empty() ? finished : key.values.size());
     for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
         const double x = value.getDouble();
         trials.push_back({x, p});
-        summary.groups.push_back({scenario::number_text(x), x, x, p});
+        if (trials.size() <= kMostValues) {
+            summary.groups.push_back({scenario::number_text(x), x, x, p});
+        }
     });
     if (key.values.empty() || trials.size() > kMostValues) {
         summary.groups = groups_by_bin(trials);
@@ -88,18 +91,19 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
 std::vector<MetricSummary> summarise_metrics(SQLite::Database& database) {
     std::vector<MetricSummary> summaries;
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
-        std::vector<double> values;
+        const auto runs =
+            database.execAndGet(fmt::format("SELECT count({}) FROM runs", metric.name)).getUInt();
+        if (runs == 0) {
+            continue;
+        }
         SQLite::Statement select(
             database,
             fmt::format("SELECT {0} FROM runs WHERE {0} IS NOT NULL ORDER BY {0}", metric.name));
-        while (select.executeStep()) {
-            values.push_back(select.getColumn(0).getDouble());
-        }
-        if (!values.empty()) {
-            summaries.push_back({std::string(metric.name),
-                                 static_cast<std::uint32_t>(values.size()), quantile(values, 0.05),
-                                 quantile(values, 0.5), quantile(values, 0.95)});
-        }
+        const std::vector<double> at = quantiles(runs, {0.05, 0.5, 0.95}, [&select] {
+            select.executeStep();
+            return select.getColumn(0).getDouble();
+        });
+        summaries.push_back({std::string(metric.name), runs, at[0], at[1], at[2]});
     }
     return summaries;
 }
@@ -156,7 +160,7 @@ CampaignSummary summarise(Results& results) {
             .metrics = summarise_metrics(database)};
         if (finished > 0) {
             for (const VariedKey& key : campaign.keys) {
-                summary.keys.push_back(summarise_key(database, key, success));
+                summary.keys.push_back(summarise_key(database, key, success, finished));
             }
         }
         return summary;

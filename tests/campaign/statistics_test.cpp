@@ -100,5 +100,22 @@ TEST(Quantile, InterpolatesBetweenOrderStatistics) {
     EXPECT_DOUBLE_EQ(quantile({5.0}, 0.95), 5.0);
 }
 
+TEST(Quantile, OfNumbersThatPassByIsThatOfAllOfThem) {
+    for (const std::size_t count : {1U, 2U, 3U, 7U, 40U}) {
+        std::vector<double> sorted;
+        for (std::size_t i = 0; i < count; ++i) {
+            sorted.push_back(static_cast<double>(i * i) + 0.5);
+        }
+        std::size_t at = 0;
+        const std::vector<double> shares = {0.0, 0.05, 0.1, 0.5, 0.95, 1.0};
+        const std::vector<double> found = quantiles(count, shares, [&] { return sorted.at(at++); });
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            EXPECT_EQ(found[k], quantile(sorted, shares[k])) << count << " " << shares[k];
+            const double place = shares[k] * static_cast<double>(count - 1);
+            EXPECT_NEAR(found[k], place * place + 0.5, 0.2501);  // chords of a parabola
+        }
+    }
+}
+
 }  // namespace
 }  // namespace limpet::campaign
