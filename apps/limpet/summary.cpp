@@ -75,7 +75,7 @@ Verb summary_verb() {
         "summary", "Print and draw what a campaign found: probabilities, failures, fits",
         options_of, summarise_campaign,
         "Works while the campaign is still flying. Draws summary.png and summary.svg, of a search "
-        "for a rare\nevent rare.png and rare.svg, of a study study.png and study.svg. Intervals "
+        "for a rare\nevent rare.png and rare.svg, of a study study.png and study.svg.\nIntervals "
         "are 95 %, of shares Wilson's. Of two "
         "grids or more also\ncells.html: how each cell ended, why, and the command that flies it "
         "again.\n");
