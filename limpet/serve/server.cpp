@@ -20,9 +20,11 @@ using std::chrono::milliseconds;
 
 // Assumed: quicker than a viewer draws, and so seldom that nobody notices the waking.
 constexpr milliseconds kFlush(10);
+// What is on its way can't be dropped any more for what is new.
+constexpr int kMostOnTheWay_bytes = 1 << 18;
 // Assumed: who takes nothing for so long has gone, a page that draws slowly has not; nobody is
 // waited for longer than that.
-constexpr milliseconds kLastWords(2000), kLongestGoodbye(10'000);
+constexpr milliseconds kLastWords(5000), kLongestGoodbye(30'000);
 
 tcp::endpoint endpoint_of(const ServerOptions& options) {
     error_code error;
@@ -64,6 +66,7 @@ struct Server::Inside {
                 fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
                 error_code ignored;
                 socket.set_option(tcp::no_delay(true), ignored);
+                socket.set_option(tcp::socket::send_buffer_size(kMostOnTheWay_bytes), ignored);
                 serve_connection(std::move(socket), shared);
             } else if (error) {  // no file descriptors left, say: not again and again at once
                 pause.expires_after(milliseconds(100));

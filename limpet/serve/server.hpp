@@ -93,8 +93,8 @@ public:
     void websocket(std::string path, std::vector<std::string> subprotocols, Listener& listener);
 
     void start();
-    /// Sends what is queued, to whoever takes some of it within two seconds and for ten at most,
-    /// ends all sessions and the thread.
+    /// Sends what is queued, to whoever takes some of it within five seconds and for thirty at
+    /// most, ends all sessions and the thread.
     void stop();
 
     [[nodiscard]] std::uint16_t port() const;

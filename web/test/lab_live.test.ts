@@ -286,7 +286,7 @@ test(
   "it is watched to its end, from the wall to the wall, and no other for it",
   { skip },
   async () => {
-    const { line, ended } = await fly(4);
+    const { line, ended } = await fly(2);
     await watch(line);
     const { outcome, hash } = await ended;
     await until(({ watching }) => !watching);

@@ -334,8 +334,10 @@ test("parameters and services", { skip, timeout: 60_000 }, async () => {
   assert.equal(result.reason, "a viewer asked for it");
 });
 
+// The layouts' folder is beside the vehicles'.
+const cad = join(process.env.LIMPET_LAYOUTS ?? "", "../vehicles/cad_uav/cad_uav.yaml");
 test("the meshes of a vehicle from CAD are fetched", { skip, timeout: 60_000 }, async () => {
-  const flight = new Flight("meshes", 20, "--set", "vehicle=vehicles/cad_uav/cad_uav.yaml");
+  const flight = new Flight("meshes", 20, "--set", `vehicle=${cad}`);
   const viewer = new Viewer(await flight.address(), "foxglove.sdk.v1");
   await viewer.until(() => viewer.channels.size >= 23);
   viewer.subscribe("/robot_description");
