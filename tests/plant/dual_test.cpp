@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/core/dual.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,6 +6,7 @@
 
 #include "limpet/core/random.hpp"
 #include "limpet/plant/reduced_plant.hpp"
+#include "dual.hpp"
 #include "plants.hpp"
 
 namespace limpet::plant {
