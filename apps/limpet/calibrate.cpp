@@ -182,8 +182,9 @@ Verb calibrate_verb() {
     return verb<CalibrateOptions>(
         "calibrate", "Tell inertia, motors' lag, drag, slider, pressure from a flight's log",
         options_of, calibrate,
+        "Examples:\n"
         "  limpet fly perch_concrete --set simulation.record_rate_Hz=250\n"
-        "  limpet calibrate out/perch_concrete/flight.mcap\n"
+        "  limpet calibrate out/perch_concrete/flight.mcap\n\n"
         "Intervals are for 95 %. What the log cannot tell is said and why: inertia and lag need "
         "the gyro and\nmotor commands at 200 Hz and more in free flight, drag a velocity, the "
         "slider its force sensor.\n");

@@ -31,9 +31,10 @@ ExitCode make_dossier(const DossierChoices& options) {
                                               }
                                           },
                                       .stop = stop_on_signals()};
+    const OutFolder folder(options.out);
     try {
         const auto files = write_dossier(
-            {.folder = make_folder(options.out),
+            {.folder = folder.path(),
              .file = options.file,
              .quick = options.quick,
              .jobs = options.jobs,
@@ -60,12 +61,12 @@ OptionList options_of(DossierChoices& options) {
 
 Verb dossier_verb() {
     return verb<DossierChoices>(
-        "dossier", "Write a credibility report: errors, inputs, evidence and bounds",
-        options_of, make_dossier,
+        "dossier", "Write a credibility report: errors, inputs, evidence and bounds", options_of,
+        make_dossier,
         "In the shape of NASA-STD-7009 and ASME V&V 40, from campaigns and tests that it flies "
-        "itself: over\nseeds, with half the steps, on another engine, over uncertain inputs, and "
+        "itself: over\nseeds, with finer steps, on another engine, over uncertain inputs, and "
         "the paper's statements\nthat are its evidence. Writes index.html (opens offline), "
-        "results.json and the runs behind each number.\n");
+        "results.json\nand the runs behind each number.\n");
 }
 
 }  // namespace limpet::app

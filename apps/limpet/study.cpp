@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -10,7 +11,6 @@
 #include "command_line.hpp"
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/core/folder_lock.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -87,6 +87,14 @@ std::string file_of(const StudyOptions& options) {
 
 campaign::Campaign campaign_of(const StudyOptions& options) {
     if (options.vary.empty()) {
+        const auto is_one_of = [&](const char* folder) {
+            const auto names = scenario::names_in(scenario::data_root() / folder);
+            return std::count(names.begin(), names.end(), options.wanted) > 0;
+        };
+        if (!is_one_of("campaigns") && is_one_of("scenarios")) {
+            throw InputError(fmt::format(
+                "{} is a scenario: say what varies in it, --vary KEY=SPREAD", options.wanted));
+        }
         return campaign::load_campaign(options.wanted);
     }
     const draw::gnuplot::TemporaryFolder scratch;
@@ -126,10 +134,9 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     const study::StudyFigure figure = study::parse_figure(options.of);
     const campaign::Campaign campaign = campaign_of(options);
     study::require_drawn(campaign);
-    const fs::path folder = make_folder(
-        options.out.empty() ? fs::path("out") / (campaign.name + "_study") : fs::path(options.out));
-    const FolderLock lock(folder);
-    campaign::Results results = begin_results(campaign, folder, options.resume);
+    const OutFolder folder(options.out.empty() ? fs::path("out") / (campaign.name + "_study")
+                                               : fs::path(options.out));
+    campaign::Results results = begin_results(campaign, folder.path(), options.resume);
     study::begin_study(results, {.figure = figure.text(), .samples = options.samples});
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     const study::StudyPlan plan = study::plan_of(campaign, options.samples);
@@ -149,11 +156,17 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     terminal.line("");
     const study::StudyFound found = study::find_study(results);
     fmt::print("{}", options.json ? study_json(found) + "\n" : study_text(found));
-    std::vector<fs::path> files = {folder / campaign::Results::kFileName};
-    for (fs::path& file : study::draw_study(found, folder)) {
+    std::vector<fs::path> files = {folder.path() / campaign::Results::kFileName};
+    for (fs::path& file : study::draw_study(found, folder.path())) {
         files.push_back(std::move(file));
     }
     terminal.written(files);
+    const auto outcomes = results.outcomes();
+    if (const auto faults = outcomes.find(campaign::kFault); faults != outcomes.end()) {
+        complain(fmt::format("{} flights broke off by a fault of ours: limpet summary {}",
+                             faults->second, folder.path().string()));
+        return ExitCode::our_fault;
+    }
     return ExitCode::ok;
 }
 
@@ -175,8 +188,8 @@ OptionList options_of(StudyOptions& options) {
             jobs_option(options.jobs),
             {"--out DIR", &options.out, "folder (default: out/NAME_study)"},
             {"--resume", &options.resume,
-             "go on with the flights in the folder, if any; --of may "
-             "be another number of the same flights"},
+             "go on with the flights in the folder, if any; --of may be\n"
+             "another number of the same flights"},
             {"--json", &options.json, "one JSON object on standard output"}};
 }
 
@@ -184,10 +197,12 @@ OptionList options_of(StudyOptions& options) {
 
 Verb study_verb() {
     return verb<StudyOptions>(
-        "study", "Ask which inputs make a number what it is: Sobol indices, its spread",
-        options_of, make_study,
+        "study", "Ask which inputs make a number what it is: Sobol indices, its spread", options_of,
+        make_study,
+        "Examples:\n"
         "  limpet study perch_concrete --of impact_force_N \\\n"
-        "    --vary guidance.dock_speed_m_s=0.9..1.2 --vary vehicle.slider.stiffness_N_m=300..800\n"
+        "    --vary guidance.dock_speed_m_s=0.9..1.2 --vary "
+        "vehicle.slider.stiffness_N_m=300..800\n\n"
         "Each input's share of the number's variance, alone and with what it does together with "
         "others, and\nthe share of the flight's own noise; 95 % intervals. Of an event also its "
         "probability. Writes\nresults.sqlite, a row a flight (limpet replay, summary), and "

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "limpet/campaign/workers.hpp"
@@ -14,6 +16,7 @@
 #include "limpet/paper/study.hpp"
 #include "limpet/plant/engines.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/model.hpp"
 
 namespace limpet::dossier {
 namespace {
@@ -32,11 +35,16 @@ public:
         : file_(file), options_(options), watch_(watch) {}
 
     std::map<std::string, QuantityFound> fly() {
-        std::map<std::string, QuantityFound> all;
+        const std::set<std::string> parts = parts_of_evidence();  // refused before anything flies
+        std::map<std::string, campaign::Results> studies;
         for (const auto& [scenario, inputs] : file_.inputs) {
-            fly_scenario(scenario, inputs, all);
+            studies.emplace(scenario, begin_study_of(scenario, inputs));
         }
-        find_evidence(all);
+        std::map<std::string, QuantityFound> all;
+        for (auto& [scenario, results] : studies) {
+            fly_scenario(scenario, results, all);
+        }
+        find_evidence(parts, all);
         return all;
     }
 
@@ -87,7 +95,7 @@ private:
     [[nodiscard]] std::uint32_t seeds() const { return options_.quick ? 12 : 60; }
     [[nodiscard]] std::uint32_t samples() const { return options_.quick ? 32 : 256; }
 
-    void fly_scenario(const std::string& scenario, const std::vector<UncertainInput>& inputs,
+    void fly_scenario(const std::string& scenario, campaign::Results& study,
                       std::map<std::string, QuantityFound>& all) const {
         const scenario::Scenario nominal = scenario::load_scenario(scenario);
         const auto rows = fly_seeds(scenario, {"seeds", {}});
@@ -96,21 +104,15 @@ private:
             {"steps",
              {fmt::format("simulation.step_s={}", 0.5 * nominal.simulation.step_s),
               fmt::format("simulation.touch_step_s={}", 0.5 * nominal.simulation.touch_step_s)}});
-        std::string other;
+        const std::string other = other_engine(scenario, *nominal.engine);
         std::vector<campaign::RunRow> elsewhere;
-        for (const plant::Engine* engine : plant::engines()) {
-            if (engine != nominal.engine) {
-                other = engine->name;
-            }
-        }
-        try {
+        if (!other.empty()) {
             elsewhere =
                 fly_seeds(scenario, {"engine", {fmt::format("simulation.engine={}", other)}});
-        } catch (const InputError&) {  // this program is built without it
-            fs::remove_all(options_.folder / "runs" / (scenario + "_engine"));
-            other.clear();
         }
-        const study::StudyFound spread = fly_inputs(scenario, inputs, "");
+        say(scenario + "_inputs: what the inputs do");
+        (void)study::fly_study(study, options_.jobs, {.on_progress = {}, .stop = watch_.stop});
+        say("");
         for (const Quantity& quantity : file_.quantities) {
             if (quantity.scenario != scenario) {
                 continue;
@@ -123,32 +125,51 @@ private:
                 found.engine = mean_of(figure, elsewhere, rows, from(scenario + "_engine"));
                 found.other_engine = other;
             }
-            found.inputs = fly_inputs(scenario, inputs, quantity.figure);
+            found.inputs = study::find_study(study, quantity.figure);
             found.inputs_from = from(scenario + "_inputs");
             bound(quantity, found);
         }
     }
 
-    /// The study of a scenario's inputs; what is flown already is not flown again.
-    study::StudyFound fly_inputs(const std::string& scenario,
-                                 const std::vector<UncertainInput>& inputs,
-                                 const std::string& figure) const {
-        const std::string name = scenario + "_inputs";
-        if (!figure.empty()) {
-            campaign::Results there(options_.folder / from(name), campaign::Access::read);
-            return study::find_study(there, figure);
+    /// One that flies this vehicle in this program; empty without any.
+    static std::string other_engine(const std::string& scenario, const plant::Engine& own) {
+        for (const plant::Engine* engine : plant::engines()) {
+            if (engine == &own) {
+                continue;
+            }
+            scenario::LoadOptions options;
+            options.overrides = {fmt::format("simulation.engine={}", engine->name)};
+            try {
+                (void)simulation::build_model(scenario::load_scenario(scenario, options));
+                return std::string(engine->name);
+            } catch (const InputError&) {  // not built in, or not for such a vehicle
+            }
         }
-        say(name + ": what the inputs do");
+        return "";
+    }
+
+    /// Of a scenario's inputs, checked.
+    campaign::Results begin_study_of(const std::string& scenario,
+                                     const std::vector<UncertainInput>& inputs) const {
+        const std::string name = scenario + "_inputs";
         std::string text =
             fmt::format("name: {}\nscenario: {}\nruns: 1\nparameters:\n", name, scenario);
         for (const UncertainInput& input : inputs) {
             text += fmt::format("  {}: {}  # {}\n", input.key, input.spread, input.source);
         }
-        campaign::Results results = begin(name, text);
-        study::begin_study(results, {.figure = "simulated_s", .samples = samples()});
-        (void)study::fly_study(results, options_.jobs, {.on_progress = {}, .stop = watch_.stop});
-        say("");
-        return study::find_study(results);
+        try {
+            campaign::Results results = begin(name, text);
+            study::require_drawn(results.campaign());
+            study::begin_study(results, {.figure = "simulated_s", .samples = samples()});
+            return results;
+        } catch (const InputError& error) {  // who asked knows no line of that file
+            const std::string message = error.what();
+            const std::size_t key = message.find("parameters.");
+            throw InputError(key == std::string::npos
+                                 ? message
+                                 : fmt::format("inputs.{}.{}", scenario,
+                                               message.substr(key + std::strlen("parameters."))));
+        }
     }
 
     /// @param less  the same runs' rows that are taken off, or none
@@ -163,7 +184,9 @@ private:
                 values.push_back(value);
             }
         }
-        Measured measured{.flights = static_cast<std::uint32_t>(values.size()), .from = from};
+        Measured measured{.flights = static_cast<std::uint32_t>(values.size()),
+                          .flown = static_cast<std::uint32_t>(rows.size()),
+                          .from = from};
         const auto n = static_cast<double>(values.size());
         if (values.size() < 2) {
             measured.value = measured.half_width = measured.deviation = kNaN;
@@ -186,15 +209,21 @@ private:
             return std::abs(one.value) + one.half_width;
         };
         found.numerical = far_end(found.step) + (found.engine ? far_end(*found.engine) : 0.0);
-        const auto held =
-            tolerance_bound(found.inputs.values, quantity.safe_above, kShareHeld, kHeldConfidence);
-        if (held && std::isfinite(found.numerical)) {
+        // A flight that has no such figure, for it never released, say, is at the unsafe end.
+        std::vector<double> values = found.inputs.values;
+        const std::size_t flown = 2 * std::size_t{found.inputs.samples};
+        const std::size_t without = flown - std::min(flown, values.size());
+        const double unsafe = std::numeric_limits<double>::infinity();
+        values.insert(quantity.safe_above ? values.begin() : values.end(), without,
+                      quantity.safe_above ? -unsafe : unsafe);
+        const auto held = tolerance_bound(values, quantity.safe_above, kShareHeld, kHeldConfidence);
+        if (held && std::isfinite(*held) && std::isfinite(found.numerical)) {
             found.bound = *held + (quantity.safe_above ? -found.numerical : found.numerical);
         }
     }
 
-    /// The paper's statements that are named, by the parts that measure them.
-    void find_evidence(std::map<std::string, QuantityFound>& all) const {
+    /// The parts of the reproduction that measure the paper's statements which are named.
+    [[nodiscard]] std::set<std::string> parts_of_evidence() const {
         const auto statements =
             paper::load_statements(paper::statements_file(), paper::measured_names());
         std::map<std::string, std::string> part_of;  // by a statement's id
@@ -218,8 +247,13 @@ private:
                 wanted.insert(part_of.at(id));
             }
         }
+        return wanted;
+    }
+
+    void find_evidence(const std::set<std::string>& parts,
+                       std::map<std::string, QuantityFound>& all) const {
         std::map<std::string, std::pair<report::Claim, std::string>> claims;
-        for (const std::string& part : wanted) {
+        for (const std::string& part : parts) {
             say("the paper's statements: " + part);
             const std::string folder = "paper/" + part;
             fs::create_directories(options_.folder / folder);

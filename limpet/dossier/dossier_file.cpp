@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
+#include "limpet/study/study.hpp"
 
 namespace limpet::dossier {
 namespace {
@@ -56,6 +59,13 @@ Quantity read_quantity(const YamlNode& node, const DossierFile& file) {
         fail(asked(node, "scenario"),
              fmt::format("\"{}\" has no inputs above", scenario::shown(quantity.scenario)));
     }
+    try {
+        (void)study::parse_figure(quantity.figure);
+    } catch (const InputError&) {
+        fail(asked(node, "figure"),
+             fmt::format("\"{}\" is no outcome and no metric (limpet study --help)",
+                         scenario::shown(quantity.figure)));
+    }
     const YamlNode& safe = asked(node, "safe");
     const std::string side = read_text(safe);
     if (side != "at_least" && side != "at_most") {
@@ -82,8 +92,11 @@ DossierFile load_dossier(const std::filesystem::path& path) {
     DossierFile file;
     file.title = read_text(asked(root, "title"));
     file.question = read_text(asked(root, "question"));
-    for (const YamlNode& scenario : asked(root, "inputs").children) {
-        file.inputs[scenario.key] = read_inputs(scenario);
+    for (const YamlNode& one : asked(root, "inputs").children) {
+        if (scenario::is_path(one.key)) {
+            fail(one, "must be the name of a scenario, not a file: its flights' folders have it");
+        }
+        file.inputs[one.key] = read_inputs(one);
     }
     for (const YamlNode& quantity : asked(root, "quantities").children) {
         file.quantities.push_back(read_quantity(quantity, file));

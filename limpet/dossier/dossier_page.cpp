@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/core/folder_lock.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/dossier/dossier.hpp"
 #include "limpet/dossier/dossier_runs.hpp"
@@ -28,10 +27,15 @@ void add_row(PageTable& table, Cells cells, Links links) {
 }
 
 std::string measured_text(const Measured& one, bool sign = false) {
-    return std::isfinite(one.value)
-               ? fmt::format(fmt::runtime(sign ? "{:+.3g} +- {:.2g}" : "{:.4g} +- {:.2g}"),
-                             one.value, one.half_width)
-               : "did not come to pass";
+    if (!std::isfinite(one.value)) {
+        return "did not come to pass";
+    }
+    std::string text = fmt::format(fmt::runtime(sign ? "{:+.3g} +- {:.2g}" : "{:.4g} +- {:.2g}"),
+                                   one.value, one.half_width);
+    if (one.flights < one.flown) {
+        text += fmt::format(" ({} of {} flights have it)", one.flights, one.flown);
+    }
+    return text;
 }
 
 const study::StudiedInput* leading(const study::StudyFound& found) {
@@ -61,14 +65,15 @@ PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityF
         .id = "numbers",
         .title = "How sure",
         .columns = {"quantity", "unit", "as set, mean (95 %)", "seeds, one deviation",
-                    "half the steps", "another engine", "inputs, 5 to 95 %", "decided by",
-                    "evidence", "bound"},
+                    "finer steps", "another engine", "inputs, 5 to 95 %", "decided by", "evidence",
+                    "bound"},
         .caption = fmt::format(
             "Each number links to the flights that it comes from: `limpet summary` and `limpet "
-            "replay` read the files. Steps and engine are differences, seed by seed. The bound "
-            "holds for {:.0f} % of the flights over inputs and seeds with {:.0f} % confidence, "
-            "moved to the unsafe side by the far ends of both differences. Decided by: the input "
-            "with the largest total Sobol index.",
+            "replay` read the files. Finer steps are of half a tick throughout, and half of those "
+            "around a touch; steps and engine are differences, seed by seed. The bound holds for "
+            "{:.0f} % of the flights over inputs and seeds with {:.0f} % confidence, moved to the "
+            "unsafe side by the far ends of both differences; a flight without the number counts "
+            "as one at the unsafe end. Decided by: the input with the largest total Sobol index.",
             100.0 * kShareHeld, 100.0 * kHeldConfidence)};
     for (const Quantity& one : file.quantities) {
         const QuantityFound& found = all.at(one.name);
@@ -81,8 +86,8 @@ PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityF
             table,
             {one.figure, one.unit, measured_text(found.nominal),
              report::Quantity(found.nominal.deviation), measured_text(found.step, true),
-             found.engine ? measured_text(*found.engine, true)
-                          : std::string("not built into this program"),
+             found.engine ? found.other_engine + ": " + measured_text(*found.engine, true)
+                          : std::string("none in this program flies it"),
              some ? report::Quantity(draw::Range{campaign::quantile(found.inputs.values, 0.05),
                                                  campaign::quantile(found.inputs.values, 0.95)})
                   : report::Quantity("did not come to pass"),
@@ -92,7 +97,7 @@ PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityF
                                     : fmt::format("{} of {} agree", agree, found.evidence.size()),
              found.bound ? fmt::format("{} {:.4g} {}", one.safe_above ? "at least" : "at most",
                                        *found.bound, one.unit)
-                         : std::string("too few flights to tell")},
+                         : std::string("too few flights to tell, or without it")},
             {"", "", found.nominal.from, found.nominal.from, found.step.from,
              found.engine ? found.engine->from : "", found.inputs_from, found.inputs_from,
              found.evidence.empty() ? "" : found.evidence.front().second, found.inputs_from});
@@ -137,20 +142,25 @@ PageTable pedigree(const DossierFile& file) {
 PageTable factors(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
     double worst = 0.0;
     std::string of;
-    std::size_t agree = 0, claims = 0, measured = 0, sources = 0, inputs = 0;
-    std::uint32_t flights = 0;
+    std::size_t untold = 0, sources = 0, inputs = 0;
+    std::map<std::string, report::Claim> claims;  // by id: two quantities may rest on one
     for (const Quantity& one : file.quantities) {
         const QuantityFound& found = all.at(one.name);
         const double share = found.numerical / found.inputs.deviation();
+        untold += std::isfinite(share) ? 0U : 1U;
         if (share > worst) {
             worst = share;
             of = one.figure;
         }
-        flights += found.inputs.samples;
         for (const auto& [claim, page] : found.evidence) {
-            ++claims;
-            agree += claim.verdict == report::Verdict::reproduced ? 1 : 0;
-            measured += claim.basis == "measured" ? 1 : 0;
+            claims[claim.id] = claim;
+        }
+    }
+    std::size_t agree = 0, measured = 0;
+    for (const auto& [id, claim] : claims) {
+        if (claim.verdict == report::Verdict::reproduced) {
+            ++agree;
+            measured += claim.basis == "measured" ? 1U : 0U;
         }
     }
     for (const auto& [scenario, list] : file.inputs) {
@@ -164,14 +174,12 @@ PageTable factors(const DossierFile& file, const std::map<std::string, QuantityF
                     .columns = {"factor", "what was found"}};
     table.rows = {
         {"verification",
-         worst > 0.0 ? fmt::format("numerical error (half the steps and another engine, far "
-                                   "ends) at most {:.2g} deviations of the inputs' spread: "
-                                   "{}",
-                                   worst, of)
-                     : std::string("numerical error: none found")},
+         fmt::format("numerical error (finer steps and another engine, far ends) at most {:.2g} "
+                     "deviations of the inputs' spread{}; of {} of {} quantities it cannot be told",
+                     worst, of.empty() ? "" : ": " + of, untold, file.quantities.size())},
         {"validation", fmt::format("{} of {} statements of the paper agree; {} of these are "
                                    "measured, the others fitted, recovered or by construction",
-                                   agree, claims, measured)},
+                                   agree, claims.size(), measured)},
         {"input pedigree",
          fmt::format("{} of {} inputs have a source, the others are assumed", sources, inputs)},
         {"results uncertainty",
@@ -188,21 +196,12 @@ PageTable factors(const DossierFile& file, const std::map<std::string, QuantityF
     return table;
 }
 
-void require_own(const fs::path& folder) {
-    if (fs::exists(folder / "index.html") && !fs::exists(folder / "results.json")) {
-        throw InputError(fmt::format(
-            "--out {}: holds an index.html that is no page of ours; give another folder",
-            folder.string()));
-    }
-}
-
 }  // namespace
 
 std::vector<fs::path> write_dossier(const DossierOptions& options, const DossierWatch& watch) {
     const DossierFile file = load_dossier(
         options.file.empty() ? scenario::data_root() / "paper" / "dossier.yaml" : options.file);
-    require_own(options.folder);
-    const FolderLock lock(options.folder);
+    report::require_ours(options.folder);
     const auto all = fly_dossier(file, options, watch);
     report::Page page;
     page.title = file.title;
@@ -221,7 +220,7 @@ std::vector<fs::path> write_dossier(const DossierOptions& options, const Dossier
         page.sections[2].blocks = {"No evidence was asked for."};
     }
     page.environment = {{"version", std::string(kVersion)},
-                        {"seed", 1.0},
+                        {"seed", static_cast<double>(all.begin()->second.inputs.seed)},
                         {"mode", options.quick ? "quick" : "full"},
                         {"compiler", __VERSION__},
                         {"command", options.command}};

@@ -17,8 +17,9 @@ namespace limpet::dossier {
 struct Measured {
     double value = 0.0;
     double half_width = 0.0;
-    double deviation = 0.0;  ///< of single flights
-    std::uint32_t flights = 0;
+    double deviation = 0.0;     ///< of single flights
+    std::uint32_t flights = 0;  ///< that have it, of those flown
+    std::uint32_t flown = 0;
     std::string from;  ///< path relative to the page
 };
 
@@ -33,7 +34,7 @@ struct Measured {
 /// What has been flown for one quantity.
 struct QuantityFound {
     Measured nominal;                ///< over seeds, all else as set
-    Measured step;                   ///< half the steps less the nominal, seed by seed
+    Measured step;                   ///< finer steps less the nominal, seed by seed
     std::optional<Measured> engine;  ///< another engine less the nominal; none is built in
     std::string other_engine;
     study::StudyFound inputs;

@@ -48,16 +48,20 @@ private:
     const Table* table_;
 };
 
-/// Commands of as many rotors as have a number; NaN is a motor that stands.
+/// Commands of the motors that there are: PX4 logs twelve and says NaN of those that are not.
 void add_commands(const Rows& rows, const char* name, FlightData& data) {
-    for (std::size_t row = 0; row < rows.count(); ++row) {
-        RotorList<double> command;
-        for (std::size_t i = 0; i < kMaxRotors && rows.has(fmt::format("{}[{}]", name, i)); ++i) {
-            const double share = rows.at(fmt::format("{}[{}]", name, i), row);
-            command.resize(i + 1, std::isfinite(share) ? share : 0.0);
+    std::size_t motors = 0;
+    for (std::size_t i = 0; i < kMaxRotors && rows.has(fmt::format("{}[{}]", name, i)); ++i) {
+        for (std::size_t row = 0; row < rows.count() && motors == i; ++row) {
+            motors += std::isfinite(rows.at(fmt::format("{}[{}]", name, i), row)) ? 1 : 0;
         }
-        if (rows.has("armed") && !(rows.at("armed", row) > 0.0)) {
-            command.fill(0.0);
+    }
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        const bool armed = !rows.has("armed") || rows.at("armed", row) > 0.0;
+        RotorList<double> command(motors, 0.0);
+        for (std::size_t i = 0; i < motors && armed; ++i) {
+            const double share = rows.at(fmt::format("{}[{}]", name, i), row);
+            command[i] = std::isfinite(share) ? share : 0.0;  // a motor that stands
         }
         data.command.push_back(command);
     }
@@ -245,8 +249,7 @@ FlightData of_csv(const std::filesystem::path& path) {
     return data;
 }
 
-// --- a piece of it
-// ---------------------------------------------------------------------------------
+// --- a piece of it ---
 
 template <class... Values>
 void cut(const FlightSpan& span, std::vector<double>& time_s, std::vector<Values>&... values) {
@@ -262,14 +265,37 @@ void cut(const FlightSpan& span, std::vector<double>& time_s, std::vector<Values
     keep(time_s);
 }
 
+/// The fits walk from sample to sample: times rise, and not by more than an hour.
+void require_in_order(const std::filesystem::path& path, const char* what,
+                      const std::vector<double>& time_s) {
+    constexpr double kLongestGap_s = 3600.0;
+    for (std::size_t k = 1; k < time_s.size(); ++k) {
+        const double step_s = time_s[k] - time_s[k - 1];
+        if (!(step_s >= 0.0 && step_s <= kLongestGap_s)) {
+            throw InputError(fmt::format(
+                "{}: {} at {:.3f} s comes after one at {:.3f} s: times must rise, by an hour at "
+                "most",
+                path.string(), what, time_s[k], time_s[k - 1]));
+        }
+    }
+}
+
 }  // namespace
 
 FlightData read_flight(const std::filesystem::path& path, const FlightSpan& span) {
     std::string head(8, '\0');
     std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(8));
-    FlightData data = head.starts_with("\x89MCAP") ? of_recording(record::read_recording(path))
-                      : head.starts_with("ULog")   ? of_px4(record::read_ulog(path))
-                                                   : of_csv(path);
+    const auto is = [&](std::string_view beginning, std::string_view extension) {
+        return head.starts_with(beginning) || path.extension() == extension;
+    };
+    FlightData data = is("\x89MCAP", ".mcap") ? of_recording(record::read_recording(path))
+                      : is("ULog", ".ulg")    ? of_px4(record::read_ulog(path))
+                                              : of_csv(path);
+    require_in_order(path, "a sample of the IMU", data.imu_s);
+    require_in_order(path, "a motor command", data.command_s);
+    require_in_order(path, "a velocity", data.velocity_s);
+    require_in_order(path, "a force", data.force_s);
+    require_in_order(path, "a pressure", data.pressure.t_s);
     cut(span, data.imu_s, data.rate_B_rad_s, data.specific_force_B_m_s2);
     cut(span, data.command_s, data.command);
     cut(span, data.velocity_s, data.velocity_B_m_s);

@@ -247,6 +247,7 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
     LastKnown velocity(data.velocity_s);
     const auto before = velocity.at(touch_s - 0.01);
     if (!before) {
+        fit.notes.emplace_back("no velocity before the touch: nothing tells the slider");
         return;
     }
     // Specific force ahead while level, less its mean over the last of the steady approach.
@@ -255,7 +256,7 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
     LastKnown force(data.force_s);
     for (std::size_t k = 1; k < data.imu_s.size(); ++k) {
         const double time_s = data.imu_s[k];
-        if (time_s < touch_s - 0.1) {
+        if (time_s < touch_s - 0.1 || !data.specific_force_B_m_s2[k].allFinite()) {
             continue;
         }
         if (time_s <= touch_s - 0.01) {
@@ -324,6 +325,13 @@ void fit_motion(const FlightData& data, const vehicle::Airframe& airframe, Vehic
             "motors' lag and drag");
         return;
     }
+    const std::size_t motors = data.command.front().size();
+    if (motors != airframe.rotors.size()) {
+        fit.notes.push_back(fmt::format(
+            "the log has {} motors, the vehicle {}: nothing tells inertia, lag and drag", motors,
+            airframe.rotors.size()));
+        return;
+    }
     constexpr double kSlowest_s = 0.0055;
     const double spacing = spacing_s(data.command_s);
     if (spacing > kSlowest_s) {
@@ -370,16 +378,19 @@ void fit_motion(const FlightData& data, const vehicle::Airframe& airframe, Vehic
 
 VehicleFit identify_vehicle(const FlightData& data, const vehicle::Airframe& airframe) {
     VehicleFit fit;
-    fit_motion(data, airframe, fit);
+    const auto trying = [&fit](const char* what, auto&& does) {
+        try {
+            does();
+        } catch (const InputError& error) {
+            fit.notes.push_back(fmt::format("{}: {}", what, error.what()));
+        }
+    };
+    trying("inertia, motors' lag and drag", [&] { fit_motion(data, airframe, fit); });
     fit_slider(data, fit);
     if (data.pressure.t_s.empty()) {
         fit.notes.emplace_back("no cup pressure in the log: nothing tells the surface");
     } else {
-        try {
-            fit.pressure = identify_pressure(data.pressure);
-        } catch (const InputError& error) {
-            fit.notes.push_back(fmt::format("pressure: {}", error.what()));
-        }
+        trying("pressure", [&] { fit.pressure = identify_pressure(data.pressure); });
     }
     return fit;
 }

@@ -36,7 +36,6 @@ struct VehicleFit {
 /// touch, its acceleration integrated twice.
 /// @param airframe  what is taken as known: rotors' places and thrust, the cup's hinges, mass; its
 ///                  inertia, lags and lambda_1 are where the search begins
-/// @throws InputError when nothing at all can be told
 [[nodiscard]] VehicleFit identify_vehicle(const FlightData& data,
                                           const vehicle::Airframe& airframe);
 

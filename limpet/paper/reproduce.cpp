@@ -34,16 +34,6 @@ std::vector<StudyPart> parts_of(const std::string& only) {
     return chosen;
 }
 
-/// A page of ours may be written anew, somebody else's may not.
-void require_ours(const std::filesystem::path& folder) {
-    if (std::filesystem::exists(folder / "index.html") &&
-        !std::filesystem::exists(folder / "results.json")) {
-        throw InputError(fmt::format(
-            "--out {}: holds an index.html that is no page of ours; give another folder",
-            folder.string()));
-    }
-}
-
 /// All of them; of a part alone those that it has evidence for.
 std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPart>& parts,
                                   bool all) {
@@ -121,7 +111,7 @@ Reproduction reproduce(const ReproduceOptions& options, const ReproduceWatch& wa
     const std::vector<StudyPart> chosen = parts_of(options.only);
     const auto statements = load_statements(statements_file(), measured_names());
     PageText text = load_page_text(page_text_file(), parts());
-    require_ours(options.folder);
+    report::require_ours(options.folder);
     const FolderLock lock(options.folder);
     Study study{.folder = options.folder,
                 .quick = options.quick,

@@ -64,6 +64,7 @@ public:
 
     [[nodiscard]] std::optional<Layout> of(std::string_view type) {
         layout_ = {};
+        visited_ = 0;
         return add(type, "", 0) ? std::optional(layout_) : std::nullopt;
     }
 
@@ -106,7 +107,7 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             const std::string element = array ? fmt::format("{}[{}]", name, i) : name;
-            if (layout_.elements.size() >= kMostElements || !add_element(type, element, depth)) {
+            if (++visited_ > kMostElements || !add_element(type, element, depth)) {
                 return false;
             }
         }
@@ -128,6 +129,7 @@ private:
 
     const Formats& formats_;
     Layout layout_;
+    std::size_t visited_ = 0;  ///< elements, texts, padding and empty parts among them
 };
 
 /// A topic that is logged under a number.
@@ -146,8 +148,11 @@ public:
 
     Recording read() {
         constexpr std::string_view kMagic = "ULog\x01\x12\x35";
-        if (bytes_.size() < kHeaderBytes || !std::string_view(bytes_).starts_with(kMagic)) {
+        if (!std::string_view(bytes_).starts_with(kMagic)) {
             throw InputError(path_.string() + ": is no log of PX4's: it does not begin with ULog");
+        }
+        if (bytes_.size() < kHeaderBytes) {
+            throw InputError(path_.string() + ": is a log of PX4's that ends in its head");
         }
         std::size_t at = kHeaderBytes;
         while (at < bytes_.size()) {

@@ -312,6 +312,15 @@ std::string page_html(const Page& page, const std::filesystem::path& folder) {
     return Writer(page, folder).write();
 }
 
+void require_ours(const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / "index.html") &&
+        !std::filesystem::exists(folder / "results.json")) {
+        throw InputError(fmt::format(
+            "--out {}: holds an index.html that is no page of ours; give another folder",
+            folder.string()));
+    }
+}
+
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder) {
     const draw::gnuplot::TemporaryFolder work;

@@ -77,4 +77,8 @@ struct Page {
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder);
 
+/// A page of ours may be written anew, somebody else's may not.
+/// @throws InputError when the folder holds an index.html without our results.json
+void require_ours(const std::filesystem::path& folder);
+
 }  // namespace limpet::report

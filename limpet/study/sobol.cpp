@@ -77,32 +77,4 @@ std::vector<SobolIndex> sobol_indices(const PickFreeze& figure) {
     return indices;
 }
 
-double given_data_index(const std::vector<double>& inputs, const std::vector<double>& figure,
-                        std::size_t slices) {
-    const std::size_t n = inputs.size();
-    require(n == figure.size() && slices > 1 && n >= 4 * slices, "points enough for the slices");
-    const Moments all = moments_of(figure);
-    if (!(all.deviation > 0.0)) {
-        return kNaN;
-    }
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t k) { return inputs[i] < inputs[k]; });
-    double between = 0.0, within = 0.0;
-    for (std::size_t slice = 0; slice < slices; ++slice) {
-        const std::size_t first = slice * n / slices, last = (slice + 1) * n / slices;
-        std::vector<double> in_it;
-        for (std::size_t i = first; i < last; ++i) {
-            in_it.push_back(figure[order[i]]);
-        }
-        const Moments of = moments_of(in_it);
-        const auto count = static_cast<double>(in_it.size());
-        between += count * (of.mean - all.mean) * (of.mean - all.mean);
-        within += of.deviation * of.deviation * count / (count - 1.0);
-    }
-    const double variance = all.deviation * all.deviation;
-    return (between - within) / (static_cast<double>(n) * variance);
-}
-
 }  // namespace limpet::study

@@ -32,12 +32,4 @@ struct PickFreeze {
 /// SAMO 2016; influence of a correlation: Hampel et al., "Robust statistics", 1986, ch. 4.
 [[nodiscard]] std::vector<SobolIndex> sobol_indices(const PickFreeze& figure);
 
-/// First-order index of one input of any sample that is there: the variance of the figure's means
-/// in slices of equal probability over the variance of all, less what slices of noise would have.
-/// @param inputs, figure  as many of one as of the other, at least 4 a slice
-/// @param weights         of the points, or none
-/// Source: Plischke, Borgonovo and Smith, Eur. J. Oper. Res. 226 (2013) 536.
-[[nodiscard]] double given_data_index(const std::vector<double>& inputs,
-                                      const std::vector<double>& figure, std::size_t slices);
-
 }  // namespace limpet::study

@@ -108,6 +108,23 @@ TEST(Dossier, RefusesAFileThatIsNotSo) {
     EXPECT_THAT(with("safe: at_most", "safe: at_all"), HasSubstr("must be at_least or at_most"));
     EXPECT_THAT(with("scenario: hover", "scenario: hoover"), HasSubstr("has no inputs above"));
     EXPECT_THAT(with("unit: s", "units: s"), HasSubstr("unknown key"));
+    EXPECT_THAT(with("figure: simulated_s", "figure: simulated"),
+                HasSubstr("d.yaml:9: quantities.time.figure: \"simulated\" is no outcome"));
+    EXPECT_THAT(with("  hover:\n", "  ../hover.yaml:\n"),
+                HasSubstr("must be the name of a scenario"));
+    // Keys and spreads before anything flies.
+    const fs::path folder = bench.folder() / "dossier";
+    fs::create_directories(folder);
+    std::string text = kHovers;
+    text.replace(text.find("[5, 6]"), 6, "[6, 5]");
+    EXPECT_THAT(refusal([&] {
+                    (void)write_dossier({.folder = folder,
+                                         .file = bench.write("d.yaml", text),
+                                         .quick = true,
+                                         .jobs = 2,
+                                         .command = "a test"});
+                }),
+                HasSubstr("inputs.hover.simulation.hover_s"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "limpet/identification/vehicle_fit.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +10,11 @@
 #include <filesystem>
 #include <functional>
 
+#include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/record/ulog.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
 
@@ -151,6 +155,42 @@ TEST(VehicleFit, ARecordingTellsWhatItsFlightTold) {
     same(fit.lag_up_s, there.lag_up_s);
     same(fit.lag_down_s, there.lag_down_s);
     same(fit.drag_constant_kg, there.drag_constant_kg);
+}
+
+/// PX4 logs twelve motors and says NaN of those that are not there.
+TEST(VehicleFit, APx4LogTellsTheMotorsThatThereAre) {
+    scenario::LoadOptions options;
+    options.overrides = {"simulation.record_rate_Hz=250", "simulation.time_limit_s=6"};
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete", options);
+    const TestFolder folder;
+    const auto mcap = folder.path() / "flight.mcap", ulog = folder.path() / "flight.ulg";
+    (void)simulation::fly(simulation::build_model(scenario), mcap);
+    record::write_ulog(record::read_recording(mcap), ulog);
+    const FlightData recorded = read_flight(mcap), logged = read_flight(ulog);
+    ASSERT_FALSE(logged.command.empty());
+    EXPECT_EQ(logged.command.back().size(), scenario.airframe.rotors.size());
+    EXPECT_EQ(logged.command.size(), recorded.command.size());
+    const VehicleFit fit = identify_vehicle(logged, scenario.airframe);
+    const VehicleFit there = identify_vehicle(recorded, scenario.airframe);
+    ASSERT_TRUE(fit.inertia_kg_m2[1] && there.inertia_kg_m2[1])
+        << fmt::format("{}", fit.notes.front());
+    EXPECT_NEAR(fit.inertia_kg_m2[1]->value, there.inertia_kg_m2[1]->value,
+                there.inertia_kg_m2[1]->half_width);
+}
+
+TEST(VehicleFit, WhatALogCannotTellIsANote) {
+    const scenario::Scenario scenario = scenario::load_scenario("perch_concrete");
+    FlightData data = flown(scenario, 0, 6.0);
+    for (RotorList<double>& command : data.command) {
+        command.resize(2, 0.0);
+    }
+    data.specific_force_B_m_s2.assign(data.imu_s.size(), Vector3::Constant(kNaN));
+    const VehicleFit fit = identify_vehicle(data, scenario.airframe);
+    EXPECT_FALSE(fit.inertia_kg_m2[0] || fit.lag_up_s || fit.slider_stiffness_N_m);
+    EXPECT_THAT(fit.notes,
+                testing::Contains(testing::HasSubstr("the log has 2 motors, the vehicle 4")));
+    EXPECT_THAT(fit.notes, testing::Contains(testing::HasSubstr("nothing tells the slider")));
+    EXPECT_TRUE(fit.pressure);
 }
 
 }  // namespace

@@ -80,6 +80,14 @@ TEST(UlogReader, ReadsOneThatIsCutShortAnywhere) {
 TEST(UlogReader, RefusesWhatIsNoneInALine) {
     const TestFolder folder;
     EXPECT_THAT(refusal(folder, "PK\3\4"), HasSubstr("is no log of PX4's"));
+    EXPECT_THAT(refusal(folder, kHead.substr(0, 9)), HasSubstr("ends in its head"));
+    // Nothing but padding, ten thousand times ten thousand times ...
+    EXPECT_THAT(
+        refusal(folder, kHead + message('F', "x:uint64_t timestamp;y[9999] a;") +
+                            message('F', "y:z[9999] a;") + message('F', "z:w[9999] a;") +
+                            message('F', "w:uint8_t _padding0;") +
+                            message('A', std::string(1, '\0') + bytes(std::uint16_t{0}) + "x")),
+        HasSubstr("the format of x cannot be read"));
     EXPECT_THAT(refusal(folder, kHead + message('F', "nameless")), HasSubstr("without a name"));
     const std::string of = message('A', std::string(1, '\0') + bytes(std::uint16_t{0}) + "x");
     for (const char* format :

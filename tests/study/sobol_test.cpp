@@ -137,22 +137,5 @@ TEST(Sobol, AFigureThatNothingMovesHasNone) {
     EXPECT_TRUE(std::isnan(indices[1].total));
 }
 
-TEST(Sobol, GivenDataComeToTheSameFirstOrder) {
-    RandomStream random(18, 0, Stream::test);
-    std::vector<Inputs> inputs(3);
-    std::vector<double> figure;
-    for (int j = 0; j < 20000; ++j) {
-        const Inputs u = {random.uniform(), random.uniform(), random.uniform()};
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            inputs[i].push_back(u[i]);
-        }
-        figure.push_back(ishigami(u));
-    }
-    const auto truth = ishigami_truth();
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        EXPECT_NEAR(given_data_index(inputs[i], figure, 40), truth[i].first, 0.02);
-    }
-}
-
 }  // namespace
 }  // namespace limpet::study

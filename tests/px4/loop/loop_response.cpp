@@ -257,23 +257,4 @@ std::string response_text(const std::vector<ResponsePoint>& points) {
     return text;
 }
 
-std::vector<ResponsePoint> read_response(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::vector<ResponsePoint> points;
-    for (std::string line; std::getline(file, line);) {
-        if (line.empty() || line[0] == '#' || line.starts_with("place")) {
-            continue;
-        }
-        std::istringstream cells(line);
-        std::string place, frequency, gain, phase;
-        std::getline(cells, place, ',');
-        std::getline(cells, frequency, ',');
-        std::getline(cells, gain, ',');
-        std::getline(cells, phase, ',');
-        points.push_back({place == "hover" ? Place::hover : Place::cup, std::stod(frequency),
-                          std::polar(std::stod(gain), radians(std::stod(phase)))});
-    }
-    return points;
-}
-
 }  // namespace limpet

@@ -46,6 +46,5 @@ struct Swing {
 
 /// CSV: place,frequency_Hz,gain_s_rad,phase_deg; lines that begin with # say where it comes from.
 [[nodiscard]] std::string response_text(const std::vector<ResponsePoint>& points);
-[[nodiscard]] std::vector<ResponsePoint> read_response(const std::filesystem::path& path);
 
 }  // namespace limpet
