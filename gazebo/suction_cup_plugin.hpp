@@ -91,7 +91,10 @@ protected:
     virtual void tell(const suction::CupState& /*state*/, double /*time_s*/) {}
     virtual void tell(const Event& /*event*/) {}
     [[nodiscard]] const SuctionCupSettings& settings() const { return settings_; }
-    [[nodiscard]] CupCommands commands() const { return topics_->commands(); }
+    /// One of them, as SuctionCupTopics::turn().
+    [[nodiscard]] bool command(const std::string& what, bool on) {
+        return topics_->turn(what, on);
+    }
 
 private:
     void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);

@@ -34,6 +34,10 @@ public:
 
     [[nodiscard]] CupCommands commands() const;
     void command(const CupCommands& commands);
+    /// One of them.
+    /// @param what  "pump" or "valve"
+    /// @return false for another one, and for a valve to be opened where none is fitted
+    [[nodiscard]] bool turn(const std::string& what, bool on);
     /// Back to what they were at the start.
     void reset();
     /// Once a world update: a change of phase at once, pressure and phase at their rate.
@@ -44,9 +48,6 @@ public:
 private:
     using IntPtr = boost::shared_ptr<const gazebo::msgs::Int>;
     using RequestPtr = boost::shared_ptr<const gazebo::msgs::Request>;
-    /// @param what  "pump" or "valve"
-    /// @return false for another one, and for a valve to be opened where none is fitted
-    [[nodiscard]] bool turn(const std::string& what, bool on);
     void on_pump(const IntPtr& message);
     void on_valve(const IntPtr& message);
     void on_request(const RequestPtr& request);

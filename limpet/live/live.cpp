@@ -61,9 +61,10 @@ void Live::channel(const record::SinkChannel& channel) {
     const bool holds = channel.topic == record::kDescriptionTopic ||
                        channel.topic == record::kStandingTopic ||
                        channel.topic == record::kMarkersTopic;
-    latches_.push_back(
-        {.holds = holds,
-         .rare = holds || channel.topic == record::info(record::Topic::events).name});
+    latches_.push_back({.holds = holds,
+                        .rare = channel.topic == record::kDescriptionTopic ||
+                                channel.topic == record::kStandingTopic ||
+                                channel.topic == record::info(record::Topic::events).name});
     for (auto& [session, viewer] : viewers_) {
         viewer.subscriptions.emplace_back();
         viewer.session->send_text(advertise({&channels_.back(), 1}));
@@ -91,6 +92,8 @@ void Live::message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView 
         kept->time_ns = time_ns;
         kept->bytes.assign(data.begin(), data.end());
     }
+    // What stands still comes once; arrows and beams of the scene come after the wall, and again.
+    const bool keep = latch.rare || (latch.holds && !latch.latest);
     const bool time = time_ns >= next_time_ns_;
     if (time) {
         next_time_ns_ = time_ns + kTimeEvery_ns;
@@ -99,15 +102,16 @@ void Live::message(std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView 
         if (time) {
             viewer.session->stream({view_of(time_message(time_ns))});
         }
-        send(viewer, channel, time_ns, data);
+        send(viewer, channel, time_ns, data, keep);
     }
 }
 
-void Live::send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data) {
+void Live::send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data,
+                bool keep) {
     if (const auto& subscription = viewer.subscriptions[channel]) {
         ++count_.messages;
         const auto head = message_head(*subscription, time_ns);
-        if (latches_[channel].rare) {
+        if (keep) {
             viewer.session->send_binary({view_of(head), view_of(data)});
         } else {
             viewer.session->stream({view_of(head), view_of(data)});
@@ -158,7 +162,7 @@ void Live::subscribe(Viewer& viewer, std::uint32_t subscription, std::uint64_t c
     watched_ = true;
     for (const auto& kept : {latches_[id].first, latches_[id].latest}) {
         if (kept) {
-            send(viewer, id, kept->time_ns, kept->bytes);
+            send(viewer, id, kept->time_ns, kept->bytes, true);
         }
     }
 }

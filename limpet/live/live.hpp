@@ -116,7 +116,8 @@ private:
     void subscribe(Viewer& viewer, std::uint32_t subscription, std::uint64_t channel);
     void unsubscribe(Viewer& viewer, std::uint32_t subscription);
     void fetch(serve::Session& session, std::uint32_t request, std::string_view uri) const;
-    void send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data);
+    void send(Viewer& viewer, std::uint16_t channel, std::uint64_t time_ns, mcap::ByteView data,
+              bool keep);
     [[nodiscard]] std::vector<LiveParameter> wanted(const std::vector<std::string>& names) const;
     [[nodiscard]] std::string refusal(const std::string& name, double value) const;
     [[nodiscard]] bool hear(Word word);

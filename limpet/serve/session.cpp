@@ -94,9 +94,10 @@ bool Session::stream(std::initializer_list<std::string_view> parts) {
 }
 
 bool Session::send_large(std::string bytes) {
-    if (!open_ || large_.size() >= kMostLarge) {
+    if (!open_ || (large_bytes_ > 0 && large_bytes_ + bytes.size() > kMostLarge_bytes)) {
         return false;
     }
+    large_bytes_ += bytes.size();
     large_.push_back(std::move(bytes));
     return true;
 }
@@ -110,6 +111,7 @@ bool Session::next(FrameQueue::Frame& frame) {
     }
     leaving_ = std::move(large_.front());
     large_.pop_front();
+    large_bytes_ -= leaving_.size();
     frame = {false, leaving_};
     return true;
 }

@@ -65,9 +65,9 @@ public:
     /// Of many that follow one another, each older than the next: whoever reads slowly gets the
     /// newest ones.
     bool stream(std::initializer_list<std::string_view> parts);
-    /// What a client has asked for and no queue has room for, on the server's thread; a few of
-    /// them may wait. They go out when the queue is empty.
-    /// @return false: too many wait already, or the client has gone
+    /// What a client has asked for and no queue has room for, on the server's thread: one of any
+    /// size, more up to 64 MiB in all. They go out when the queue is empty.
+    /// @return false: too much waits already, or the client has gone
     bool send_large(std::string bytes);
     /// Ends the session once what has been sent is out.
     void close() { asked_to_close_ = true; }
@@ -83,10 +83,11 @@ private:
     /// The next frame to go out, valid until the next call; false without any.
     [[nodiscard]] bool next(FrameQueue::Frame& frame);
 
-    static constexpr std::size_t kMostLarge = 64;
+    static constexpr std::size_t kMostLarge_bytes = std::size_t{64} << 20U;
 
     FrameQueue queue_;
-    std::deque<std::string> large_;  ///< of the server's thread alone, as the next
+    std::deque<std::string> large_;  ///< of the server's thread alone, as the next two
+    std::size_t large_bytes_ = 0;    ///< of them
     std::string leaving_;
     std::string subprotocol_;
     std::atomic<bool> open_ = true, asked_to_close_ = false;

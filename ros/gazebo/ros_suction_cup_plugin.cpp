@@ -64,24 +64,17 @@ private:
         send(to, std::move(message), stamp);
     }
     bool switch_pump(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
-        gazebo11::CupCommands wanted = commands();
-        wanted.pump_on = request.data != 0;
-        command(wanted);
-        response.success = 1;
-        response.message = wanted.pump_on ? "pump on" : "pump off";
+        response.success = command("pump", request.data != 0) ? 1 : 0;
+        response.message = request.data != 0 ? "pump on" : "pump off";
         return true;
     }
     bool open_valve(std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
-        gazebo11::CupCommands wanted = commands();
-        wanted.valve_open = request.data != 0;
-        const bool done = !wanted.valve_open || settings().cup.valve_fitted;
-        if (done) {
-            command(wanted);
-        }
+        const bool open = request.data != 0;
+        const bool done = command("valve", open);
         response.success = done ? 1 : 0;
-        response.message = !done               ? "no valve is fitted: suction.valve_fitted 1"
-                           : wanted.valve_open ? "valve open"
-                                               : "valve shut";
+        response.message = !done  ? "no valve is fitted: suction.valve_fitted 1"
+                           : open ? "valve open"
+                                  : "valve shut";
         return true;
     }
 

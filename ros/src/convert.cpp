@@ -7,9 +7,12 @@
 
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/scene.hpp"
+#include "ros/src/geometry.hpp"
 
 namespace limpet::ros {
 namespace {
+
+using ros::put;
 
 using limpet_ros::AttitudeTarget;
 using limpet_ros::CupContact;
@@ -27,18 +30,6 @@ Message in_frame(std::string_view frame) {
     Message message;
     message.header.frame_id = std::string(frame);
     return message;
-}
-
-/// A vector, along the axes of the message.
-template <class Message>
-void put(const Vector3& v, Message& message) {
-    message.x = v.x();
-    message.y = v.y();
-    message.z = v.z();
-}
-template <class Message>
-Vector3 triple(const Message& message) {
-    return {message.x, message.y, message.z};
 }
 
 void put(const Quaternion& q_WB, geometry_msgs::Quaternion& message) {

@@ -76,25 +76,27 @@ Diagnosis diagnosis_of_guidance(const companion::PerchingSession& session) {
     return told;
 }
 
+constexpr double kOld_s = 1.0;
+constexpr double kSeldom_s = 3.0;  ///< MAVROS tells state and battery about once a second
+
 /// How old each input is.
 Diagnosis diagnosis_of_inputs(const companion::SessionInputs& in, double now_s) {
-    constexpr double kOld_s = 1.0;  // whatever comes, comes more often
     Diagnosis told{.name = "inputs", .level = Diagnosis::Level::ok, .message = "all come"};
-    const auto look = [&](const char* name, double measured_s) {
+    const auto look = [&](const char* name, double measured_s, double old_s = kOld_s) {
         const bool ever = measured_s >= 0.0;
         told.values.emplace_back(std::string(name) + " age_s",
                                  ever ? fmt::format("{:.3f}", now_s - measured_s) : "never came");
-        if (!ever || now_s - measured_s > kOld_s) {
+        if (!ever || now_s - measured_s > old_s) {
             const bool first = told.level == Diagnosis::Level::ok;
             told.message = first ? "do not come: " + std::string(name) : told.message + ", " + name;
             told.level = Diagnosis::Level::error;
         }
     };
-    look("mavros/state", in.autopilot.time_s);
+    look("mavros/state", in.autopilot.time_s, kSeldom_s);
     look("pose", in.pose.time_s);
     look("velocity", in.velocity_W_m_s.time_s);
     look("imu", in.rate_B_rad_s.time_s);
-    look("battery", in.readings.battery.time_s);
+    look("battery", in.readings.battery.time_s, kSeldom_s);
     look("lidar/left", in.readings.lidar_left.time_s);
     look("lidar/right", in.readings.lidar_right.time_s);
     look("cup/force", in.readings.force.time_s);

@@ -3,24 +3,18 @@
 
 #include "limpet/simulation/flight_log.hpp"
 #include "ros/src/description.hpp"
+#include "ros/src/geometry.hpp"
 #include "ros/src/topics.hpp"
 
 namespace limpet::ros {
 namespace {
 
-/// Into a message's x, y, z.
-template <class Message>
-void put(const Vector3& v, Message& message) {
-    message.x = v.x();
-    message.y = v.y();
-    message.z = v.z();
-}
+using ros::put;
+
 template <class Message>
 void put(const Quaternion& q, Message& message) {
     message.w = q.w();
-    message.x = q.x();
-    message.y = q.y();
-    message.z = q.z();
+    put(Vector3(q.vec()), message);
 }
 
 constexpr std::uint32_t kAsTf2 = 100;  ///< messages that wait, as tf2's own

@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <memory>
 
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
-#include "ros/src/recording_topics.hpp"
 #include "ros/src/ros_vehicle.hpp"
 #include "ros/src/setup.hpp"
 
@@ -46,10 +44,8 @@ void vehicle_node() {
         vehicle.show(flight);
         stop = !::ros::ok();
     };
-    const std::unique_ptr<record::MessageSink> seen = recording_topics();
-    const simulation::FlightResult result =
-        fly(model, recording, watch, 0,
-            {.outside = vehicle.outside(), .speed = speed, .stop = &stop, .beside = seen.get()});
+    const simulation::FlightResult result = fly(
+        model, recording, watch, 0, {.outside = vehicle.outside(), .speed = speed, .stop = &stop});
     fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
                result.performance.simulated_s);
 }

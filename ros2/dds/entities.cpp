@@ -244,8 +244,13 @@ public:
     void wait_for_reader(const Guid& reader, double patience_s) override {
         wait(patience_s, [&] { return readers_.contains(reader); });
     }
-    void wait_for_readers(int count, double patience_s) override {
-        wait(patience_s, [&] { return static_cast<int>(readers_.size()) >= count; });
+    void wait_for_reader_beside(const Guid& other, double patience_s) override {
+        constexpr std::ptrdiff_t kPrefix = 12;
+        wait(patience_s, [&] {
+            return std::any_of(readers_.begin(), readers_.end(), [&](const Guid& reader) {
+                return std::equal(other.begin(), other.begin() + kPrefix, reader.begin());
+            });
+        });
     }
 
 private:

@@ -37,8 +37,8 @@ public:
     [[nodiscard]] virtual int readers() const = 0;
     /// Until this reader is known here, or the time is over.
     virtual void wait_for_reader(const Guid& reader, double patience_s) = 0;
-    /// Until so many are.
-    virtual void wait_for_readers(int count, double patience_s) = 0;
+    /// Until one of the participant is that has `other`, a reader or writer.
+    virtual void wait_for_reader_beside(const Guid& other, double patience_s) = 0;
 };
 
 class DataReader {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros2/dds/node.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -144,11 +145,12 @@ private:
     void hear(Bytes bytes, const dds::Sample& sample) {
         if (way_ == ServiceWay::cyclone) {
             if (const auto header = header_of(bytes)) {
-                serve_(std::move(bytes), [replies = replies_, header = *header,
-                                          clients = (*requests_)->writers()](const Bytes& reply) {
-                    (*replies)->wait_for_readers(clients, kMatch_s);  // each client has one
-                    (*replies)->write(with_header(header, reply), {});
-                });
+                serve_(std::move(bytes),
+                       [replies = replies_, header = *header, asker = sample.id.guid,
+                        since = Clock::now()](const Bytes& reply) {
+                           (*replies)->wait_for_reader_beside(asker, patience_s(since));
+                           (*replies)->write(with_header(header, reply), {});
+                       });
             }
             return;
         }
@@ -158,17 +160,24 @@ private:
         if (named) {
             to.guid = sample.related.guid;
         }
-        serve_(std::move(bytes), [replies = replies_, to, named](const Bytes& reply) {
-            if (named) {  // it may have been found before our replies were
-                (*replies)->wait_for_reader(to.guid, kMatch_s);
-            }
-            (*replies)->write(reply, to);
-        });
+        serve_(std::move(bytes),
+               [replies = replies_, to, named, since = Clock::now()](const Bytes& reply) {
+                   if (named) {  // it may have been found before our replies were
+                       (*replies)->wait_for_reader(to.guid, patience_s(since));
+                   }
+                   (*replies)->write(reply, to);
+               });
     }
 
-    /// For who asks is known before its reader of replies may be. rmw_fastrtps waits 0.1 s, which
-    /// on a busy machine is too short.
-    static constexpr double kMatch_s = 0.5;
+    using Clock = std::chrono::steady_clock;
+
+    /// Who asks may be known before its reader of replies is; half a second after it asked it is,
+    /// or has gone. rmw_fastrtps waits 0.1 s, which on a busy machine is too short.
+    static double patience_s(Clock::time_point since) {
+        constexpr double kMatch_s = 0.5;
+        return std::max(0.0,
+                        kMatch_s - std::chrono::duration<double>(Clock::now() - since).count());
+    }
 
     ServiceWay way_;
     std::shared_ptr<ListedWriter> replies_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ros/src/recording_topics.hpp"
+#include "ros2/src/recording_topics.hpp"
 
 #include <ros/ros.h>
 

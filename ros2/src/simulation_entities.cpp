@@ -11,6 +11,7 @@
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/scene.hpp"
 #include "ros/src/convert.hpp"
+#include "ros/src/geometry.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -23,17 +24,6 @@ using simulation_interfaces::EntityCategory;
 using simulation_interfaces::Result;
 
 constexpr const char* kWall = "wall";
-
-template <class Triple>
-void put(const Vector3& from, Triple& to) {
-    to.x = from.x();
-    to.y = from.y();
-    to.z = from.z();
-}
-template <class Triple>
-Vector3 triple(const Triple& from) {
-    return {from.x, from.y, from.z};
-}
 
 geometry_msgs::Pose pose_of(const Vector3& p_W_m, const Quaternion& q) {
     geometry_msgs::Pose pose;

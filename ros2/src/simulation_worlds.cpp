@@ -58,7 +58,8 @@ Result look_for(const Resource& resource, const std::string& wanted) {
                    : result(Result::RESULT_NOT_FOUND,
                             scenario::unknown_name(wanted, "scenario", names));
     }
-    return std::filesystem::is_regular_file(path)
+    std::error_code none;
+    return std::filesystem::is_regular_file(path, none)
                ? result(Result::RESULT_OK)
                : result(Result::RESULT_NOT_FOUND, fmt::format("{}: no such file", wanted));
 }
@@ -101,7 +102,8 @@ void available_worlds(const GetAvailableWorldsRequest& request,
     }
     for (const std::string& source : request.additional_sources) {
         const std::filesystem::path folder(without_scheme(source));
-        if (!std::filesystem::is_directory(folder) && request.continue_on_error == 0) {
+        std::error_code none;
+        if (!std::filesystem::is_directory(folder, none) && request.continue_on_error == 0) {
             response.result =
                 result(Result::RESULT_NOT_FOUND, fmt::format("{}: no such folder", source));
             return;

@@ -3,7 +3,7 @@
 // hovers before the wall until somebody flies it. ROS 1's is ros/src/vehicle_node.cpp, which
 // Gazebo's services stand beside.
 #include "limpet/scenario/yaml_reader.hpp"
-#include "ros/src/recording_topics.hpp"
+#include "ros2/src/recording_topics.hpp"
 #include "ros2/src/simulation_services.hpp"
 #include "ros2/src/simulator.hpp"
 

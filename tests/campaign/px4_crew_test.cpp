@@ -15,8 +15,9 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Instances that no other test meets: their ports are PX4's own, not free ones.
-constexpr const char* kFirst = "6";
+/// Instances that no other test meets, which may run beside: their ports are PX4's own, not free
+/// ones.
+constexpr const char *kEach = "4", *kInterrupted = "6", *kAmiss = "8";
 
 std::string stand_in() {
     return std::string(LIMPET_PROGRAM) + " stand-in hover --instance {instance}";
@@ -29,9 +30,10 @@ std::string hovers(int runs) {
            "\nparameters:\n  sensors.lidar_noise_m: {uniform: [0.002, 0.02]}\n";
 }
 
-std::vector<std::string> on_px4(const std::string& start, std::vector<std::string> more) {
+std::vector<std::string> on_px4(const char* first, const std::string& start,
+                                std::vector<std::string> more) {
     more.insert(more.begin(), {"campaign", "x.yaml", "--autopilot", "px4", "--px4", start,
-                               "--instance", kFirst, "--wait", "30"});
+                               "--instance", first, "--wait", "30"});
     return more;
 }
 
@@ -42,11 +44,11 @@ protected:
 
 TEST_F(CampaignOnPx4, EachFlightHasOneOfItsOwnAndTellsWhoFlewIt) {
     (void)bench_.write("x.yaml", hovers(4));
-    const Finished flown = bench_.run(on_px4(stand_in(), {"--instances", "2"}));
+    const Finished flown = bench_.run(on_px4(kEach, stand_in(), {"--instances", "2"}));
     EXPECT_EQ(flown.exit_code, 0) << flown.err;
     EXPECT_THAT(flown.out, HasSubstr("4 runs of hover, seed 3, on 2 PX4s"));
-    EXPECT_THAT(flown.out, HasSubstr("flown by the stand-in, as PX4 1.15.1, system 7"));
-    EXPECT_THAT(flown.out, HasSubstr("flown by the stand-in, as PX4 1.15.1, system 8"));
+    EXPECT_THAT(flown.out, HasSubstr("flown by the stand-in, as PX4 1.15.1, system 5"));
+    EXPECT_THAT(flown.out, HasSubstr("flown by the stand-in, as PX4 1.15.1, system 6"));
     const auto file = bench_.folder() / "out/x_px4/results.sqlite";
     Results results(file, Access::read);
     EXPECT_EQ(results.outcomes(), (std::map<std::string, std::uint32_t>{{"released", 4}}));
@@ -68,7 +70,7 @@ TEST_F(CampaignOnPx4, InterruptedItLeavesNoneRunningAndGoesOn) {
     const auto mark = bench_.folder() / "started";
     const std::string start = "echo $$ >> '" + mark.string() + "'; exec " + stand_in();
     {
-        Running running(bench_.folder(), on_px4(start, {"--instances", "2"}));
+        Running running(bench_.folder(), on_px4(kInterrupted, start, {"--instances", "2"}));
         const auto file = bench_.folder() / "out/x_px4/results.sqlite";
         EXPECT_TRUE(eventually([&] {
             try {
@@ -91,7 +93,7 @@ TEST_F(CampaignOnPx4, InterruptedItLeavesNoneRunningAndGoesOn) {
 
 TEST_F(CampaignOnPx4, WhatDoesNotFlyIsARowAndWhatDoesNotStartEndsIt) {
     (void)bench_.write("x.yaml", hovers(1));
-    const Finished other = bench_.run(on_px4(stand_in(), {"--only-px4"}));
+    const Finished other = bench_.run(on_px4(kAmiss, stand_in(), {"--only-px4"}));
     EXPECT_EQ(other.exit_code, 0) << other.err;
     EXPECT_THAT(other.out, HasSubstr("no_flight"));
     EXPECT_THAT(other.out, HasSubstr("the stand-in answered, and a PX4 is asked for"));
@@ -99,12 +101,12 @@ TEST_F(CampaignOnPx4, WhatDoesNotFlyIsARowAndWhatDoesNotStartEndsIt) {
     for (const auto& [start, told] : std::map<std::string, std::string>{
              {"echo out of order >&2; exit 3", "ended by itself, its last line: out of order"},
              {".", ".: no PX4 built for simulation is there (bin/px4, etc)"}}) {
-        const Finished none = bench_.run(on_px4(start, {"--out", "none", "--resume"}));
+        const Finished none = bench_.run(on_px4(kAmiss, start, {"--out", "none", "--resume"}));
         EXPECT_EQ(none.exit_code, 2);
         EXPECT_TRUE(none.one_line_of_error()) << none.err;
         EXPECT_THAT(none.err, HasSubstr(told));
     }
-    const Finished many = bench_.run(on_px4(stand_in(), {"--instances", "5"}));
+    const Finished many = bench_.run(on_px4(kAmiss, stand_in(), {"--instances", "3"}));
     EXPECT_EQ(many.exit_code, 2);
     EXPECT_THAT(many.err, HasSubstr("the last would be 10"));
     const Finished alone = bench_.run({"campaign", "x.yaml", "--instances", "2"});

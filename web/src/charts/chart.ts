@@ -225,8 +225,7 @@ function digits(value: number): number {
   return Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : Math.abs(value) >= 1 ? 2 : 3;
 }
 
-/** On white or on the page's dark, as it is seen. */
-/** @param draw  onto the page's own background */
+/** On white or on the page's dark, as it is seen. @param draw  onto that ground */
 export function savePicture(
   [width, height]: [number, number],
   name: string,

@@ -113,7 +113,7 @@ export interface Samples {
   values: Float64Array;
 }
 /** In a panel's units, as they have been worked out, of recordings that do not grow. */
-const known = new WeakMap<Float64Array, Samples>();
+const known = new WeakMap<Float64Array, Map<string, Samples>>();
 
 /** @returns samples of a line, undefined when the recording has none */
 export function samplesOf(recording: Recording, line: Line): Samples | undefined {
@@ -122,22 +122,24 @@ export function samplesOf(recording: Recording, line: Line): Samples | undefined
   if (table === undefined || column === undefined || column.length === 0) {
     return undefined;
   }
-  const before = known.get(column);
-  if (before !== undefined) {
-    return before;
-  }
   const other = line.minus === undefined ? undefined : recording.tables.get(line.minus);
   const taken = other?.columns.get(line.column);
   if (line.minus !== undefined && (other === undefined || taken === undefined)) {
     return undefined;
   }
   const scale = line.scale ?? 1;
+  const of = known.get(column) ?? new Map<string, Samples>();
+  const key = `${scale} ${line.minus}`;
+  const before = of.get(key);
+  if (before !== undefined) {
+    return before;
+  }
   const values = column.map((value, k) => {
     const off = other && taken ? between(other.time, taken, table.time[k] as number) : 0;
     return Number.isFinite(value) ? scale * (value - off) : Number.NaN;
   });
   const samples = { time: table.time, values };
-  known.set(column, samples);
+  known.set(column, of.set(key, samples));
   return samples;
 }
 

@@ -42,7 +42,6 @@ export function indexAt(time: ArrayLike<number>, t: number): number {
   return low - 1;
 }
 
-/** @returns the sample that holds at `t`, undefined before the first */
 /** On the straight line between the samples around it; NaN outside of them. */
 export function between(time: ArrayLike<number>, values: ArrayLike<number>, t: number): number {
   const at = indexAt(time, t);
@@ -54,6 +53,7 @@ export function between(time: ArrayLike<number>, values: ArrayLike<number>, t: n
   return v0 + ((v1 - v0) * (t - t0)) / (t1 - t0);
 }
 
+/** @returns the sample that holds at `t`, undefined before the first */
 export function valueAt(
   time: ArrayLike<number>,
   values: ArrayLike<number>,

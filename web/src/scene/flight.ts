@@ -54,14 +54,14 @@ export class FlightView {
   takes(recording: Recording, ghost: boolean): boolean {
     const before = this.recording;
     const same =
-      recording === before ||
-      (recording.urdf === this.urdf &&
-        sameMeshes(recording.meshes, before.meshes) &&
-        recording.frames.size === before.frames.size &&
-        !this.outgrown &&
-        [...recording.frames].every(([name, { parent }]) => {
-          return before.frames.get(name)?.parent === parent;
-        }));
+      !this.outgrown &&
+      (recording === before ||
+        (recording.urdf === this.urdf &&
+          sameMeshes(recording.meshes, before.meshes) &&
+          recording.frames.size === before.frames.size &&
+          [...recording.frames].every(([name, { parent }]) => {
+            return before.frames.get(name)?.parent === parent;
+          })));
     if (same && ghost === this.ghost) {
       this.recording = recording;
       return true;
@@ -172,8 +172,10 @@ export class FlightView {
     for (const key of [...this.shown.keys()].filter((key) => !this.marks.has(key))) {
       this.hide(key);
     }
-    this.path?.line.removeFromParent();
-    this.path?.line.geometry.dispose();
+    if (this.path !== undefined) {
+      this.path.line.removeFromParent();
+      dispose(this.path.line);
+    }
     this.path = pieces.length > 0 ? new Path(pieces) : undefined;
     if (this.path !== undefined) {
       (this.frames.get(pieces[0]?.mark.frame ?? "") ?? this.root).add(this.path.line);

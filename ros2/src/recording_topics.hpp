@@ -7,8 +7,8 @@
 
 namespace limpet::ros {
 
-/// Tells on topics what a recording holds: truth, /tf, the description of the vehicle. Its messages
-/// are ROS 2's: ROS 1 has none of these.
+/// Tells on topics what a recording holds, all but the scene, which the vehicle tells itself. Its
+/// messages are ROS 2's: ROS 1 has none of these.
 /// @return null where there is nobody to tell
 [[nodiscard]] std::unique_ptr<record::MessageSink> recording_topics();
 
