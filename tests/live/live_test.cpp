@@ -8,6 +8,7 @@
 
 #include "../serve/client.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/record/topics.hpp"
 
 using namespace limpet;
 using namespace limpet::live;
@@ -161,6 +162,35 @@ TEST_F(Watched, WhoComesLateGetsWhatStandsStill) {
     }
     tell(1, 5'000, "another pose");
     EXPECT_EQ(next_bytes(*viewer, 1).substr(13), "another pose");
+}
+
+TEST_F(Watched, WhoReadsSlowlyGetsTheWallTheNewestAndEveryEvent) {
+    add_channel(0, record::kMarkersTopic);
+    add_channel(1, record::info(record::Topic::events).name);
+    tell(0, 1, "wall");
+    const auto viewer = come();
+    viewer->send(
+        R"({"op": "subscribe", "subscriptions": [{"id": 0, "channelId": 0}, {"id": 1, "channelId": 1}]})");
+    EXPECT_THAT(next_bytes(*viewer, '\1'), HasSubstr("wall"));
+    // Of far more than queue and kernel hold it reads nothing.
+    constexpr int kFrames = 20'000;
+    for (int k = 1; k <= kFrames; ++k) {
+        std::string arrows = "arrows " + std::to_string(k) + " ";
+        arrows.resize(2000, '.');
+        tell(0, static_cast<std::uint64_t>(k), arrows);
+        if (k % 5000 == 0) {
+            tell(1, static_cast<std::uint64_t>(k), "event " + std::to_string(k));
+        }
+    }
+    int events = 0, arrows = 0;
+    for (std::string frame; frame.find("event 20000") == std::string::npos; ++arrows) {
+        frame = next_bytes(*viewer, '\1');
+        ASSERT_FALSE(frame.empty());
+        events += frame.find("event ") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_EQ(events, 4);
+    EXPECT_LT(arrows, kFrames);
+    EXPECT_GT(live.count().dropped, 0U);
 }
 
 TEST_F(Watched, SetsParametersWhenTheFlightTakesThemUp) {
