@@ -64,7 +64,7 @@ OptionList options_of(CampaignOptions& options) {
           {"--wait SECONDS", &options.px4.wait_s, "longest wait for a PX4 [s] (default 60)",
            range(0.1, 86400.0, false)},
           {"--only-px4", &options.px4.only_px4,
-           "a flight that the stand-in answers does not count"}},
+           "a flight that the stand-in answers is none: no_flight"}},
          options_of(options.rare)});
 }
 

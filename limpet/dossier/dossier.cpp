@@ -163,6 +163,7 @@ private:
             study::begin_study(results, {.figure = "simulated_s", .samples = samples()});
             return results;
         } catch (const InputError& error) {  // who asked knows no line of that file
+            fs::remove_all(options_.folder / "runs");
             const std::string message = error.what();
             const std::size_t key = message.find("parameters.");
             throw InputError(key == std::string::npos

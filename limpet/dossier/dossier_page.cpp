@@ -30,8 +30,9 @@ std::string measured_text(const Measured& one, bool sign = false) {
     if (!std::isfinite(one.value)) {
         return "did not come to pass";
     }
-    std::string text = fmt::format(fmt::runtime(sign ? "{:+.3g} +- {:.2g}" : "{:.4g} +- {:.2g}"),
-                                   one.value, one.half_width);
+    std::string text =
+        fmt::format(fmt::runtime(sign ? "{:+.3g}\u00a0±\u00a0{:.2g}" : "{:.4g}\u00a0±\u00a0{:.2g}"),
+                    one.value, one.half_width);
     if (one.flights < one.flown) {
         text += fmt::format(" ({} of {} flights have it)", one.flights, one.flown);
     }
@@ -61,19 +62,38 @@ PageTable uses(const DossierFile& file) {
 }
 
 PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
+    PageTable table{.id = "numbers",
+                    .title = "The simulation's own error",
+                    .columns = {"quantity", "unit", "as set, mean (95 %)", "seeds, one deviation",
+                                "finer steps", "another engine"},
+                    .caption =
+                        "Each number links to the flights that it comes from: `limpet summary` and "
+                        "`limpet replay` read the files. Finer steps are of half a tick "
+                        "throughout, and half of those around a touch; steps and engine are "
+                        "differences, seed by seed."};
+    for (const Quantity& one : file.quantities) {
+        const QuantityFound& found = all.at(one.name);
+        add_row(table,
+                {one.figure, one.unit, measured_text(found.nominal),
+                 report::Quantity(found.nominal.deviation), measured_text(found.step, true),
+                 found.engine ? found.other_engine + ": " + measured_text(*found.engine, true)
+                              : std::string("none in this program flies it")},
+                {"", "", found.nominal.from, found.nominal.from, found.step.from,
+                 found.engine ? found.engine->from : ""});
+    }
+    return table;
+}
+
+PageTable bounds(const DossierFile& file, const std::map<std::string, QuantityFound>& all) {
     PageTable table{
-        .id = "numbers",
-        .title = "How sure",
-        .columns = {"quantity", "unit", "as set, mean (95 %)", "seeds, one deviation",
-                    "finer steps", "another engine", "inputs, 5 to 95 %", "decided by", "evidence",
-                    "bound"},
+        .id = "bounds",
+        .title = "Inputs, evidence and bound",
+        .columns = {"quantity", "unit", "inputs, 5 to 95 %", "decided by", "evidence", "bound"},
         .caption = fmt::format(
-            "Each number links to the flights that it comes from: `limpet summary` and `limpet "
-            "replay` read the files. Finer steps are of half a tick throughout, and half of those "
-            "around a touch; steps and engine are differences, seed by seed. The bound holds for "
-            "{:.0f} % of the flights over inputs and seeds with {:.0f} % confidence, moved to the "
-            "unsafe side by the far ends of both differences; a flight without the number counts "
-            "as one at the unsafe end. Decided by: the input with the largest total Sobol index.",
+            "The bound holds for {:.0f} % of the flights over inputs and seeds with {:.0f} % "
+            "confidence, moved to the unsafe side by the far ends of both differences above; a "
+            "flight without the number counts as one at the unsafe end. Decided by: the input with "
+            "the largest total Sobol index.",
             100.0 * kShareHeld, 100.0 * kHeldConfidence)};
     for (const Quantity& one : file.quantities) {
         const QuantityFound& found = all.at(one.name);
@@ -84,10 +104,7 @@ PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityF
         const bool some = found.inputs.values.size() > 1;
         add_row(
             table,
-            {one.figure, one.unit, measured_text(found.nominal),
-             report::Quantity(found.nominal.deviation), measured_text(found.step, true),
-             found.engine ? found.other_engine + ": " + measured_text(*found.engine, true)
-                          : std::string("none in this program flies it"),
+            {one.figure, one.unit,
              some ? report::Quantity(draw::Range{campaign::quantile(found.inputs.values, 0.05),
                                                  campaign::quantile(found.inputs.values, 0.95)})
                   : report::Quantity("did not come to pass"),
@@ -95,11 +112,10 @@ PageTable numbers(const DossierFile& file, const std::map<std::string, QuantityF
                              : std::string("too few flights to tell"),
              found.evidence.empty() ? std::string("none asked for")
                                     : fmt::format("{} of {} agree", agree, found.evidence.size()),
-             found.bound ? fmt::format("{} {:.4g} {}", one.safe_above ? "at least" : "at most",
-                                       *found.bound, one.unit)
-                         : std::string("too few flights to tell, or without it")},
-            {"", "", found.nominal.from, found.nominal.from, found.step.from,
-             found.engine ? found.engine->from : "", found.inputs_from, found.inputs_from,
+             found.bound
+                 ? fmt::format("{} {:.4g}", one.safe_above ? "at least" : "at most", *found.bound)
+                 : std::string("too few flights to tell, or without it")},
+            {"", "", found.inputs_from, found.inputs_from,
              found.evidence.empty() ? "" : found.evidence.front().second, found.inputs_from});
     }
     return table;
@@ -210,12 +226,13 @@ std::vector<fs::path> write_dossier(const DossierOptions& options, const Dossier
         "In the shape of NASA-STD-7009 (factors of credibility) and ASME V&V 40 (question, context "
         "of use, risk, evidence). Words are from a file, every number comes from a run that it "
         "links to."};
-    page.sections = {
-        {.id = "use", .title = "Use and risk", .blocks = {uses(file)}},
-        {.id = "sure", .title = "How sure each number is", .blocks = {numbers(file, all)}},
-        {.id = "validation", .title = "Evidence", .blocks = {evidence(file, all)}},
-        {.id = "pedigree", .title = "Inputs", .blocks = {pedigree(file)}},
-        {.id = "credibility", .title = "Factors", .blocks = {factors(file, all)}}};
+    page.sections = {{.id = "use", .title = "Use and risk", .blocks = {uses(file)}},
+                     {.id = "sure",
+                      .title = "How sure each number is",
+                      .blocks = {numbers(file, all), bounds(file, all)}},
+                     {.id = "validation", .title = "Evidence", .blocks = {evidence(file, all)}},
+                     {.id = "pedigree", .title = "Inputs", .blocks = {pedigree(file)}},
+                     {.id = "credibility", .title = "Factors", .blocks = {factors(file, all)}}};
     if (std::get<PageTable>(page.sections[2].blocks.front()).rows.empty()) {
         page.sections[2].blocks = {"No evidence was asked for."};
     }

@@ -202,16 +202,26 @@ std::vector<std::filesystem::path> draw_study(const StudyFound& found,
     if (found.inputs.empty()) {
         return {};
     }
-    draw::ChartPanel panel{.y_label = "share of the variance", .y_range = draw::Range{-0.1, 1.1}};
+    draw::Range shares{-0.1, 1.1};
+    draw::ChartPanel panel{.y_label = "share of the variance"};
     draw::ChartSeries first{.name = "alone", .mark = draw::ChartSeries::Mark::points};
     draw::ChartSeries total{.name = "with others", .mark = draw::ChartSeries::Mark::points};
     for (const StudiedInput& input : by_share(found.inputs)) {
         const SobolIndex& index = input.index;
-        const double x = panel.category(input.key);
+        for (const campaign::Interval& interval : {index.first_95, index.total_95}) {
+            shares.low = std::min(shares.low, interval.low);
+            shares.high = std::max(shares.high, interval.high);
+        }
+        const std::size_t dot = input.key.rfind('.');
+        const double x = panel.category(
+            dot == std::string::npos
+                ? input.key
+                : fmt::format("{} ({})", input.key.substr(dot + 1), input.key.substr(0, dot)));
         constexpr double kBeside = 0.1;
         first.add(x - kBeside, index.first, {index.first_95.low, index.first_95.high});
         total.add(x + kBeside, index.total, {index.total_95.low, index.total_95.high});
     }
+    panel.y_range = shares;
     panel.series = {first, total};
     return draw::draw_chart(
                {.title = found.name + ": " + found.figure,
