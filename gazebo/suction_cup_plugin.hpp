@@ -92,9 +92,7 @@ protected:
     virtual void tell(const Event& /*event*/) {}
     [[nodiscard]] const SuctionCupSettings& settings() const { return settings_; }
     /// One of them, as SuctionCupTopics::turn().
-    [[nodiscard]] bool command(const std::string& what, bool on) {
-        return topics_->turn(what, on);
-    }
+    [[nodiscard]] bool command(const std::string& what, bool on) { return topics_->turn(what, on); }
 
 private:
     void configure(gazebo::physics::ModelPtr model, const sdf::ElementPtr& sdf);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dual.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -6,7 +8,6 @@
 
 #include "limpet/core/random.hpp"
 #include "limpet/plant/reduced_plant.hpp"
-#include "dual.hpp"
 #include "plants.hpp"
 
 namespace limpet::plant {
