@@ -115,7 +115,7 @@ report::Quantity number_or(double value, const char* words) {
 const std::vector<StudyPart>& parts() {
     static const std::vector<StudyPart> all = {
         rotors_part(),   suction_part(),     trials_part(), flights_part(),
-        recorded_part(), oscillation_part(), beyond_part(),
+        recorded_part(), oscillation_part(), causes_part(), beyond_part(),
     };
     return all;
 }

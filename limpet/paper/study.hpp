@@ -71,6 +71,7 @@ struct StudyPart {
 [[nodiscard]] StudyPart flights_part();      ///< Figs. 9 to 15
 [[nodiscard]] StudyPart recorded_part();     ///< Figs. 4, 5
 [[nodiscard]] StudyPart oscillation_part();  ///< the open question
+[[nodiscard]] StudyPart causes_part();       ///< of it, with probabilities
 [[nodiscard]] StudyPart beyond_part();       ///< valve, energy, break-off loads
 /// In the paper's order.
 [[nodiscard]] const std::vector<StudyPart>& parts();

@@ -20,7 +20,9 @@ using Matrix = Eigen::MatrixXd;
 /// Large against rounding, small against every nonlinearity: 1 um, 1 urad, 1e-6 of full torque.
 constexpr double kStep = 1e-6;
 constexpr int kSettlePeriods = 500;  ///< slider and lip come to rest, a swing does not grow much
-constexpr int kNewtonSteps = 6;
+/// Two or three; more where motors slow down otherwise than they speed up: their rest is a corner,
+/// which is met in ever smaller steps from both sides.
+constexpr int kNewtonSteps = 30;
 constexpr double kStanding = 1e-7;  ///< a number that nothing moves: an integrator without gain
 constexpr int kWatchPeriods = 64;   ///< longer than the longest dead time
 constexpr double kResting = 1e-8;   ///< by how much the rest may move in a period
@@ -257,12 +259,16 @@ std::vector<Mode> LevelOnCup::modes() {
 }
 
 Mode pitch_mode(const std::vector<Mode>& modes) {
-    constexpr double kSlow_Hz =
-        3.0;  // faster ones are the free vehicle's attitude loop and filters
-    const auto found = std::find_if(modes.begin(), modes.end(), [](const Mode& mode) {
-        return mode.frequency_Hz < kSlow_Hz && mode.pitch_share > 0.7;
+    const auto is_pitch = [](const Mode& mode) {
+        constexpr double kFast_Hz = 3.0;  // the free vehicle's attitude loop and filters
+        return mode.frequency_Hz < kFast_Hz && mode.pitch_share > 0.7;
+    };
+    const auto swings = std::find_if(modes.begin(), modes.end(), [&](const Mode& mode) {
+        return is_pitch(mode) && (is_swing(mode) || mode.growth_1_s > 0.0);
     });
-    require(found != modes.end(), "a swing in pitch");
+    const auto found =
+        swings != modes.end() ? swings : std::find_if(modes.begin(), modes.end(), is_pitch);
+    require(found != modes.end(), "a mode in pitch");
     return *found;
 }
 

@@ -57,7 +57,14 @@ private:
     std::vector<std::size_t> carried_;
 };
 
-/// The fastest-growing or slowest-decaying of the modes that are mostly pitch and below 3 Hz.
+/// It swings; an integrator's creeping back to the rest is no swing.
+[[nodiscard]] inline bool is_swing(const Mode& mode) {
+    constexpr double kCreeping_Hz = 0.1;
+    return mode.frequency_Hz >= kCreeping_Hz;
+}
+
+/// The fastest-growing or slowest-decaying of the modes that are mostly pitch and below 3 Hz, of
+/// those that swing or grow; where none does, of those that creep back.
 /// @throws InternalError when there is none
 [[nodiscard]] Mode pitch_mode(const std::vector<Mode>& modes);
 

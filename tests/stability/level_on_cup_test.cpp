@@ -107,6 +107,15 @@ TEST(LevelOnCup, GazebosMotorsDecayAndSlowOnesGrow) {
     EXPECT_NEAR(slow.growth_1_s, std::log(10.0) / 16.0, 0.05);
 }
 
+/// Nothing pushes by chance in a linearised loop.
+TEST(LevelOnCup, GustsDoNotTurnUpInIt) {
+    const auto at = [](const char* gusts) {
+        return linear_swing("perch_metal", {"environment.recirculation_moment_rms_N_m=0.1", gusts});
+    };
+    EXPECT_EQ(at("environment.gust_sigma_m_s=2").growth_1_s,
+              linear_swing("perch_metal", {}).growth_1_s);
+}
+
 /// The paper tells of pitch: nothing else may grow.
 TEST(LevelOnCup, SlowMotorsSwingInPitchAlone) {
     LevelOnCup loop(simulation::build_model(scenario::load_scenario("slow_motors_metal")));

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "limpet/paper/cause_places.hpp"
+#include "limpet/paper/causes.hpp"
+#include "limpet/paper/oscillation.hpp"
+#include "limpet/paper/parallel.hpp"
+#include "limpet/paper/study.hpp"
+#include "limpet/study/sobol.hpp"
+
+namespace limpet::paper {
+namespace {
+
+constexpr std::size_t kEvery = (1U << kCauses) - 1;
+constexpr std::uint64_t kSeed = 31;
+
+/// Share of the growth's variance over the prior by each input; a swing that decays faster than
+/// this counts as if it did so by this, for nobody would see a difference.
+std::vector<study::SobolIndex> growth_indices(const Study& study) {
+    constexpr double kLeast_1_s = -0.5;
+    const std::size_t samples = study.quick ? 32 : 256, inputs = cause_inputs().size();
+    study::PickFreeze all{.a = std::vector<double>(samples),
+                          .b = all.a,
+                          .mixed = std::vector<std::vector<double>>(inputs, all.a)};
+    const auto growth = [&](const CausePoint& point) {
+        return std::max(kLeast_1_s, swing_of(point).growth_1_s);
+    };
+    for_each_index(samples, study.jobs, [&](std::size_t k) {
+        const auto draw = [k](std::uint64_t seed) {
+            RandomStream random(seed, static_cast<std::uint32_t>(k), Stream::scenario);
+            return draw_point(kEvery, random);
+        };
+        const CausePoint a = draw(kSeed + 1), b = draw(kSeed + 2);
+        all.a[k] = growth(a);
+        all.b[k] = growth(b);
+        for (std::size_t i = 0; i < inputs; ++i) {
+            CausePoint mixed = a;
+            mixed[static_cast<Eigen::Index>(i)] = b[static_cast<Eigen::Index>(i)];
+            const bool of_loop = static_cast<Eigen::Index>(i) < kOfLoop;
+            all.mixed[i][k] = of_loop ? growth(mixed) : all.a[k];
+        }
+        study.say("");
+    });
+    return study::sobol_indices(all);
+}
+
+void tell_causes(Study& study, const CausePosterior& posterior) {
+    const std::vector<double> sets = posterior.set_probabilities();
+    const double nothing = posterior.weighted[0].evidence();
+    draw::ChartPanel panel{.y_label = "probability that it takes part",
+                           .levels = {{.at = 0.5, .label = "before"}},
+                           .y_range = draw::Range{0.0, 1.0}};
+    draw::ChartSeries bars{.mark = draw::ChartSeries::Mark::bars};
+    TableRows rows;
+    for (std::size_t i = 0; i < kCauses; ++i) {
+        const auto cause = static_cast<Cause>(i);
+        const double probability = posterior.probability(cause);
+        const study::Weighted& alone = posterior.weighted[1U << i];
+        const study::Weighted& others = posterior.weighted[kEvery & ~(1U << i)];
+        bars.add(panel.category(to_text(cause)), probability);
+        rows.push_back({to_text(cause), alone.evidence(), others.evidence(), probability,
+                        probability / (1.0 - probability)});
+    }
+    rows.push_back({"none of them", nothing, posterior.weighted[kEvery].evidence(), sets[0],
+                    sets[0] / (1.0 - sets[0])});
+    panel.series = {bars};
+    study.draw("fig-causes", {.panels = {panel}, .column_px = 900.0});
+    study.table("causes", rows);
+
+    std::vector<std::size_t> order(sets.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return sets[a] > sets[b]; });
+    TableRows likely;
+    constexpr std::size_t kShown = 8;
+    for (std::size_t k = 0; k < kShown; ++k) {
+        std::string names;
+        for (std::size_t i = 0; i < kCauses; ++i) {
+            if (takes_part(order[k], static_cast<Cause>(i))) {
+                names += (names.empty() ? "" : ", ") + std::string(to_text(static_cast<Cause>(i)));
+            }
+        }
+        const study::Weighted& weighted = posterior.weighted[order[k]];
+        likely.push_back({names.empty() ? "none" : names, sets[order[k]], weighted.evidence(),
+                          std::round(weighted.effective())});
+    }
+    study.table("cause-sets", likely);
+    study.evidence.set("causes.motors_alone", posterior.weighted[1].evidence());
+    study.evidence.set("causes.all", posterior.weighted[kEvery].evidence());
+}
+
+void tell_inputs(Study& study, const CausePosterior& posterior) {
+    const std::vector<study::SobolIndex> indices = growth_indices(study);
+    TableRows rows;
+    for (std::size_t i = 0; i < cause_inputs().size(); ++i) {
+        const CauseInput& input = cause_inputs()[i];
+        std::vector<double> values;
+        for (const CauseDraw& draw : posterior.draws->back()) {
+            values.push_back(draw.point[static_cast<Eigen::Index>(i)]);
+        }
+        const auto at = [&](double share) {
+            return posterior.weighted[kEvery].quantile(values, share);
+        };
+        const bool of_loop = static_cast<Eigen::Index>(i) < kOfLoop;
+        rows.push_back({input.name, to_text(input.cause), input.prior, input.source,
+                        draw::Range{at(0.025), at(0.975)},
+                        of_loop ? report::Quantity(indices[i].first) : "not of the loop",
+                        of_loop ? report::Quantity(indices[i].total) : "not of the loop"});
+    }
+    study.table("cause-inputs", rows);
+}
+
+void tell_measurements(Study& study, const CausePosterior& posterior) {
+    TableRows rows;
+    for (const CauseMeasurement& one : measurements(posterior, kSeed, study.jobs)) {
+        rows.push_back({one.name, one.accuracy, one.bits});
+    }
+    study.table("cause-measurements", rows);
+    double bits = 0.0;
+    for (const double one : posterior.set_probabilities()) {
+        bits -= one > 0.0 ? one * std::log2(one) : 0.0;
+    }
+    study.evidence.set("causes.open_bits", bits);
+}
+
+/// The altitude loop is guidance's, which the linearised loop leaves out: flown, kicked.
+void tell_altitude(Study& study) {
+    study.say("causes: the altitude loop, by kicked flights");
+    const std::size_t points = study.quick ? 4 : 16;
+    std::vector<double> with(points), without(points);
+    for_each_index(points, study.jobs, [&](std::size_t k) {
+        RandomStream random(kSeed + 3, static_cast<std::uint32_t>(k), Stream::scenario);
+        stability::Overrides overrides = overrides_of(draw_point(kEvery, random));
+        without[k] = kicked_swing("perch_metal", overrides).growth_1_s;
+        overrides.emplace_back("guidance.altitude_hold=1");
+        overrides.push_back(
+            fmt::format("guidance.altitude_gain_1_s={}", 0.5 + 1.5 * random.uniform()));
+        with[k] = kicked_swing("perch_metal", overrides).growth_1_s;
+    });
+    double damped = 0.0;
+    for (std::size_t k = 0; k < points; ++k) {
+        // No growth to be told: no swing stands out of the kick any more.
+        damped += !std::isfinite(with[k]) || with[k] < without[k] ? 1.0 : 0.0;
+    }
+    study.evidence.set("causes.altitude_points", static_cast<double>(points));
+    study.evidence.set("causes.altitude_damped", damped);
+}
+
+void study_causes(Study& study) {
+    study.say("causes: missions that say how large the swing becomes");
+    const SwingSize size = measure_size(study.quick ? 40 : 160, study.jobs);
+    study.say("causes: the linearised loop over the prior");
+    const std::size_t draws = study.quick ? 25 : 250;
+    const PriorDraws prior = draw_prior(draws, kSeed, study.jobs, [&] { study.say(""); });
+    std::size_t restless = 0;
+    for (const std::vector<CauseDraw>& set : prior) {
+        restless += static_cast<std::size_t>(std::count_if(
+            set.begin(), set.end(), [](const CauseDraw& draw) { return !draw.swing.rests; }));
+    }
+    const CausePosterior posterior = weigh(prior, size, {});
+    const auto growth = [](const CauseDraw& draw) { return draw.swing.growth_1_s; };
+    const auto frequency = [](const CauseDraw& draw) { return draw.swing.frequency_Hz; };
+    for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{
+             {"causes.draws", static_cast<double>(draws)},
+             {"causes.restless",
+              static_cast<double>(restless) / static_cast<double>(draws * prior.size())},
+             {"causes.start_deg", size.start_deg},
+             {"causes.metal_scatter", std::exp(size.metal_scatter)},
+             {"causes.concrete_scatter", std::exp(size.concrete_scatter)},
+             {"causes.flights", static_cast<double>(size.flights)},
+             {"causes.held", size.held},
+             {"causes.growth_low_1_s", posterior.quantile(growth, 0.025)},
+             {"causes.growth_1_s", posterior.quantile(growth, 0.5)},
+             {"causes.growth_high_1_s", posterior.quantile(growth, 0.975)},
+             {"causes.frequency_low_Hz", posterior.quantile(frequency, 0.025)},
+             {"causes.frequency_high_Hz", posterior.quantile(frequency, 0.975)}}) {
+        study.evidence.set(name, value);
+    }
+    tell_causes(study, posterior);
+    tell_inputs(study, posterior);
+    tell_measurements(study, posterior);
+    tell_altitude(study);
+}
+
+}  // namespace
+
+StudyPart causes_part() {
+    return {"causes",
+            "Which cause? With probabilities",
+            study_causes,
+            {"causes.draws", "causes.restless", "causes.start_deg", "causes.metal_scatter",
+             "causes.concrete_scatter", "causes.flights", "causes.held", "causes.growth_low_1_s",
+             "causes.growth_1_s", "causes.growth_high_1_s", "causes.frequency_low_Hz",
+             "causes.frequency_high_Hz", "causes.motors_alone", "causes.all", "causes.open_bits",
+             "causes.altitude_points", "causes.altitude_damped"},
+            {"fig-causes", "causes", "cause-sets", "cause-inputs", "cause-measurements"}};
+}
+
+}  // namespace limpet::paper
