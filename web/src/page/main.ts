@@ -33,7 +33,10 @@ async function embedded(): Promise<Recording[]> {
 
 class Page {
   private readonly stage = new Stage(by<HTMLCanvasElement>("picture"));
-  private readonly player = new Player(() => this.show());
+  private readonly player = new Player(
+    () => this.show(),
+    (took_ms) => this.stage.pace(took_ms),
+  );
   private readonly timeline = new Timeline(by("timeline"), by("events"), (t) => this.seek(t));
   private readonly charts = kPanels.map(
     (panel) =>
@@ -221,7 +224,10 @@ class Page {
       this.player.end = this.recordings[0]?.duration ?? 0;
       this.player.seek(this.player.end);
     }
-    by("play").textContent = this.player.playing ? "Pause" : "Play";
+    const { playing } = this.player;
+    by("play").textContent = playing ? "Pause" : "Play";
+    this.dirty ||= this.stage.moving !== playing; // in full detail where it stands
+    this.stage.moving = playing;
     if (this.recordings.length === 0 || (this.player.time === this.shown && !this.dirty)) {
       return this.following;
     }

@@ -9,8 +9,14 @@ export class Player {
   private last_ms: number | undefined;
   private woken = false;
 
-  /** @param step  shows the time as it is; @returns whether to go on with the next picture */
-  constructor(private readonly step: () => boolean) {}
+  /**
+   * @param step   shows the time as it is; @returns whether to go on with the next picture
+   * @param paced  while it plays, told how long after the one before a picture comes [ms]
+   */
+  constructor(
+    private readonly step: () => boolean,
+    private readonly paced: (took_ms: number) => void,
+  ) {}
 
   /** Something has changed: step() at the screen's next picture. */
   wake(): void {
@@ -22,6 +28,9 @@ export class Player {
   private frame(now_ms: number): void {
     this.woken = false;
     if (this.playing) {
+      if (this.last_ms !== undefined) {
+        this.paced(now_ms - this.last_ms);
+      }
       this.time += this.speed * 1e-3 * Math.min(100, now_ms - (this.last_ms ?? now_ms));
       if (this.time >= this.end) {
         this.time = this.end;

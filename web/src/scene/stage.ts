@@ -25,6 +25,10 @@ export const kViews: [ViewName, string][] = [
 ];
 
 const kBriefly = 0.5;
+/** Shares of the dots, from picture to picture while it plays. */
+const kDetails = [1, 0.7, 0.5, 0.35];
+const kSlow_ms = 25; // between two pictures; 60 a second are 17
+const kSlowPictures = 4; // in a row
 const kNowhere_m = 1e6;
 /** Less than a vehicle that rests is before the wall, or the camera would be within it. */
 const kAhead_m = 0.1;
@@ -66,7 +70,19 @@ export class Stage {
 
   /** Pictures follow each other at once, with fewer dots; a machine without a graphics card keeps up. */
   brief = false;
+  /** It plays: with as many dots as the machine draws in time. */
+  moving = false;
+  private detail = 0;
+  private slow = 0; // pictures in a row
   private readonly replaced: FlightView[] = [];
+  /** @param took_ms  from the picture before to this one, while it plays */
+  pace(took_ms: number): void {
+    this.slow = took_ms > kSlow_ms ? this.slow + 1 : 0;
+    if (this.slow >= kSlowPictures && this.detail < kDetails.length - 1) {
+      this.detail += 1;
+      this.slow = 0;
+    }
+  }
   setFlights(flights: FlightView[]): void {
     const gone = this.flights.filter((flight) => !flights.includes(flight));
     this.scene.remove(...gone.map((flight) => flight.root));
@@ -150,7 +166,8 @@ export class Stage {
     this.follow();
     const canvas = this.renderer.domElement;
     const { clientWidth: width, clientHeight: height } = canvas;
-    const ratio = (this.brief ? kBriefly : 1) * Math.min(window.devicePixelRatio, 2);
+    const dots = this.brief ? kBriefly : this.moving ? (kDetails[this.detail] ?? 1) : 1;
+    const ratio = dots * Math.min(window.devicePixelRatio, 2);
     if (
       canvas.width !== Math.floor(width * ratio) ||
       canvas.height !== Math.floor(height * ratio)
@@ -160,6 +177,7 @@ export class Stage {
       this.camera.aspect = width / Math.max(1, height);
       this.camera.updateProjectionMatrix();
     }
+    this.renderer.shadowMap.autoUpdate = !this.brief; // the last one stays
     this.renderer.render(this.scene, this.camera);
     // Not before the next are drawn: a shader without a material is compiled anew.
     for (const flight of this.replaced.splice(0)) {
