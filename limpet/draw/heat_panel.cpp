@@ -123,9 +123,9 @@ private:
             kChartSmall_px);
     }
 
-    /// Each with its name at the right; near the right end at its left.
+    /// Each with its name above it; near the top below.
     [[nodiscard]] std::string points() {
-        constexpr double kGap_px = 12.0, kNearTheEnd = 0.85;
+        constexpr double kGap_px = 17.0, kNearTheTop = 0.9;
         sketch_.add("set style textbox opaque margins 0.4,0.3 fillcolor rgb '#FFFFFF' noborder\n");
         std::vector<double> x, y;
         for (const HeatPoint& point : panel_.points) {
@@ -135,10 +135,10 @@ private:
             }
             x.push_back(point.x);
             y.push_back(point.y);
-            const bool right = along < kNearTheEnd;
-            sketch_.label(box_.left_px + along * box_.width_px() + (right ? kGap_px : -kGap_px),
-                          box_.bottom_px - up * box_.height_px(), point.label, kChartSmall_px,
-                          colours::kInk, right ? "left boxed" : "right boxed");
+            sketch_.label(
+                box_.left_px + along * box_.width_px(),
+                box_.bottom_px - up * box_.height_px() + (up < kNearTheTop ? -kGap_px : kGap_px),
+                point.label, kChartSmall_px, colours::kInk, "center boxed");
         }
         if (x.empty()) {
             return "";

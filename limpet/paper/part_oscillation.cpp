@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <string_view>
 
 #include "limpet/core/errors.hpp"
@@ -10,6 +13,7 @@
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/paper/parallel.hpp"
+#include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -30,6 +34,16 @@ std::vector<double> axis(double from, double to, int count) {
     return values;
 }
 
+/// As PX4 v1.15.1 works off its loop (docs/decisions/0039), and motors that act at once but for
+/// their lag.
+const Overrides kAsPx4 = {"autopilot.attitude_age_steps=2", "autopilot.dgyro_order=1",
+                          "vehicle.rotor.command_delay_s=0"};
+
+Overrides with(Overrides first, const Overrides& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
 struct TitledMap {
     std::string title;
     stability::StabilityMap map = {};
@@ -47,7 +61,7 @@ std::vector<TitledMap> maps(const Study& study) {
         study.say(fmt::format("stability map: {}", title));
         all.push_back({title,
                        {.scenario = kSlow,
-                        .changes = gains,
+                        .changes = with(kAsPx4, gains),
                         .across = motor_lags(axis(0.010, 0.100, study.quick ? 10 : 28)),
                         .up = pivots(axis(0.40, 0.58, study.quick ? 7 : 19))}});
         fill(all.back().map, study.jobs);
@@ -57,26 +71,47 @@ std::vector<TitledMap> maps(const Study& study) {
 
 /// A point of the map flown as a whole flight.
 struct MapPoint {
-    double lag_s;
-    double pivot_m;
-    double linear_1_s = 0.0;
+    double lag_s = 0.0;
+    double pivot_m = 0.0;
     double flown_1_s = 0.0;
+    double linear_1_s = 0.0;
 };
 
-std::vector<MapPoint> samples(const Study& study) {
-    // The second is the vehicle of the scenario.
+Overrides overrides_of(const MapPoint& at) {
+    return stability::StabilityMap{
+        .changes = kAsPx4, .across = motor_lags({at.lag_s}), .up = pivots({at.pivot_m})}
+        .point(0);
+}
+
+/// By the built-in autopilot, kicked, without noise.
+std::vector<MapPoint> fly_samples(const Study& study) {
     std::vector<MapPoint> all = {{0.030, 0.46}, {0.065, 0.46}, {0.050, 0.50}, {0.080, 0.44}};
     if (!study.quick) {
         all.insert(all.end(), {{0.020, 0.54}, {0.065, 0.42}, {0.045, 0.46}, {0.080, 0.50}});
     }
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {
-        MapPoint& sample = all[i];
-        const Overrides point = stability::StabilityMap{.across = motor_lags({sample.lag_s}),
-                                                        .up = pivots({sample.pivot_m})}
-                                    .point(0);
-        sample.linear_1_s = stability::linear_swing(kSlow, point).growth_1_s;
-        sample.flown_1_s = kicked_swing(kSlow, point).growth_1_s;
+        all[i].flown_1_s = kicked_swing(kSlow, overrides_of(all[i])).growth_1_s;
     });
+    return all;
+}
+
+/// By a real PX4, kicked: the mean of the flights at a place.
+std::vector<MapPoint> recorded_samples() {
+    const nlohmann::json recorded = read_recorded("px4_swing");
+    std::map<std::pair<double, double>, std::vector<double>> flown;
+    try {
+        for (const nlohmann::json& one : recorded.at("swings")) {
+            flown[{one.at("lag_s").get<double>(), one.at("pivot_m").get<double>()}].push_back(
+                one.at("growth_1_s").get<double>());
+        }
+    } catch (const nlohmann::json::exception& error) {
+        throw InputError(fmt::format("paper/recorded/px4_swing.json: {}", error.what()));
+    }
+    std::vector<MapPoint> all;
+    for (const auto& [at, growths_1_s] : flown) {
+        const double sum = std::accumulate(growths_1_s.begin(), growths_1_s.end(), 0.0);
+        all.push_back({at.first, at.second, sum / static_cast<double>(growths_1_s.size())});
+    }
     return all;
 }
 
@@ -98,23 +133,35 @@ draw::HeatPanel map_panel(const TitledMap& titled) {
 }
 
 void study_map(Study& study) {
-    draw::Chart chart{
-        .subtitle = "growth rate of the pitch mode, vehicle level on its cup; dead time 16 ms",
-        .columns = 2};
+    draw::Chart chart{.subtitle =
+                          "growth rate of the pitch mode, vehicle level on its cup; the loop "
+                          "as PX4 v1.15.1 works it off",
+                      .columns = 2};
     for (const TitledMap& map : maps(study)) {
         chart.panels.emplace_back(map_panel(map));
     }
     auto& defaults = std::get<draw::HeatPanel>(chart.panels.front());
     TableRows rows;
-    for (const MapPoint& sample : samples(study)) {
-        const double lag_ms = 1000.0 * sample.lag_s;
-        defaults.points.push_back(
-            {.x = lag_ms, .y = sample.pivot_m, .label = fmt::format("{:+.2f}", sample.flown_1_s)});
-        rows.push_back({fmt::format("{:.0f}", lag_ms), sample.pivot_m, sample.linear_1_s,
-                        sample.flown_1_s, sample.flown_1_s - sample.linear_1_s});
-    }
+    double most_1_s = 0.0;
+    const auto tell = [&](const char* who, std::vector<MapPoint> points, bool drawn) {
+        for (MapPoint& one : points) {
+            one.linear_1_s = stability::linear_swing(kSlow, overrides_of(one)).growth_1_s;
+            const double lag_ms = 1000.0 * one.lag_s;
+            rows.push_back({who, fmt::format("{:.0f}", lag_ms), one.pivot_m, one.linear_1_s,
+                            one.flown_1_s, one.flown_1_s - one.linear_1_s});
+            if (drawn) {
+                defaults.points.push_back({.x = lag_ms,
+                                           .y = one.pivot_m,
+                                           .label = fmt::format("{:+.2f}", one.flown_1_s)});
+                most_1_s = std::max(most_1_s, std::abs(one.flown_1_s - one.linear_1_s));
+            }
+        }
+    };
+    tell("PX4 v1.15.1", recorded_samples(), true);
+    tell("built-in", fly_samples(study), false);
     study.draw("fig-map", chart);
     study.table("map-check", rows);
+    study.evidence.set("swing.px4_apart_1_s", most_1_s);
 }
 
 // --- what cures it ----------------------------------------------------------------------------
@@ -308,8 +355,8 @@ StudyPart oscillation_part() {
             study_oscillation,
             {"swing.concrete_more_deg", "swing.metal_over_concrete", "swing.metal_median_deg",
              "swing.gazebo_metal_p95_deg", "swing.gazebo_air_metal_median_deg",
-             "swing.rate_p_growth_1_s", "swing.valve_median_deg", "swing.pivot_m",
-             "swing.inertia_ratio", "swing.motor_lag_ms", "swing.dead_time_ms",
+             "swing.rate_p_growth_1_s", "swing.px4_apart_1_s", "swing.valve_median_deg",
+             "swing.pivot_m", "swing.inertia_ratio", "swing.motor_lag_ms", "swing.dead_time_ms",
              "swing.slow_hover_tilt_deg", "swing.gazebo_hover_tilt_deg",
              "swing.gazebo_frequency_Hz", "swing.slow_frequency_Hz",
              "swing.short_pivot_frequency_Hz", "swing.long_pivot_frequency_Hz"},

@@ -6,24 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::paper {
 namespace {
 
-/// Flights that were flown elsewhere and kept by paper/record: parts that are not at hand here.
 constexpr std::array<const char*, 3> kRecorded = {"px4", "companion", "gazebo"};
-
-nlohmann::json read_recorded(const std::string& name) {
-    const auto path = scenario::data_root() / "paper" / "recorded" / (name + ".json");
-    std::ifstream file(path);
-    try {
-        return nlohmann::json::parse(file);
-    } catch (const nlohmann::json::exception&) {
-        throw InputError(path.string() + ": is not what paper/record writes");
-    }
-}
 
 double metric(const nlohmann::json& flown, const char* name) {
     const nlohmann::json& value = flown.at("metrics").at(name);
@@ -53,6 +43,16 @@ void study_recorded(Study& study) {
 }
 
 }  // namespace
+
+nlohmann::json read_recorded(const std::string& name) {
+    const auto path = scenario::data_root() / "paper" / "recorded" / (name + ".json");
+    std::ifstream file(path);
+    try {
+        return nlohmann::json::parse(file);
+    } catch (const nlohmann::json::exception&) {
+        throw InputError(path.string() + ": is no record of a flight");
+    }
+}
 
 StudyPart recorded_part() {
     StudyPart part{

@@ -152,12 +152,14 @@ public:
         }
         pushed_.push(std::move(torque));
     }
-    /// @param each  after each tick
+    /// @param each  after each stride, with the time since then [s]
     void go_on(
-        double time_s, const std::function<void()>& each = [] {}) {
-        for (Tick left = static_cast<Tick>(std::lround(time_s / kTick_s)); left > 0; --left) {
+        double time_s, const std::function<void(double since_s)>& each = [](double) {}) {
+        const Tick began = flight_->state().tick;
+        for (double since_s = 0.0; since_s < time_s;) {
             tick();
-            each();
+            since_s = seconds(flight_->state().tick - began);
+            each(since_s);
         }
     }
     [[nodiscard]] const std::vector<Pushed::Row>& rows() const { return pushed_.rows(); }
@@ -227,19 +229,20 @@ std::vector<ResponsePoint> loop_response(Place place, autopilot::ExternalAutopil
     return points;
 }
 
-Swing kicked_swing(double lag_s, autopilot::ExternalAutopilot* external) {
+Swing kicked_swing(double lag_s, double pivot_m, autopilot::ExternalAutopilot* external) {
     constexpr double kKick = 0.1;
     constexpr double kKick_s = 0.1;
     constexpr double kWatch_s = 14.0;
     constexpr double kSeen_deg = 0.15;  ///< half swings smaller than that are noise
     Trial trial(Place::cup,
                 {fmt::format("vehicle.rotor.time_constant_up_s={}", lag_s),
-                 fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s)},
+                 fmt::format("vehicle.rotor.time_constant_down_s={}", lag_s),
+                 fmt::format("vehicle.cup.joint_x_m={}", pivot_m)},
                 external);
     trial.push([](double time_s) { return time_s < kKick_s ? kKick : 0.0; });
     std::vector<double> time_s, pitch_deg;
-    trial.go_on(kWatch_s, [&] {
-        time_s.push_back(static_cast<double>(time_s.size()) * kTick_s);
+    trial.go_on(kWatch_s, [&](double since_s) {
+        time_s.push_back(since_s);
         pitch_deg.push_back(trial.pitch_deg());
     });
     const paper::KickedSwing swing =

@@ -37,8 +37,10 @@ struct Swing {
                                                        autopilot::ExternalAutopilot* external);
 
 /// The swing on the cup after a push of the rotors, by the true pitch.
-/// @param lag_s  of the motors
-[[nodiscard]] Swing kicked_swing(double lag_s, autopilot::ExternalAutopilot* external);
+/// @param lag_s    of the motors
+/// @param pivot_m  of the cup's joint ahead of the centre of mass
+[[nodiscard]] Swing kicked_swing(double lag_s, double pivot_m,
+                                 autopilot::ExternalAutopilot* external);
 
 /// The scenario of these flights, for whom PX4 is started for.
 [[nodiscard]] std::string loop_scenario(Place place);

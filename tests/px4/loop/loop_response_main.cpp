@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// loop_response builtin|BUILD hover|cup|LAG_s: identifies the built-in autopilot, or the PX4
-// that comes as that instance; at a LAG_s of the motors the swing on the cup after a kick instead.
+// loop_response builtin|BUILD hover|cup: identifies the built-in autopilot, or the PX4 of that
+// build; loop_response builtin|BUILD LAG_s PIVOT_m: its swing on the cup after a kick instead, with
+// motors of that lag and the joint so far ahead.
 #include <fmt/core.h>
 
 #include <exception>
@@ -17,8 +18,8 @@
 using namespace limpet;
 
 int main(int count, char** words) try {
-    if (count != 3) {
-        fmt::print(stderr, "loop_response builtin|BUILD hover|cup|LAG_s\n");
+    if (count != 3 && count != 4) {
+        fmt::print(stderr, "loop_response builtin|BUILD hover|cup|LAG_s PIVOT_m\n");
         return 2;
     }
     const std::string who = words[1];
@@ -38,15 +39,18 @@ int main(int count, char** words) try {
         wires.emplace(addresses, 250.0, true, watch);
     }
     autopilot::ExternalAutopilot* external = wires ? &wires->autopilot() : nullptr;
-    if (what == "hover" || what == "cup") {
+    if (count == 3) {
         const std::string text = response_text(loop_response(place, external));
         if (wires) {
             fmt::print("# Flown by {}.\n", simulation::who_text(*external->identity()));
         }
         fmt::print("{}", text);
     } else {
-        const Swing swing = kicked_swing(std::stod(what), external);
-        fmt::print("{},{:.4f},{:.3f}\n", what, swing.growth_1_s, swing.frequency_Hz);
+        const Swing swing = kicked_swing(std::stod(what), std::stod(words[3]), external);
+        if (wires) {
+            fmt::print("# Flown by {}.\n", simulation::who_text(*external->identity()));
+        }
+        fmt::print("{},{},{:.4f},{:.3f}\n", what, words[3], swing.growth_1_s, swing.frequency_Hz);
     }
     return 0;
 } catch (const std::exception& error) {
