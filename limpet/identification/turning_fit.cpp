@@ -88,7 +88,7 @@ private:
         for (int a = 0; a < 3; ++a) {
             const auto at = static_cast<std::size_t>(a);
             double least = std::numeric_limits<double>::infinity();
-            for (double ratio = kLeastRatio; ratio < kMostRatio; ratio *= kRatioStep) {
+            for (const double ratio : ratios_to_try()) {
                 const Whitened rate = whiten(rate_of(a), free_, ratio);
                 TurningAxis axis{
                     .rate = rate.values, .ramp = whiten(time, free_, ratio).values, .ratio = ratio};

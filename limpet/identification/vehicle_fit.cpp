@@ -142,7 +142,7 @@ Fitted wandering_slope(const std::array<VectorXd, 2>& inputs,
     std::vector<ByRatio> all;
     double least = std::numeric_limits<double>::infinity();
     const std::size_t count = 2 * samples_of(stretches);
-    for (double ratio = kLeastRatio; ratio < kMostRatio; ratio *= kRatioStep) {
+    for (const double ratio : ratios_to_try()) {
         double xx = 0.0, xy = 0.0, yy = 0.0, logs = 0.0;
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const VectorXd x = whiten(inputs[axis], stretches, ratio).values;

@@ -56,6 +56,14 @@ struct Whitened {
 }
 
 /// Ratios to choose the likeliest from.
-inline constexpr double kLeastRatio = 1e-8, kMostRatio = 1.0, kRatioStep = 2.0;
+[[nodiscard]] inline std::vector<double> ratios_to_try() {
+    constexpr double kLeast = 1e-8;
+    constexpr int kDoublings = 27;  // up to 0.7
+    std::vector<double> all;
+    for (int k = 0; k < kDoublings; ++k) {
+        all.push_back(std::ldexp(kLeast, k));
+    }
+    return all;
+}
 
 }  // namespace limpet::identification

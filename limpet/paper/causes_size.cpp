@@ -85,7 +85,9 @@ SwingSize measure_size(std::size_t points, int jobs) {
     };
     SwingSize best;
     double least = std::numeric_limits<double>::infinity();
-    for (double start_deg = 0.01; start_deg < 2.0; start_deg *= 1.05) {
+    constexpr int kStarts = 108;  // from 0.01 to 1.9 deg
+    for (int k = 0; k < kStarts; ++k) {
+        const double start_deg = 0.01 * std::pow(1.05, k);
         const SwingSize tried{.start_deg = start_deg};
         const auto metal = logs_of(tried, true, 0), concrete = logs_of(tried, false, 0);
         require(metal.size() > 3 && concrete.size() > 3, "flights enough to measure the swing");

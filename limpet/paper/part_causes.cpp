@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/paper/cause_places.hpp"
 #include "limpet/paper/causes.hpp"
 #include "limpet/paper/oscillation.hpp"
@@ -108,7 +109,6 @@ void tell_inputs(Study& study, const CausePosterior& posterior) {
         const bool of_loop = static_cast<Eigen::Index>(i) < kOfLoop;
         rows.push_back({input.name, to_text(input.cause), input.prior, input.source,
                         draw::Range{at(0.025), at(0.975)},
-                        of_loop ? report::Quantity(indices[i].first) : "not of the loop",
                         of_loop ? report::Quantity(indices[i].total) : "not of the loop"});
     }
     study.table("cause-inputs", rows);
@@ -130,23 +130,31 @@ void tell_measurements(Study& study, const CausePosterior& posterior) {
 /// The altitude loop is guidance's, which the linearised loop leaves out: flown, kicked.
 void tell_altitude(Study& study) {
     study.say("causes: the altitude loop, by kicked flights");
-    const std::size_t points = study.quick ? 4 : 16;
-    std::vector<double> with(points), without(points);
-    for_each_index(points, study.jobs, [&](std::size_t k) {
+    struct Pair {
+        double with = 0.0, without = 0.0;
+        bool flown = false;
+    };
+    std::vector<Pair> pairs(study.quick ? 4 : 16);
+    for_each_index(pairs.size(), study.jobs, [&](std::size_t k) {
         RandomStream random(kSeed + 3, static_cast<std::uint32_t>(k), Stream::scenario);
         stability::Overrides overrides = overrides_of(draw_point(kEvery, random));
-        without[k] = kicked_swing("perch_metal", overrides).growth_1_s;
-        overrides.emplace_back("guidance.altitude_hold=1");
-        overrides.push_back(
-            fmt::format("guidance.altitude_gain_1_s={}", 0.5 + 1.5 * random.uniform()));
-        with[k] = kicked_swing("perch_metal", overrides).growth_1_s;
+        const double gain_1_s = 0.5 + 1.5 * random.uniform();
+        try {
+            pairs[k].without = kicked_swing("perch_metal", overrides).growth_1_s;
+            overrides.emplace_back("guidance.altitude_hold=1");
+            overrides.push_back(fmt::format("guidance.altitude_gain_1_s={}", gain_1_s));
+            pairs[k].with = kicked_swing("perch_metal", overrides).growth_1_s;
+            pairs[k].flown = true;
+        } catch (const InternalError&) {  // it does not come to its release
+        }
     });
-    double damped = 0.0;
-    for (std::size_t k = 0; k < points; ++k) {
+    double flown = 0.0, damped = 0.0;
+    for (const Pair& pair : pairs) {
         // No growth to be told: no swing stands out of the kick any more.
-        damped += !std::isfinite(with[k]) || with[k] < without[k] ? 1.0 : 0.0;
+        flown += pair.flown ? 1.0 : 0.0;
+        damped += pair.flown && (!std::isfinite(pair.with) || pair.with < pair.without) ? 1.0 : 0.0;
     }
-    study.evidence.set("causes.altitude_points", static_cast<double>(points));
+    study.evidence.set("causes.altitude_points", flown);
     study.evidence.set("causes.altitude_damped", damped);
 }
 

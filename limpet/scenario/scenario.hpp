@@ -22,6 +22,7 @@
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/mount.hpp"
+#include "limpet/vehicle/swell.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
 
@@ -71,10 +72,11 @@ struct WallSetup {
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();
 
-/// The air around the vehicle; still and without a wall's effect by default.
+/// The air around the vehicle, and the sea below; still and without a wall's effect by default.
 struct Environment {
     vehicle::WindParameters wind;
     vehicle::WallAirParameters wall_air;
+    vehicle::SwellParameters swell;
 };
 
 /// Where the vehicle is when the flight begins.

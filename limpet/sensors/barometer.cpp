@@ -39,8 +39,8 @@ const ParameterTable<BarometerSensor::Parameters>& BarometerSensor::table() {
 std::optional<BarometerReading> BarometerSensor::measure(const Parameters& p, State& state,
                                                          const SensorView& view) {
     const double pressure_Pa =
-        std::max(0.0, standard_pressure_Pa(-view.truth.base.p_WF_m.z()) + state.bias +
-                          p.baro_noise_Pa * state.random.normal());
+        std::max(0.0, standard_pressure_Pa(-(view.earth.p_EW_W_m + view.truth.base.p_WF_m).z()) +
+                          state.bias + p.baro_noise_Pa * state.random.normal());
     return Reading{.pressure_Pa = pressure_Pa, .altitude_m = standard_altitude_m(pressure_Pa)};
 }
 

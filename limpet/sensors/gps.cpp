@@ -48,9 +48,9 @@ std::optional<GpsReading> GpsSensor::measure(const Parameters& p, State& state,
         unit.kick * scatter(p.gps_drift_horizontal_m, p.gps_drift_vertical_m, state.random);
     const Kinematics& base = view.truth.base;
     Reading reading;
-    reading.p_WB_m = base.p_WF_m + state.drift_m +
+    reading.p_WB_m = view.earth.p_EW_W_m + base.p_WF_m + state.drift_m +
                      scatter(p.gps_noise_horizontal_m, p.gps_noise_vertical_m, state.random);
-    reading.v_WB_m_s = base.v_WF_W_m_s +
+    reading.v_WB_m_s = view.earth.v_EW_W_m_s + base.v_WF_W_m_s +
                        scatter(p.gps_noise_horizontal_m_s, p.gps_noise_vertical_m_s, state.random);
     return reading;
 }

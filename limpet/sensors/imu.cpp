@@ -10,14 +10,16 @@ namespace {
 const Vector3 kGravity_W_m_s2 = {0.0, 0.0, kGravity_m_s2};
 
 /// What a perfect IMU measures between two instants.
-ImuReading mean_motion(const ImuSensor::State& last, const Kinematics& base, double interval_s) {
+/// @param v_EW_W_m_s  of W against the earth
+ImuReading mean_motion(const ImuSensor::State& last, const Kinematics& base,
+                       const Vector3& v_EW_W_m_s, double interval_s) {
     if (interval_s <= 0.0) {
         return {.specific_force_B_m_s2 = base.q_WF.conjugate() * -kGravity_W_m_s2,
                 .rate_B_rad_s = base.w_WF_F_rad_s};
     }
     const Vector3 turn_rad = rotation_vector_from_quaternion(last.q_WB.conjugate() * base.q_WF);
     const Quaternion q_WB_middle = last.q_WB * quaternion_from_rotation_vector(0.5 * turn_rad);
-    const Vector3 a_W_m_s2 = (base.v_WF_W_m_s - last.v_WB_m_s) / interval_s;
+    const Vector3 a_W_m_s2 = (base.v_WF_W_m_s + v_EW_W_m_s - last.v_EB_m_s) / interval_s;
     return {.specific_force_B_m_s2 = q_WB_middle.conjugate() * (a_W_m_s2 - kGravity_W_m_s2),
             .rate_B_rad_s = turn_rad / interval_s};
 }
@@ -34,8 +36,8 @@ void wander(Vector3& bias, const GaussMarkov& process, RandomStream& random) {
 }
 
 /// The first end of the next interval.
-void remember(ImuSensor::State& state, const Truth& truth) {
-    state.v_WB_m_s = truth.base.v_WF_W_m_s;
+void remember(ImuSensor::State& state, const Truth& truth, const Vector3& v_EW_W_m_s) {
+    state.v_EB_m_s = truth.base.v_WF_W_m_s + v_EW_W_m_s;
     state.q_WB = truth.base.q_WF;
     state.time_s = truth.time_s;
 }
@@ -67,14 +69,14 @@ ImuSensor::State ImuSensor::start(const Parameters& p, const RandomStream& rando
     State state{.random = random};
     state.gyro_turn_on_rad_s = p.gyro_turn_on_bias_rad_s * state.random.normal3();
     state.accel_turn_on_m_s2 = p.accel_turn_on_bias_m_s2 * state.random.normal3();
-    remember(state, truth);
+    remember(state, truth, Vector3::Zero());
     return state;
 }
 
 std::optional<ImuReading> ImuSensor::measure(const Parameters& p, State& state,
                                              const SensorView& view) {
     const double interval_s = view.truth.time_s - state.time_s;
-    const Reading mean = mean_motion(state, view.truth.base, interval_s);
+    const Reading mean = mean_motion(state, view.truth.base, view.earth.v_EW_W_m_s, interval_s);
     constexpr double kRoundOff_s = 1e-9;  // of differences between times
     if (std::abs(interval_s - state.interval_s) > kRoundOff_s) {
         state.interval_s = interval_s;
@@ -95,7 +97,7 @@ std::optional<ImuReading> ImuSensor::measure(const Parameters& p, State& state,
     reading.specific_force_B_m_s2 =
         corrupted(mean.specific_force_B_m_s2, state.accel_turn_on_m_s2 + state.accel_bias_m_s2,
                   p.accel_noise_density_m_s2_rtHz * root_rate, p.accel_range_m_s2, state.random);
-    remember(state, view.truth);
+    remember(state, view.truth, view.earth.v_EW_W_m_s);
     return reading;
 }
 

@@ -33,7 +33,7 @@ struct ImuSensor {
         Vector3 accel_turn_on_m_s2 = Vector3::Zero();
         Vector3 gyro_bias_rad_s = Vector3::Zero();  ///< wandering part
         Vector3 accel_bias_m_s2 = Vector3::Zero();  ///< wandering part
-        Vector3 v_WB_m_s = Vector3::Zero();         ///< at the last sample
+        Vector3 v_EB_m_s = Vector3::Zero();         ///< against the earth, at the last sample
         Quaternion q_WB = Quaternion::Identity();   ///< at the last sample
         double time_s = 0.0;                        ///< of the last sample
         double interval_s = 0.0;                    ///< that the two below are for

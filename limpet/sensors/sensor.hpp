@@ -54,12 +54,19 @@ struct SensorMounts {
     std::array<Vector3, 2> lidar_p_B_m = {Vector3{0.205, -0.205, 0.0}, Vector3{0.205, 0.205, 0.0}};
 };
 
+/// Of W against the earth, where W goes along with a hull: for what measures against the earth.
+struct EarthMotion {
+    Vector3 p_EW_W_m = Vector3::Zero();  ///< since the beginning
+    Vector3 v_EW_W_m_s = Vector3::Zero();
+};
+
 /// What a unit looks at, at one instant.
 struct SensorView {
     const Truth& truth;
     const SensorMounts& mounts;
     const plant::Plant* plant = nullptr;  ///< for rays
     std::size_t unit = 0;                 ///< which one looks
+    EarthMotion earth = {};
 };
 
 /// What a unit of most sensors remembers.

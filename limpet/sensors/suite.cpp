@@ -31,13 +31,14 @@ SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t 
 }
 
 LIMPET_FOR_MACHINES void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
-                               const plant::Plant& plant, Tick tick) {
+                               const plant::Plant& plant, Tick tick, const EarthMotion& earth) {
     for_each_unit(state.sensors, [&](auto type, auto& unit, std::size_t k) {
         using Sensor = typename decltype(type)::type;
         if (Sensor::kOnCup && !model.has_cup) {
             return;
         }
-        const SensorView view{.truth = truth, .mounts = model.mounts, .plant = &plant, .unit = k};
+        const SensorView view{
+            .truth = truth, .mounts = model.mounts, .plant = &plant, .unit = k, .earth = earth};
         if constexpr (kIsRead<Sensor>) {
             sense(model.parameters, unit, view, tick, state.readings.*Sensor::kReadings[k]);
         } else {

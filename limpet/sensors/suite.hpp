@@ -52,7 +52,8 @@ struct SensorsState {
 /// Takes the samples that are due and hands out those that arrive. Once every base tick, in order.
 /// @param truth  of this tick
 /// @param plant  for the LiDARs' rays, at the same instant as `truth`
+/// @param earth  of W, at that instant
 void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
-           const plant::Plant& plant, Tick tick);
+           const plant::Plant& plant, Tick tick, const EarthMotion& earth = {});
 
 }  // namespace limpet::sensors

@@ -74,14 +74,14 @@ struct AirLoad {
 };
 
 AirLoad load_of_air(const FlightModel& model, const FlightState& state,
-                    const RotorList<double>& speeds_rad_s) {
+                    const RotorList<double>& speeds_rad_s, const vehicle::SwellMotion& swell) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
-    const Wrench rotors_B =
-        vehicle::rotor_wrench_B(airframe, speeds_rad_s, base,
-                                vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s);
+    const Wrench rotors_B = vehicle::rotor_wrench_B(
+        airframe, speeds_rad_s, base,
+        vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s - swell.v_EW_W_m_s);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
@@ -97,6 +97,20 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
         air.wrench_W.moment_N_m += wall_W.moment_N_m;
     }
     return air;
+}
+
+/// On a hull that accelerates every part stays behind.
+void apply_swell(const FlightModel& model, plant::Plant& plant, const vehicle::SwellMotion& swell) {
+    const auto stay_behind = [&](plant::Body body, const vehicle::SwellModel::Part& part) {
+        const Kinematics at = plant.kinematics(body);
+        plant.apply(body, {.force_N = -part.mass_kg * swell.a_EW_W_m_s2},
+                    at.p_WF_m + at.q_WF * part.centre_m);
+    };
+    stay_behind(plant::Body::base, model.swell.base);
+    if (model.airframe.has_cup) {
+        stay_behind(plant::Body::carriage, model.swell.carriage);
+        stay_behind(plant::Body::cup, model.swell.cup);
+    }
 }
 
 }  // namespace
@@ -116,13 +130,17 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
     const plant::StepMode mode{.step_s = stride.step_s(),
                                .contacts = stride.contacts,
                                .legs_lost = state.faults.now.legs_lost};
-    const AirLoad air = load_of_air(model, state, speeds_rad_s);
+    const vehicle::SwellMotion swell = swell_motion(model.swell, seconds(state.tick));
+    const AirLoad air = load_of_air(model, state, speeds_rad_s, swell);
     for (int k = 0; k < stride.steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {
             see_motion(model, state.truth, plant);
         }
         plant.apply(plant::Body::base, air.wrench_W, state.truth.base.p_WF_m);
+        if (model.swell.moves) {
+            apply_swell(model, plant, swell);
+        }
         if (model.mount != vehicle::Mount::free) {
             plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
         }

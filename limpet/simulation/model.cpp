@@ -95,6 +95,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
+    model->swell = make_swell(scenario.environment.swell, model->ahead_W, scenario.airframe);
     model->faults = {.faults = scenario.faults, .ahead_W = model->ahead_W};
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
                            attitude(scenario.start));

@@ -21,10 +21,12 @@ Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
         throw InputError(fmt::format("{}: the swing on the cup asks for {}", waits.name, lacks));
     }
     waits.engine = &plant::kReducedEngine;  // whose bodies can be displaced
-    // What pushes by chance leaves no rest, and no slope: motors faster up than down stand on a corner.
+    // What pushes by chance, or to and fro, leaves no rest, and no slope: motors faster up than
+    // down stand on a corner.
     waits.environment.wind.gust_wind_m_s = 0.0;
     waits.environment.wind.gust_sigma_m_s = 0.0;
     waits.environment.wall_air.recirculation_moment_rms_N_m = 0.0;
+    waits.environment.swell = {};
     return pitch_mode(LevelOnCup(simulation::build_model(waits)).modes());
 }
 
