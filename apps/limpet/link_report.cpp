@@ -108,7 +108,7 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
         terminal.line("share",
                       fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
                                   "the autopilot's",
-                                  100.0 * (1.0 - performance.waited_s / performance.wall_s)));
+                                  100.0 * performance.own_share()));
     }
 }
 
@@ -128,6 +128,7 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     json["send_jitter"] = json_of(hil.send_jitter);
     json["wall_s"] = performance.wall_s;
     json["waited_for_autopilot_s"] = performance.waited_s;
+    json["own_share"] = performance.own_share();
     std::vector<std::filesystem::path> files = {folder / "link.json"};
     write_file(files.front(), json.dump(2) + "\n");
     if (figures) {

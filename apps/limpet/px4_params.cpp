@@ -65,7 +65,7 @@ void how_to_go_on(const px4::Px4Airframe& airframe) {
     const std::string folder = px4_airframe_folder(airframe.target);
     if (airframe.target == px4::Px4Target::sitl) {
         fmt::print(
-            "\nOn a PX4 v1.15 that is built, by itself:\n"
+            "\nOn a PX4 v1.15 or v1.16 that is built, by itself:\n"
             "  limpet fly SCENARIO --autopilot px4 --px4 build/px4_sitl_default\n"
             "As one of PX4's own: copy {} into\n"
             "  {}/\nand add it to the CMakeLists.txt there, then\n"
@@ -124,7 +124,8 @@ OptionList options_of(Px4Options& options) {
 
 Verb px4_params_verb() {
     return verb<Px4Options>(
-        "px4-params", "Write what a PX4 v1.15 needs to fly a vehicle: parameters and airframe",
+        "px4-params",
+        "Write what a PX4 v1.15 or v1.16 needs to fly a vehicle: parameters and airframe",
         options_of, write_both,
         "Examples:\n"
         "  limpet px4-params perching_uav --out out/px4\n"

@@ -27,7 +27,8 @@ constexpr milliseconds kCatchUpWait{1000};
 
 Hil::Hil(Link& link, const HilOptions& options) : link_(link), options_(options) {}
 
-void Hil::send(const Readings& readings, std::uint64_t time_usec) {
+void Hil::send(const Readings& readings, std::uint64_t time_usec,
+               const std::function<void()>& hand_over) {
     if (began_anew(readings, last_)) {
         last_ = {};
     }
@@ -49,6 +50,9 @@ void Hil::send(const Readings& readings, std::uint64_t time_usec) {
         count_.send_jitter.add(std::abs(took_s - meant_s));
     }
     (void)link_.send(sensor);
+    if (hand_over) {
+        hand_over();
+    }
     if (link_.uncork() == wire::TransferStatus::done) {
         ++count_.sensors_sent;
     }
@@ -154,12 +158,13 @@ HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
     return stale ? HilStatus::silent : HilStatus::answered;
 }
 
-HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const Others& others) {
+HilStatus Hil::exchange(const Readings& readings, std::uint64_t time_usec, const Others& others,
+                        const std::function<void()>& hand_over) {
     if (sends_ == 0) {
         generation_ = link_.generation();
         began_ = Clock::now();
     }
-    send(readings, time_usec);
+    send(readings, time_usec, hand_over);
     return options_.timing == HilTiming::lockstep ? in_lockstep(time_usec, others)
                                                   : in_real_time(time_usec, others);
 }

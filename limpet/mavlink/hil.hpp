@@ -48,8 +48,8 @@ struct HilCount {
     std::uint64_t strays = 0;             ///< answers to other sensors than the last
     wire::DurationHistogram round_trip;   ///< from HIL_SENSOR to its answer
     wire::DurationHistogram send_jitter;  ///< real time: how far from its time a HIL_SENSOR went
-    /// From HIL_SENSOR handed to the kernel (which may let the autopilot run at once) to its answer
-    /// or the end of the wait; the rest of the time is the simulator's own.
+    /// From a step's messages handed to the kernel (which may let the autopilot run at once) to the
+    /// answer or the end of the wait; the rest of the time is the simulator's own.
     double waited_s = 0.0;
 };
 
@@ -66,8 +66,10 @@ public:
 
     /// @param time_usec  of the HIL_SENSOR: > 0, rising
     /// @param others     every frame that is no HIL_ACTUATOR_CONTROLS
+    /// @param hand_over  sends what else is for the autopilot, right before the sensors
     [[nodiscard]] HilStatus exchange(const Readings& readings, std::uint64_t time_usec,
-                                     const Others& others);
+                                     const Others& others,
+                                     const std::function<void()>& hand_over = {});
 
     [[nodiscard]] const RotorCommand& command() const { return command_; }
     [[nodiscard]] const HilCount& count() const { return count_; }
@@ -79,7 +81,8 @@ private:
         Clock::time_point at;
     };
 
-    void send(const Readings& readings, std::uint64_t time_usec);
+    void send(const Readings& readings, std::uint64_t time_usec,
+              const std::function<void()>& hand_over);
     /// Longest wait for the answer to the sensors that have just gone, as things stand.
     [[nodiscard]] std::chrono::milliseconds patience() const;
     [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);

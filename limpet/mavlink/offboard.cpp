@@ -71,6 +71,8 @@ void Offboard::hear(const Frame& frame, double time_s) {
         }
     } else if (const auto version = decode<AutopilotVersion>(frame)) {
         report_.version = *version;
+    } else if (decode<GpsGlobalOrigin>(frame)) {
+        report_.has_origin = true;
     } else if (const auto value = decode<ParamValue>(frame)) {
         if (text_of(value->param_id) == kAirframe && value->param_type == MavParamType::int32) {
             std::int32_t number = 0;  // PX4 puts an integer's bytes into the float
@@ -93,7 +95,9 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
             report_.armed = asked_armed_;
         }
         hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == kCommandSetMode);
-    } else if (ack.command != kCommandMessageInterval && ack.command != kCommandRequestMessage) {
+    } else if (ack.command == kCommandRequestMessage) {
+        no_origin_ = true;  // what else it is asked for every autopilot has
+    } else if (ack.command != kCommandMessageInterval) {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
     }
@@ -174,11 +178,33 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
             send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeOffboard));
         }
     } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
+        if (options_.sets_origin && !was_armed_ && !report_.has_origin && sent_origin_s_ < 0.0) {
+            return;  // armed, it would be given none
+        }
         if (again(sent_command_s_, options_.retry_s, time_s)) {
             asked_armed_ = setpoint.armed;
             send_command(link, kCommandArm, setpoint.armed ? 1.0F : 0.0F,
                          setpoint.armed ? 0.0F : kForce);
         }
+    }
+}
+
+/// It is asked first, and given one while it tells none: PX4 v1.16 does without its motion capture
+/// for a second after the first origin, and moves the world by each further one.
+void Offboard::give_origin(Link& link, double time_s) {
+    constexpr double kAnswer_s = 1.0;
+    constexpr double kPatience_s = 5.0;  // it tells once its estimate is one of the earth
+    if (!options_.sets_origin || was_armed_ || report_.has_origin) {
+        return;
+    }
+    if (again(asked_origin_s_, kAnswer_s, time_s)) {
+        ++origin_requests_;
+        send_command(link, kCommandRequestMessage, static_cast<float>(GpsGlobalOrigin::kId));
+    }
+    if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kPatience_s, time_s)) {
+        SetGpsGlobalOrigin origin{.target_system = options_.target_system};
+        put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
+        (void)link.send(origin, kPatience);
     }
 }
 
@@ -228,12 +254,10 @@ void Offboard::speak_up(Link& link, double time_s) {
     }
     const OffboardState now = state(time_s);
     const bool heard = now != OffboardState::silent && now != OffboardState::taken_away;
+    if (heard) {
+        give_origin(link, time_s);
+    }
     if (heard && again(sent_request_s_, 1.0, time_s)) {
-        if (options_.sets_origin && !was_armed_) {
-            SetGpsGlobalOrigin origin{.target_system = options_.target_system};
-            put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
-            (void)link.send(origin, kPatience);
-        }
         request_rate(link);
         ask_who(link);
     }

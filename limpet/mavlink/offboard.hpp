@@ -48,8 +48,8 @@ struct OffboardOptions {
     /// A heartbeat of a ground station, not of a companion: PX4 sends STATUSTEXT to no one else.
     bool hears_texts = true;
     /// Gives the local origin a latitude and longitude (altitude 0), before it is armed for the
-    /// first time: without one, PX4's hold and landing fly off to (0, 0). Not where it has GPS,
-    /// whose origin is another. Reference: px4.md
+    /// first time and unless it tells that it has them: without, PX4's hold and landing fly off to
+    /// (0, 0). Not where it has GPS, whose origin is another. Reference: px4.md
     bool sets_origin = true;
 };
 
@@ -65,6 +65,7 @@ struct AutopilotReport {
     std::uint64_t texts = 0;            ///< so many so far
     std::optional<AutopilotVersion> version;
     std::optional<int> airframe;  ///< SYS_AUTOSTART
+    bool has_origin = false;      ///< its local origin has a latitude and longitude
 };
 
 /// The companion's end of offboard control: keeps set-points streaming, asks for mode and arming
@@ -105,6 +106,7 @@ private:
     [[nodiscard]] bool forgets(const Setpoint& setpoint, double time_s);
     void send_set_point(Link& link, const Setpoint& setpoint, double time_s);
     void request(Link& link, const Setpoint& setpoint, double time_s);
+    void give_origin(Link& link, double time_s);
     void request_rate(Link& link);
     void ask_who(Link& link);
     void send_command(Link& link, std::uint16_t command, float param1, float param2 = 0.0F,
@@ -126,7 +128,11 @@ private:
     double sent_heartbeat_s_ = -1e9;
     double sent_set_point_s_ = -1e9;
     double sent_command_s_ = -1e9;
-    double sent_request_s_ = -1e9;  ///< of rates and origin
+    double sent_request_s_ = -1e9;  ///< of rates
+    double asked_origin_s_ = -1e9;
+    double sent_origin_s_ = -1e9;
+    int origin_requests_ = 0;
+    bool no_origin_ = false;  ///< it said so
     int rate_requests_ = 0;
     int who_requests_ = 0;
     bool asked_armed_ = false;  ///< by the last command to arm or disarm

@@ -46,10 +46,11 @@ fi
 
 const char* where(Px4Target target) {
     switch (target) {
-        case Px4Target::sitl: return "PX4 v1.15 SITL, in lockstep with Limpet";
-        case Px4Target::hitl: return "a board with PX4 v1.15, Limpet on its USB port";
+        case Px4Target::sitl: return "PX4 v1.15 or v1.16 SITL, in lockstep with Limpet";
+        case Px4Target::hitl: return "a board with PX4 v1.15 or v1.16, Limpet on its USB port";
         case Px4Target::flight:
-            return "a real flight with PX4 v1.15; outputs, remote control and calibration stay as "
+            return "a real flight with PX4 v1.15 or v1.16; outputs, remote control and calibration "
+                   "stay as "
                    "they are on the board";
     }
     return "";

@@ -18,6 +18,9 @@ using mavlink::OffboardState;
 
 namespace {
 
+/// Room in the wire is waited for no longer: a jammed one must not make guidance late.
+constexpr std::chrono::milliseconds kRoom{5};
+
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
                       version.flight_custom_version.begin());
@@ -108,22 +111,39 @@ bool Px4Autopilot::tracker_silent(double time_s) const {
            !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
 }
 
+/// Set-points and sensors out, motors back.
+void Px4Autopilot::exchange(const Setpoint& setpoint) {
+    // Two wires of one autopilot: what goes in a step goes at once, and wakes it up once.
+    const bool apart = &offboard_link_ != &hil_link_;
+    if (options_.flies) {
+        if (apart) {
+            offboard_link_.cork();
+        }
+        offboard_.update(offboard_link_, setpoint, clock_s());
+    }
+    status_ = hil_.exchange(
+        readings_, clock_usec_,
+        [this](const mavlink::Frame& frame) {
+            // Until the clocks are in step, when something is heard is a matter of the machine: its
+            // greetings are left alone.
+            if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
+                hear(frame);
+            }
+        },
+        [&] {
+            if (apart) {
+                (void)offboard_link_.uncork(kRoom);
+            }
+        });
+}
+
 RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint, double) {
     readings_ = readings;
     readings_.motion_capture =
         watch_.trusted(readings.motion_capture,
                        offboard_.report().armed ? offboard_.estimate(clock_s()) : Estimate{});
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
-    if (options_.flies) {
-        offboard_.update(offboard_link_, setpoint, clock_s());
-    }
-    status_ = hil_.exchange(readings_, clock_usec_, [this](const mavlink::Frame& frame) {
-        // Until the clocks are in step, when something is heard is a matter of the machine: its
-        // greetings are left alone.
-        if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
-            hear(frame);
-        }
-    });
+    exchange(setpoint);
     switch (status_) {
         case mavlink::HilStatus::waiting:
         case mavlink::HilStatus::answered: break;

@@ -48,6 +48,7 @@ public:
 private:
     void hear(const mavlink::Frame& frame);
     void listen();
+    void exchange(const Setpoint& setpoint);
     void look_who();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;

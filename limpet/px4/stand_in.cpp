@@ -113,7 +113,7 @@ void StandIn::hear_simulator(const mavlink::Frame& frame) {
     if (const auto sensor = decode<mavlink::HilSensor>(frame)) {
         hear_sensor(*sensor);
     } else if (const auto gps = decode<mavlink::HilGps>(frame)) {
-        hear(flight_, *gps);
+        hear(flight_, *gps, model_.parameters.EKF2_GPS_CTRL != 0);
     } else if (const auto pose = decode<mavlink::Odometry>(frame)) {
         hear(flight_, *pose);
     } else if (!lockstep()) {
@@ -168,8 +168,10 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
     } else if (const auto pose = decode<mavlink::Odometry>(frame)) {
         hear(flight_, *pose);
     } else if (const auto origin = decode<mavlink::SetGpsGlobalOrigin>(frame)) {
-        flight_.has_origin = flight_.has_origin || origin->target_system == 0 ||
-                             origin->target_system == options_.system;
+        if (origin->target_system == 0 || origin->target_system == options_.system) {
+            hear(flight_, *origin, options_.origin_unsettles_s);
+            tell_origin(link);
+        }
     } else if (const auto clocks = decode<mavlink::TimeSync>(frame)) {
         if (clocks->tc1 == 0) {
             (void)link.send(
@@ -178,6 +180,14 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
     } else {
         (void)parameters_.handle(frame, link);
     }
+}
+
+/// @return whether there was something to tell
+bool StandIn::tell_origin(mavlink::Link& link) {
+    if (flight_.global()) {
+        (void)link.send(*flight_.origin);
+    }
+    return flight_.global();
 }
 
 void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
@@ -193,6 +203,9 @@ void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::F
                command.param1 == static_cast<float>(mavlink::AutopilotVersion::kId)) {
         (void)link.send(version_of_stand_in());
         result = CommandResult::accepted;
+    } else if (command.command == mavlink::kCommandRequestMessage &&
+               command.param1 == static_cast<float>(mavlink::GpsGlobalOrigin::kId)) {
+        result = tell_origin(link) ? CommandResult::accepted : CommandResult::denied;
     } else if (const auto obeyed = obey(options_.parameters, flight_, command)) {
         result = *obeyed;
     }

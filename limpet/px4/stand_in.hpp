@@ -28,6 +28,9 @@ struct StandInOptions {
     /// Its telemetry begins so many later, in simulated time well after the lockstep: who sees when
     /// must not depend on the machine. Source: assumed
     int quiet_sensors = 100;
+    /// PX4 v1.16 does without its motion capture for a moment when its first origin comes after it,
+    /// and may not be armed meanwhile: 3.4 s. v1.15: 0. Source: px4.md
+    double origin_unsettles_s = 0.0;
     StandInParameters parameters;
 };
 
@@ -75,6 +78,7 @@ private:
     void hear_simulator(const mavlink::Frame& frame);
     void hear_sensor(const mavlink::HilSensor& sensor);
     void hear_companion(const mavlink::Frame& frame, mavlink::Link& link);
+    bool tell_origin(mavlink::Link& link);
     void hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
                       mavlink::Link& link);
     /// @return where it tells of itself

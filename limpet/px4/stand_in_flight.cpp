@@ -3,6 +3,8 @@
 
 #include <variant>
 
+#include "limpet/mavlink/numbers.hpp"
+
 namespace limpet::px4 {
 namespace {
 
@@ -68,7 +70,7 @@ Situation situation(const StandInFlight& flight) {
             .set_point_s = flight.heard_s,
             .roll_rad = angles.roll_rad,
             .pitch_rad = angles.pitch_rad,
-            .estimate_valid = flight.valid()};
+            .estimate_valid = flight.valid() && flight.time_s >= flight.unsettled_until_s};
 }
 
 /// Where it is now; without an origin PX4 holds over (0, 0) of its own. Source: px4.md
@@ -76,7 +78,7 @@ void hold_here(StandInFlight& flight) {
     const Estimate& estimate = flight.autopilot.estimate;
     flight.hold = {.p_W_m = estimate.p_WB_m,
                    .yaw_rad = euler_from_quaternion(estimate.q_WB).yaw_rad};
-    if (!flight.has_origin) {
+    if (!flight.origin) {
         flight.hold.p_W_m.head<2>().setZero();
     }
 }
@@ -90,6 +92,12 @@ Setpoint wanted(const StandInFlight& flight) {
         setpoint.motion = flight.hold;
     }
     return setpoint;
+}
+
+mavlink::GpsGlobalOrigin at(const mavlink::GeographicOrigin& place, double time_s) {
+    mavlink::GpsGlobalOrigin origin{.time_usec = mavlink::boot_us(time_s)};
+    put(place, origin.latitude, origin.longitude, origin.altitude);
+    return origin;
 }
 
 void hear_motion(StandInFlight& flight, const auto& motion) {
@@ -130,11 +138,23 @@ bool step(const autopilot::AutopilotModel& model, const StandInParameters& param
     return true;
 }
 
-void hear(StandInFlight& flight, const mavlink::HilGps& message) {
+void hear(StandInFlight& flight, const mavlink::HilGps& message, bool aids) {
     if (const auto gps = mavlink::gps_reading(message, {})) {
         flight.readings.gps = {.time_s = flight.time_s, .value = *gps};
-        flight.has_origin = true;
+        if (aids && !flight.origin) {
+            flight.origin.emplace(at(mavlink::GeographicOrigin{}, flight.time_s));
+        }
     }
+}
+
+void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s) {
+    if (flight.aligned && !flight.origin) {
+        flight.unsettled_until_s = flight.time_s + unsettles_s;
+    }
+    flight.origin = mavlink::GpsGlobalOrigin{.latitude = message.latitude,
+                                             .longitude = message.longitude,
+                                             .altitude = message.altitude,
+                                             .time_usec = mavlink::boot_us(flight.time_s)};
 }
 
 void hear(StandInFlight& flight, const mavlink::Odometry& message) {

@@ -23,12 +23,15 @@ struct StandInFlight {
     Manners manners;
     Setpoint heard;  ///< the last set-point
     double heard_s = -std::numeric_limits<double>::infinity();
-    PositionSetpoint hold;    ///< where to be in the mode hold
-    bool has_origin = false;  ///< latitude and longitude of W are known
-    double thrust = 0.0;      ///< collective asked for in the last step
+    PositionSetpoint hold;                           ///< where to be in the mode hold
+    std::optional<mavlink::GpsGlobalOrigin> origin;  ///< of W
+    double unsettled_until_s = 0.0;  ///< its position is no good for arming until then
+    double thrust = 0.0;             ///< collective asked for in the last step
     RotorCommand command;
 
     [[nodiscard]] bool valid() const { return aligned && autopilot.estimate.valid; }
+    /// Whether it has a place on earth, and is known to be somewhere about it.
+    [[nodiscard]] bool global() const { return aligned && origin.has_value(); }
 };
 
 /// A step: clock and IMU go on, the estimator runs, what is due happens, the vehicle is flown.
@@ -36,7 +39,11 @@ struct StandInFlight {
 bool step(const autopilot::AutopilotModel& model, const StandInParameters& parameters,
           StandInFlight& flight, const mavlink::HilSensor& message);
 
-void hear(StandInFlight& flight, const mavlink::HilGps& message);
+/// @param aids  it is a position to go by, and an origin, too
+void hear(StandInFlight& flight, const mavlink::HilGps& message, bool aids);
+/// @param unsettles_s  how long its position is no good for arming when it has been aligned before
+///                     its first origin came
+void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s);
 /// A pose for the estimator; others than EKF2 uses are passed over. A stamp that is not of this
 /// clock, or older than half a second, counts as now: so does PX4 until its clock is in step.
 void hear(StandInFlight& flight, const mavlink::Odometry& message);

@@ -11,6 +11,7 @@
 #include "limpet/scenario/fault_table.hpp"
 #include "limpet/simulation/bring_up.hpp"
 #include "limpet/simulation/flight_log.hpp"
+#include "limpet/simulation/log_beside.hpp"
 #include "limpet/simulation/pace.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "limpet/simulation/step.hpp"
@@ -197,6 +198,11 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                                        .topics = conduct.topics,
                                        .compress = conduct.compress});
     }
+    // Who watches beside it is shown each tick as it is.
+    std::optional<LogBeside> beside;
+    if (log && autopilot != nullptr && conduct.beside == nullptr) {
+        beside.emplace(*log, model);
+    }
     std::vector<Event> events;
     events.reserve(64);
     double next_progress_s = 0.0;
@@ -210,7 +216,9 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                 watch.on_event(happened.events[k]);
             }
         }
-        if (log) {
+        if (beside) {
+            beside->tick(flight.state(), happened);
+        } else if (log) {
             log->tick(*model, flight.state(), happened);
         }
         if (watch.on_tick) {
@@ -232,6 +240,9 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
     if (autopilot != nullptr) {
         result.performance.waited_s = autopilot->waited_s() - waited_s;
         result.autopilot = autopilot->identity();
+    }
+    if (beside) {
+        beside->finish();
     }
     if (log) {
         log->finish(summary_json(result));

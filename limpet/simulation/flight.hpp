@@ -99,6 +99,8 @@ struct FlightPerformance {
     [[nodiscard]] double real_time_factor() const {
         return wall_s > 0.0 ? simulated_s / wall_s : 0.0;
     }
+    /// Of the wall time, what was ours and not the autopilot's.
+    [[nodiscard]] double own_share() const { return wall_s > 0.0 ? 1.0 - waited_s / wall_s : 1.0; }
 };
 
 struct FlightResult {

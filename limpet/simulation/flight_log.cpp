@@ -96,41 +96,66 @@ FlightLog::FlightLog(const std::filesystem::path& path, const FlightModel& model
                      const Options& options)
     : recorder_(path, describe(model, options)), brief_(options.brief) {}
 
+Moment moment_of(const FlightState& state) {
+    Moment now{.tick = state.tick,
+               .fine_until = state.fine_until,
+               .truth = state.truth,
+               .readings = state.sensors.readings,
+               .heard = {},
+               .estimate = state.autopilot.estimate,
+               .setpoint = state.guidance.setpoint,
+               .state = state.guidance.state,
+               .attempt = state.guidance.attempt,
+               .command = state.command};
+    for_each_type(sensors::Sensors{}, [&](auto type) {
+        using Sensor = typename decltype(type)::type;
+        if constexpr (!sensors::kIsRead<Sensor>) {
+            std::get<Moment::Heard<Sensor>>(now.heard.of).sample =
+                state.sensors.template units<Sensor>()[0].heard;
+        }
+    });
+    return now;
+}
+
 void FlightLog::tick(const FlightModel& model, const FlightState& state,
                      const guidance::EventList& events) {
     for (std::size_t k = 0; k < events.count; ++k) {
         recorder_.event(events.events[k]);
     }
+    moment(model, moment_of(state));
+}
+
+void FlightLog::moment(const FlightModel& model, const Moment& now) {
     constexpr int kBrief_Hz = 25;
-    if (brief_ && !due(state.tick, kBrief_Hz)) {
+    if (brief_ && !due(now.tick, kBrief_Hz)) {
         return;
     }
-    recorder_.new_readings(state.sensors.readings, last_);
+    recorder_.new_readings(now.readings, last_);
     std::size_t channel = 0;
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
         if constexpr (!sensors::kIsRead<Sensor>) {
-            const auto& heard = state.sensors.template units<Sensor>()[0].heard;
+            const auto& heard = std::get<Moment::Heard<Sensor>>(now.heard.of).sample;
             recorder_.columns(channel++, heard, Sensor::numbers(heard.value));
         }
     });
-    const bool regular = due(state.tick, model.record_rate_Hz);
+    const bool regular = due(now.tick, model.record_rate_Hz);
     // Around a touch the truth is as dense as what is measured of it.
-    const bool touch = state.tick < state.fine_until &&
-                       sensors::sampled(state.tick, model.sensors.parameters.force_rate_Hz);
+    const bool touch = now.tick < now.fine_until &&
+                       sensors::sampled(now.tick, model.sensors.parameters.force_rate_Hz);
     if (regular || touch) {
-        recorder_.truth(state.truth);
+        recorder_.truth(now.truth);
     }
     const int marks_Hz = brief_ ? 5 : 25;
-    if (due(state.tick, marks_Hz)) {
-        recorder_.scene(state.truth, state.sensors.readings, state.guidance.setpoint);
+    if (due(now.tick, marks_Hz)) {
+        recorder_.scene(now.truth, now.readings, now.setpoint);
     }
     if (regular) {
-        const double time_s = seconds(state.tick);
-        recorder_.estimate(state.autopilot.estimate);
-        recorder_.setpoint(time_s, state.guidance.setpoint);
-        recorder_.guidance(time_s, to_string(state.guidance.state), state.guidance.attempt);
-        recorder_.rotor_command(time_s, state.command);
+        const double time_s = seconds(now.tick);
+        recorder_.estimate(now.estimate);
+        recorder_.setpoint(time_s, now.setpoint);
+        recorder_.guidance(time_s, to_string(now.state), now.attempt);
+        recorder_.rotor_command(time_s, now.command);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "limpet/record/recorder.hpp"
@@ -12,6 +13,33 @@ namespace limpet::simulation {
 
 /// What a viewer is shown of it; also on ROS's topics.
 [[nodiscard]] record::Scene scene_of_recording(const FlightModel& model);
+
+/// What of a tick is recorded but its events.
+struct Moment {
+    /// The last sample of a sensor that nobody reads.
+    template <class Sensor>
+    struct Heard {
+        decltype(sensors::SensorUnit<Sensor>::heard) sample = {};
+    };
+    template <class List>
+    struct AllHeard;
+    template <class... All>
+    struct AllHeard<TypeList<All...>> {
+        std::tuple<Heard<All>...> of;
+    };
+
+    Tick tick = 0;
+    Tick fine_until = 0;
+    Truth truth;
+    Readings readings;
+    AllHeard<sensors::Sensors> heard;
+    Estimate estimate;
+    Setpoint setpoint;
+    guidance::PerchingState state = {};
+    int attempt = 0;
+    RotorCommand command;
+};
+[[nodiscard]] Moment moment_of(const FlightState& state);
 
 /// Writes a flight's signals as they come: sensors with each new sample, the rest at the scenario's
 /// recording rate.
@@ -29,6 +57,9 @@ public:
     /// After every tick, with its events.
     void tick(const FlightModel& model, const FlightState& state,
               const guidance::EventList& events);
+    /// The same in two: first a tick's events, then what else is of it.
+    void event(const Event& event) { recorder_.event(event); }
+    void moment(const FlightModel& model, const Moment& moment);
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:

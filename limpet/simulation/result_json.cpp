@@ -84,6 +84,9 @@ std::string result_json(const FlightResult& result) {
                            {"wall_s", result.performance.wall_s},
                            {"real_time_factor", result.performance.real_time_factor()},
                            {"physics_steps", result.performance.physics_steps}};
+    if (result.autopilot) {
+        json["performance"]["own_share"] = result.performance.own_share();
+    }
     json["recording"] = result.recording.empty() ? Json(nullptr) : Json(result.recording.string());
     json["state_hash"] = hex(result.state_hash);
     return json.dump(2);

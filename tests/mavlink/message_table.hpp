@@ -21,7 +21,7 @@ struct TableRow {
     std::string_view offsets;  ///< "name@offset ...", by offset
 };
 
-inline constexpr std::array<TableRow, 39> kTable = {{
+inline constexpr std::array<TableRow, 40> kTable = {{
     {0, "HEARTBEAT", 50, 9, 9,
      "custom_mode@0 type@4 autopilot@5 base_mode@6 system_status@7 mavlink_version@8"},
     {1, "SYS_STATUS", 124, 31, 43,
@@ -52,6 +52,7 @@ inline constexpr std::array<TableRow, 39> kTable = {{
      "count@0 target_system@2 target_component@3 mission_type@4 opaque_id@5"},
     {48, "SET_GPS_GLOBAL_ORIGIN", 41, 13, 21,
      "latitude@0 longitude@4 altitude@8 target_system@12 time_usec@13"},
+    {49, "GPS_GLOBAL_ORIGIN", 39, 12, 20, "latitude@0 longitude@4 altitude@8 time_usec@12"},
     {76, "COMMAND_LONG", 152, 33, 33,
      "param1@0 param2@4 param3@8 param4@12 param5@16 param6@20 param7@24 command@28 "
      "target_system@30 target_component@31 confirmation@32"},

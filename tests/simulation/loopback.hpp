@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "limpet/px4/autopilot.hpp"
 #include "limpet/px4/stand_in.hpp"
@@ -81,7 +82,8 @@ public:
     [[nodiscard]] const mavlink::Link& hil() const { return hil_; }
     [[nodiscard]] const mavlink::Link& offboard() const { return offboard_; }
 
-    std::string last_text;  ///< STATUSTEXT
+    std::string last_text;           ///< STATUSTEXT
+    std::vector<std::string> texts;  ///< all of them
 
 private:
     static mavlink::Link listen(wire::Medium medium) {
@@ -95,7 +97,10 @@ private:
         px4::Px4Options px4;
         px4.hil.answer_limit = 2000ms;
         px4.control_rate_Hz = model.control_rate_Hz;
-        px4.on_text = [this](const std::string& text) { last_text = text; };
+        px4.on_text = [this](const std::string& text) {
+            last_text = text;
+            texts.push_back(text);
+        };
         autopilot_.emplace(hil_, offboard_, std::move(px4));
     }
 

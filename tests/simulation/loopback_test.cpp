@@ -17,6 +17,7 @@
 namespace limpet::simulation {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 
 std::vector<EventName> names(const FlightResult& result) {
@@ -74,6 +75,19 @@ TEST(Loopback, FliesEightRotorsBehindTheWire) {
     Loopback loopback(*model);
     const FlightResult behind = fly_behind_wire(model, loopback);
     EXPECT_EQ(behind.outcome, Outcome::released) << behind.reason;
+}
+
+/// As PX4 v1.16, which may not be armed for a moment after it has got its origin.
+TEST(Loopback, AFlightBeginsWhereAnOriginUnsettles) {
+    const auto model = model_of("hover");
+    px4::StandInOptions options = Loopback::perching();
+    options.origin_unsettles_s = 3.4;
+    Loopback loopback(*model, options);
+    const FlightResult result = fly_behind_wire(model, loopback);
+    EXPECT_EQ(result.outcome, Outcome::released) << result.reason;
+    loopback.stand_in().end();
+    EXPECT_GT(loopback.stand_in().stand_in().flight().unsettled_until_s, 3.4);
+    EXPECT_THAT(loopback.texts, Contains(HasSubstr("Arming denied")));
 }
 
 /// PX4 flies on without poses for five seconds, by its own account well.

@@ -25,8 +25,17 @@ TEST(ResultJson, HasEveryFieldAndNullForWhatDidNotHappen) {
     for (const char* key : {"simulated_s", "wall_s", "real_time_factor", "physics_steps"}) {
         EXPECT_TRUE(json["performance"].contains(key)) << key;
     }
+    EXPECT_FALSE(json["performance"].contains("own_share")) << "all of it is";
     EXPECT_TRUE(json["metrics"]["release_s"].is_null());
     EXPECT_TRUE(json["recording"].is_null());
+}
+
+TEST(ResultJson, BehindAWireItTellsWhoseTheTimeWas) {
+    FlightResult result;
+    result.autopilot.emplace();
+    result.performance = {.simulated_s = 10.0, .wall_s = 2.0, .waited_s = 1.5};
+    const auto json = nlohmann::json::parse(result_json(result));
+    EXPECT_DOUBLE_EQ(json["performance"]["own_share"].get<double>(), 0.25);
 }
 
 TEST(ResultJson, SummaryForRecordingsKnowsNothingOfTheMachine) {
