@@ -9,6 +9,7 @@
 
 #include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
+#include "limpet/core/atmosphere.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/random.hpp"
@@ -71,8 +72,9 @@ struct WallSetup {
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();
 
-/// The air around the vehicle; still and without a wall's effect by default.
+/// The air around the vehicle; at sea level, still and without a wall's effect by default.
 struct Environment {
+    AirParameters air;
     vehicle::WindParameters wind;
     vehicle::WallAirParameters wall_air;
 };

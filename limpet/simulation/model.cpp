@@ -17,7 +17,8 @@ sensors::SensorsModel sensors_of(const scenario::Scenario& scenario) {
     return {.parameters = scenario.sensors,
             .has_cup = airframe.has_cup,
             .mounts = {.lidar_p_B_m = {Vector3{airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
-                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}}};
+                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}},
+            .altitude_m = scenario.environment.air.altitude_m};
 }
 
 int whole(double value) {
@@ -85,8 +86,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->guidance = scenario.guidance;
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
     model->has_wall = scenario.wall.present;
-    model->surfaces.assign(scenario.wall.first_touches.begin(), scenario.wall.first_touches.end());
-    model->surfaces.push_back(scenario.wall.surface);
+    model->surfaces = surfaces_met(scenario);
     model->ahead_W = heading_W(scenario.wall);
     model->start = scenario.start;
     model->seed = scenario.seed;
@@ -156,6 +156,8 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.sensors = sensors::start(model.sensors, state.truth, model.seed, run, model.noise);
     state.wind = vehicle::start(model.wind, model.random(run, Stream::wind));
     state.wall_air = vehicle::start(model.wall_air, model.random(run, Stream::wall_air));
+    state.cup.mean_pressure_Pa = model.cup.parameters.ambient_Pa;
+    state.cup.status.pressure_Pa = model.cup.parameters.ambient_Pa;
     state.cup.random = model.random(run, Stream::seal);
     return state;
 }

@@ -14,7 +14,9 @@ LipLoad load_on(const CupModel& model, CupState& state, const Surface& surface,
                 const LipMotion& motion, const CupInput& input) {
     const LipParameters& lip = model.parameters.lip;
     const bool sealed = is_sealed(state.status.phase);
-    const double vacuum_N = sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m) : 0.0;
+    const double vacuum_N =
+        sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m, model.parameters.ambient_Pa)
+               : 0.0;
     if (sealed && input.held_T) {
         return held_load(lip, *input.held_T, surface.friction, vacuum_N);
     }
@@ -95,22 +97,25 @@ void advance_pressure(const CupParameters& parameters, CupState& state, const Su
                   .pressure_Pa = state.mean_pressure_Pa,
                   .pump_resting = state.pump_resting,
                   .valve_open = input.valve_open,
-                  .hole_mm2 = input.hole_mm2};
+                  .hole_mm2 = input.hole_mm2,
+                  .ambient_Pa = parameters.ambient_Pa};
     state.pump_resting =
         status.phase == CupPhase::attached && model.pump_rests(parameters.pressure, air);
     status.pump_running = air.pump_running =
         input.pump_on && input.pump_draws && !state.pump_resting;
     status.valve_open = input.valve_open;
     const bool sealed = is_sealed(status.phase);
-    state.mean_pressure_Pa = sealed ? model.next_Pa(parameters.pressure, air, dt_s)
-                                    : pressure_after(surface, parameters.pressure, Airflow::open,
-                                                     state.mean_pressure_Pa, dt_s);
-    status.pressure_Pa = state.mean_pressure_Pa +
-                         (status.pump_running && sealed
-                              ? surface.pump_ripple_Pa * (kAtmosphere_Pa - state.mean_pressure_Pa) /
-                                    (kAtmosphere_Pa - surface.vacuum_pressure_Pa) *
-                                    std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
-                              : 0.0);
+    state.mean_pressure_Pa =
+        sealed ? model.next_Pa(parameters.pressure, air, dt_s)
+               : pressure_after(surface, parameters.pressure, Airflow::open, state.mean_pressure_Pa,
+                                dt_s, 0.0, parameters.ambient_Pa);
+    status.pressure_Pa =
+        state.mean_pressure_Pa +
+        (status.pump_running && sealed
+             ? surface.pump_ripple_Pa * (parameters.ambient_Pa - state.mean_pressure_Pa) /
+                   (parameters.ambient_Pa - surface.vacuum_pressure_Pa) *
+                   std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
+             : 0.0);
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct CupParameters {
     double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
     bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
     int pressure_model = 0;                   ///< place in pressure_models()
+    double ambient_Pa = kAtmosphere_Pa;       ///< of the air around; the environment's, no row
 };
 
 [[nodiscard]] inline const PressureModel& model_of(const CupParameters& cup) {

@@ -242,8 +242,8 @@ LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
     return motion;
 }
 
-double vacuum_force_N(double pressure_Pa, double radius_m) {
-    return std::max(0.0, kAtmosphere_Pa - pressure_Pa) * kPi * radius_m * radius_m;
+double vacuum_force_N(double pressure_Pa, double radius_m, double ambient_Pa) {
+    return std::max(0.0, ambient_Pa - pressure_Pa) * kPi * radius_m * radius_m;
 }
 
 LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,

@@ -108,6 +108,7 @@ struct LipLoad {
                                 double vacuum_N);
 
 /// Force with which vacuum holds a cup of this radius: (P_atm - P) pi R^2 [N].
-[[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m);
+[[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m,
+                                    double ambient_Pa = kAtmosphere_Pa);
 
 }  // namespace limpet::suction

@@ -73,7 +73,7 @@ RotorsState spinning(const RotorParameters& rotor, std::size_t count, double com
 
 double hover_command(const AirframeNumbers& airframe) {
     const double thrust_N = airframe.mass_kg * kGravity_m_s2 / lifting_rotors(airframe);
-    const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.motor_constant_kg_m);
+    const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 
@@ -119,6 +119,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
                                                            const Kinematics& base,
                                                            const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
+    const double k_mot_kg_m = rotor.thrust_per_speed_2_kg_m();
+    const double lambda_1_kg = rotor.drag_constant_kg * rotor.density_ratio;
+    const double mu_1_kg_m = rotor.rolling_constant_kg_m * rotor.density_ratio;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
     double sum_fx_N = 0.0, sum_fy_N = 0.0, sum_fz_N = 0.0;
     double sum_mx_N_m = 0.0, sum_my_N_m = 0.0, sum_mz_N_m = 0.0;
@@ -141,16 +144,16 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
         const EachRotor vz_m_s = v_air_B_m_s.z() + (w.x() * y_m - w.y() * x_m);
 
         const EachRotor turning_rad_s = magnitude(speed_rad_s);
-        const EachRotor still_thrust_N = rotor.motor_constant_kg_m * speed_rad_s * turning_rad_s;
+        const EachRotor still_thrust_N = k_mot_kg_m * speed_rad_s * turning_rad_s;
         const EachRotor left = 1.0 - magnitude(vz_m_s) / rotor.axial_loss_speed_m_s;
         const EachRotor some = select(left > 0.0, left, 0.0);
-        const EachRotor drag = -turning_rad_s * rotor.drag_constant_kg;
+        const EachRotor drag = -turning_rad_s * lambda_1_kg;
         const EachRotor fx_N = drag * vx_m_s;
         const EachRotor fy_N = drag * vy_m_s;
         const EachRotor fz_N = -still_thrust_N * some * share;
 
         // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
-        const EachRotor rolling = -turning_rad_s * direction * rotor.rolling_constant_kg_m;
+        const EachRotor rolling = -turning_rad_s * direction * mu_1_kg_m;
         const EachRotor mx_N_m = (y_m * fz_N - z_m * fy_N) + rolling * vx_m_s;
         const EachRotor my_N_m = (z_m * fx_N - x_m * fz_N) + rolling * vy_m_s;
         const EachRotor mz_N_m =
@@ -172,7 +175,7 @@ double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state
         const double speed_rad_s = state.speed_rad_s[i];
         cubes += std::abs(speed_rad_s) * speed_rad_s * speed_rad_s;
     });
-    return rotor.moment_constant_m * rotor.motor_constant_kg_m * cubes;
+    return rotor.moment_constant_m * rotor.thrust_per_speed_2_kg_m() * cubes;
 }
 
 }  // namespace limpet::vehicle
