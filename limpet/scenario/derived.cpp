@@ -104,6 +104,7 @@ std::vector<suction::Surface> surfaces_met(const Scenario& scenario) {
                                       scenario.wall.first_touches.end());
     met.push_back(scenario.wall.surface);
     for (suction::Surface& surface : met) {
+        surface = in_condition(surface, *scenario.wall.condition);
         surface.vacuum_pressure_Pa *= air_at(scenario.environment.air).pressure_ratio;
     }
     return met;

@@ -37,8 +37,9 @@ namespace limpet::scenario {
 [[nodiscard]] std::optional<double> derived(std::string_view section, std::string_view name,
                                             const Scenario& scenario);
 
-/// Of the first, second, ... touch and all after the last, in the air around: `wall.surface` tells
-/// its vacuum as it is at sea level, and what a pump keeps is its ratio of pressures.
+/// Of the first, second, ... touch and all after the last, in the wall's condition and the air
+/// around: `wall.surface` tells its vacuum as it is at sea level, and what a pump keeps is its
+/// ratio of pressures.
 [[nodiscard]] std::vector<suction::Surface> surfaces_met(const Scenario& scenario);
 
 /// What rotors and cup know of the air around, by `environment:`. Before derive().

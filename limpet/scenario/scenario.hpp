@@ -20,6 +20,7 @@
 #include "limpet/plant/engines.hpp"
 #include "limpet/scenario/surface.hpp"
 #include "limpet/sensors/registry.hpp"
+#include "limpet/suction/condition.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/mount.hpp"
@@ -63,7 +64,8 @@ struct WallSetup {
     double lean_deg = 0.0;     ///< > 0: the top leans away from the vehicle
     double width_m = 4.0;
     double height_m = 4.0;
-    double radius_m = 5.0;  ///< of a shape that bends
+    double radius_m = 5.0;                                            ///< of a shape that bends
+    const suction::SurfaceCondition* condition = &suction::kAsGiven;  ///< of all of it
     WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
     Surface surface;
     /// Surface met by the first, second, ... touch; `surface` after those.

@@ -92,7 +92,9 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
     std::vector<Section> sections = {
         {"wall",
          bind(wall_table(), scenario.wall),
-         {choice("shape", "shape of a wall", wall_shapes(), scenario.wall.geometry.shape)}},
+         {choice("shape", "shape of a wall", wall_shapes(), scenario.wall.geometry.shape),
+          choice("condition", "condition of a wall", suction::surface_conditions(),
+                 scenario.wall.condition)}},
         {"wall.surface", bind(suction::surface_table(), scenario.wall.surface)},
         {"pendulum", bind(vehicle::pendulum_table(), scenario.pendulum)},
         {"press_rig", bind(vehicle::press_rig_table(), scenario.press_rig)},

@@ -181,7 +181,9 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
     lip.contact = {.touches = touches,
                    .gap_m = motion.gap_m,
                    .tilt_rad = motion.tilt_rad(),
-                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
+                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0 &&
+                                 (motion.bulge_1_m <= 0.0 ||
+                                  motion.bulge_1_m * least_radius_m(model.parameters.lip) <= 1.0),
                    .let_go = load.let_go,
                    .press_N = input.bearer != nullptr ? load.press_N : input.press_N,
                    .pull_N = load.pull_N,

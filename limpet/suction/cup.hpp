@@ -98,7 +98,8 @@ struct LipContact {
     bool touches = false;  ///< on the wall, mouth first
     double gap_m = 0.0;
     double tilt_rad = 0.0;
-    bool lies_still = true;  ///< neither slides nor rocks: a seal needs the whole lip on the wall
+    /// Neither slides nor rocks, nor is the wall too round: a seal needs the whole lip on the wall.
+    bool lies_still = true;
     LetGo let_go = LetGo::no;
     double press_N = 0.0;  ///< as CupInput::press_N
     double pull_N = 0.0;
