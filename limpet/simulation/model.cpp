@@ -33,7 +33,8 @@ Vector3 trim_W_m_s2(const FlightModel& model) {
     Kinematics level;
     level.q_WF = quaternion_from_euler({.yaw_rad = model.start.yaw_rad});
     const vehicle::RotorsState rotors = spinning(model.airframe.rotor, model.airframe.rotors.size(),
-                                                 vehicle::hover_command(model.airframe));
+                                                 vehicle::hover_command(model.airframe),
+                                                 vehicle::hover_drive_share(model.airframe));
     const Vector3 force_B_N =
         vehicle::rotor_wrench_B(model.airframe, rotors.speed_rad_s, level, model.wind.mean_W_m_s)
             .force_N;
@@ -134,7 +135,8 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.command.command.resize(rotors);
     if (model.mount == vehicle::Mount::free) {
         const double hover = vehicle::hover_command(airframe);
-        state.rotors = spinning(airframe.rotor, rotors, hover);
+        state.rotors =
+            spinning(airframe.rotor, rotors, hover, vehicle::hover_drive_share(airframe));
         state.command = {.command = RotorList<double>(rotors, hover), .armed = true};
     }
     state.battery = charged(airframe.battery);

@@ -8,6 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/lanes.hpp"
 #include "limpet/core/machines.hpp"
+#include "limpet/vehicle/battery.hpp"
 
 namespace limpet::vehicle {
 namespace {
@@ -61,19 +62,39 @@ RotorsState standing(std::size_t count) {
     return state;
 }
 
-RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command) {
-    const double asked_rad_s = steady_speed_rad_s(rotor, command);
+RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command,
+                     double drive_share) {
+    const double asked_rad_s = steady_speed_rad_s(rotor, command) * drive_share;
     RotorsState state;
     for (auto& asked : state.asked_rad_s) {
         std::fill_n(asked.begin(), count, asked_rad_s);
     }
-    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s));
+    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s * drive_share));
     return state;
 }
 
-double hover_command(const AirframeNumbers& airframe) {
+namespace {
+
+double hover_speed_rad_s(const AirframeNumbers& airframe) {
     const double thrust_N = airframe.mass_kg * kGravity_m_s2 / lifting_rotors(airframe);
-    const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
+    return std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
+}
+
+}  // namespace
+
+double hover_drive_share(const AirframeNumbers& airframe) {
+    if (!airframe.rotor.speed_follows_voltage) {
+        return 1.0;
+    }
+    RotorsState rotors;
+    rotors.speed_rad_s.resize(airframe.rotors.size(), hover_speed_rad_s(airframe));
+    BatteryState battery = charged(airframe.battery);
+    step(airframe.battery, battery, mechanical_power_W(airframe.rotor, rotors), false, true, 0.0);
+    return drive_share(airframe, battery.voltage_V);
+}
+
+double hover_command(const AirframeNumbers& airframe) {
+    const double speed_rad_s = hover_speed_rad_s(airframe) / hover_drive_share(airframe);
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 
@@ -86,17 +107,20 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
 }
 
 LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-                              const RotorCommand& command, double voltage_share,
+                              const RotorCommand& command, double drive_share,
                               const RotorList<double>* speed_share, int steps) {
     const std::size_t count = state.speed_rad_s.size();
     std::array<double, kMaxRotors> newest_rad_s{};
     for_each(count, [&](std::size_t i) {
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
+    if (rotor.speed_follows_voltage) {
+        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= drive_share; });
+    }
     if (speed_share != nullptr) {
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
-    const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
+    const double limit_rad_s = rotor.speed_max_rad_s * drive_share;
     std::size_t oldest = 0;
     for (int k = 0; k < steps; ++k) {
         if (k == 0 || lag.delay > 0) {
