@@ -67,6 +67,16 @@ void check_environment(const Environment& environment, const YamlNode& root) {
     }
 }
 
+void check_ceiling(const Scenario& scenario, const YamlNode& root) {
+    const double ceiling_m = scenario.environment.nearness.ceiling_height_m;
+    const double top_m = scenario.simulation.start_height_m + scenario.airframe.rotor.height_m;
+    if (ceiling_m > 0.0 && top_m >= ceiling_m) {
+        fail_at(
+            root, "environment.ceiling_height_m",
+            fmt::format("{:.6g} is not above the rotors at the start, {:.6g} m", ceiling_m, top_m));
+    }
+}
+
 /// Vacuum begins below the pressure of the air.
 void check_vacuum(const Scenario& scenario, const YamlNode& root) {
     const double ambient_Pa = scenario.cup.ambient_Pa;
@@ -181,6 +191,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_mission(scenario, root);
     check_environment(scenario.environment, root);
     check_vacuum(scenario, root);
+    check_ceiling(scenario, root);
     check_steps(scenario.simulation, root);
     check_mount(scenario, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,

@@ -24,6 +24,7 @@
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/mount.hpp"
+#include "limpet/vehicle/nearness.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
 
@@ -79,6 +80,7 @@ struct Environment {
     AirParameters air;
     vehicle::WindParameters wind;
     vehicle::WallAirParameters wall_air;
+    vehicle::NearnessParameters nearness;
 };
 
 /// Where the vehicle is when the flight begins.

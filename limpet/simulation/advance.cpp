@@ -79,9 +79,14 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
+    RotorList<double> gains;
+    if (model.nearness.acts()) {
+        gains = thrust_gains(model.nearness, airframe, base);
+    }
     const Wrench rotors_B =
         vehicle::rotor_wrench_B(airframe, speeds_rad_s, base,
-                                vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s);
+                                vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s,
+                                model.nearness.acts() ? &gains : nullptr);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};

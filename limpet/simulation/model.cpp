@@ -95,6 +95,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->mount = scenario.mount;
     model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
+    model->nearness = make_nearness(scenario.environment.nearness, scenario.start.ground_z_W_m);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->faults = {.faults = scenario.faults, .ahead_W = model->ahead_W};
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),

@@ -141,7 +141,8 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
 LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
                                                            const RotorList<double>& speeds_rad_s,
                                                            const Kinematics& base,
-                                                           const Vector3& wind_W_m_s) {
+                                                           const Vector3& wind_W_m_s,
+                                                           const RotorList<double>* thrust_gains) {
     const RotorParameters& rotor = airframe.rotor;
     const double k_mot_kg_m = rotor.thrust_per_speed_2_kg_m();
     const double lambda_1_kg = rotor.drag_constant_kg * rotor.density_ratio;
@@ -158,7 +159,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
             const Rotor& place = airframe.rotors[first + i];
             speed_rad_s.set(lane, speeds_rad_s[first + i]);
             direction.set(lane, place.direction);
-            share.set(lane, place.thrust_share);
+            share.set(lane, thrust_gains == nullptr
+                                ? place.thrust_share
+                                : place.thrust_share * (*thrust_gains)[first + i]);
             x_m.set(lane, place.p_B_m.x());
             y_m.set(lane, place.p_B_m.y());
             z_m.set(lane, place.p_B_m.z());
