@@ -294,6 +294,7 @@ double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, do
     CupAir cup = sealed_cup(parameters, air.surface, air.radius_m, air.press_N, air.valve_open);
     cup.hole_m2 += 1e-6 * air.hole_mm2;
     cup.ambient_Pa = air.ambient_Pa;
+    cup.leak_100_m3_s *= 1.0 + air.leak_growth;
     return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
 }
 

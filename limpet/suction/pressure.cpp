@@ -9,6 +9,8 @@
 namespace limpet::suction {
 namespace {
 
+constexpr double kValve_mm2 = kPi;  ///< of valve_time_constant_s: 2 mm across
+
 /// Every airflow is dP/dt = (target - P) / tau.
 struct Law {
     double target_Pa;
@@ -30,7 +32,6 @@ Law law(const Surface& surface, const FirstOrderParameters& cup, Airflow flow, d
 /// Two flows at once: rates add, targets weigh by them.
 Law beside_hole(const Law& flow, const FirstOrderParameters& cup, double hole_mm2,
                 double ambient_Pa) {
-    constexpr double kValve_mm2 = kPi;  // of valve_time_constant_s: 2 mm across
     const double rate_1_s = 1.0 / flow.time_constant_s;
     const double hole_1_s = hole_mm2 / kValve_mm2 / cup.valve_time_constant_s;
     const double both_1_s = rate_1_s + hole_1_s;
@@ -78,7 +79,13 @@ double FirstOrder::next_Pa(const Parameters& parameters, const SealedAir& air, d
     const Airflow flow = air.valve_open     ? Airflow::venting
                          : air.pump_running ? Airflow::sealing
                                             : Airflow::unsealing;
-    return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s, air.hole_mm2,
+    // What the seal leaks more is a hole of as much: the fresh leak's rate is 1 / tau_2.
+    const double hole_mm2 = air.leak_growth > 0.0
+                                ? air.hole_mm2 + air.leak_growth /
+                                                     air.surface.unsealing_time_constant_s *
+                                                     parameters.valve_time_constant_s * kValve_mm2
+                                : air.hole_mm2;
+    return pressure_after(air.surface, parameters, flow, air.pressure_Pa, dt_s, hole_mm2,
                           air.ambient_Pa);
 }
 

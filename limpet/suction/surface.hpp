@@ -41,6 +41,7 @@ struct SealedAir {
     bool valve_open = false;
     double hole_mm2 = 0.0;               ///< to the atmosphere, beyond the lip's own leak
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around
+    double leak_growth = 0.0;  ///< what the seal leaks more than when it was fresh, over that
 };
 
 }  // namespace limpet::suction
