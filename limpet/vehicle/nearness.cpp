@@ -77,4 +77,11 @@ RotorList<double> thrust_gains(const NearnessModel& model, const AirframeNumbers
     return gains;
 }
 
+AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains) {
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+        airframe.rotors[i].thrust_share *= gains[i];
+    }
+    return airframe;
+}
+
 }  // namespace limpet::vehicle

@@ -47,5 +47,7 @@ struct NearnessModel {
 [[nodiscard]] RotorList<double> thrust_gains(const NearnessModel& model,
                                              const AirframeNumbers& airframe,
                                              const Kinematics& base);
+/// The same vehicle, each rotor with so much of its thrust.
+[[nodiscard]] AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains);
 
 }  // namespace limpet::vehicle

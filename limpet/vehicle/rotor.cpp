@@ -138,15 +138,14 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
     }
 }
 
-LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
-                                                           const RotorList<double>& speeds_rad_s,
-                                                           const Kinematics& base,
-                                                           const Vector3& wind_W_m_s,
-                                                           const RotorList<double>* thrust_gains) {
+namespace {
+
+/// In air of the density for which the constants are told.
+LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench standard_wrench_B(const AirframeNumbers& airframe,
+                                                              const RotorList<double>& speeds_rad_s,
+                                                              const Kinematics& base,
+                                                              const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
-    const double k_mot_kg_m = rotor.thrust_per_speed_2_kg_m();
-    const double lambda_1_kg = rotor.drag_constant_kg * rotor.density_ratio;
-    const double mu_1_kg_m = rotor.rolling_constant_kg_m * rotor.density_ratio;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
     double sum_fx_N = 0.0, sum_fy_N = 0.0, sum_fz_N = 0.0;
     double sum_mx_N_m = 0.0, sum_my_N_m = 0.0, sum_mz_N_m = 0.0;
@@ -159,9 +158,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
             const Rotor& place = airframe.rotors[first + i];
             speed_rad_s.set(lane, speeds_rad_s[first + i]);
             direction.set(lane, place.direction);
-            share.set(lane, thrust_gains == nullptr
-                                ? place.thrust_share
-                                : place.thrust_share * (*thrust_gains)[first + i]);
+            share.set(lane, place.thrust_share);
             x_m.set(lane, place.p_B_m.x());
             y_m.set(lane, place.p_B_m.y());
             z_m.set(lane, place.p_B_m.z());
@@ -171,16 +168,16 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
         const EachRotor vz_m_s = v_air_B_m_s.z() + (w.x() * y_m - w.y() * x_m);
 
         const EachRotor turning_rad_s = magnitude(speed_rad_s);
-        const EachRotor still_thrust_N = k_mot_kg_m * speed_rad_s * turning_rad_s;
+        const EachRotor still_thrust_N = rotor.motor_constant_kg_m * speed_rad_s * turning_rad_s;
         const EachRotor left = 1.0 - magnitude(vz_m_s) / rotor.axial_loss_speed_m_s;
         const EachRotor some = select(left > 0.0, left, 0.0);
-        const EachRotor drag = -turning_rad_s * lambda_1_kg;
+        const EachRotor drag = -turning_rad_s * rotor.drag_constant_kg;
         const EachRotor fx_N = drag * vx_m_s;
         const EachRotor fy_N = drag * vy_m_s;
         const EachRotor fz_N = -still_thrust_N * some * share;
 
         // the air slows a counter-clockwise rotor, which pushes the body clockwise: +z, downward
-        const EachRotor rolling = -turning_rad_s * direction * mu_1_kg_m;
+        const EachRotor rolling = -turning_rad_s * direction * rotor.rolling_constant_kg_m;
         const EachRotor mx_N_m = (y_m * fz_N - z_m * fy_N) + rolling * vx_m_s;
         const EachRotor my_N_m = (z_m * fx_N - x_m * fz_N) + rolling * vy_m_s;
         const EachRotor mz_N_m =
@@ -194,6 +191,18 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
     }
     return {.force_N = {sum_fx_N, sum_fy_N, sum_fz_N},
             .moment_N_m = {sum_mx_N_m, sum_my_N_m, sum_mz_N_m}};
+}
+
+}  // namespace
+
+Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorList<double>& speeds_rad_s,
+                      const Kinematics& base, const Vector3& wind_W_m_s) {
+    Wrench wrench = standard_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
+    if (const double density = airframe.rotor.density_ratio; density != 1.0) {
+        wrench.force_N *= density;  // thrust, torque and drag all go with it
+        wrench.moment_N_m *= density;
+    }
+    return wrench;
 }
 
 double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state) {

@@ -105,12 +105,10 @@ void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
 /// @param speed_rad_s  of each
 /// @param base         frame B
 /// @param wind_W_m_s   velocity of the air
-/// @param thrust_gains what ground and ceiling make of each rotor's thrust; null: nothing
 /// @return force and moment about B's origin, in B; -force.z is the total thrust, as drag has no z
 [[nodiscard]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
                                     const RotorList<double>& speed_rad_s, const Kinematics& base,
-                                    const Vector3& wind_W_m_s,
-                                    const RotorList<double>* thrust_gains = nullptr);
+                                    const Vector3& wind_W_m_s);
 
 /// @return power of all shafts, torque times speed [W]
 [[nodiscard]] double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state);

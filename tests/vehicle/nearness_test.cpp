@@ -56,8 +56,8 @@ TEST(Nearness, EachRotorFeelsItsOwnHeight) {
                 1.0 + std::cos(kRoll_rad) * (ground_gain(height_m / airframe.rotor.radius_m) - 1.0),
                 1e-9);
     EXPECT_GT(gains[0], gains[2]);  // front right and front left
-    const Wrench wrench =
-        rotor_wrench_B(airframe, RotorList<double>(4, 560.0), base, Vector3::Zero(), &gains);
+    const Wrench wrench = rotor_wrench_B(lifting_by(airframe, gains), RotorList<double>(4, 560.0),
+                                         base, Vector3::Zero());
     EXPECT_LT(wrench.moment_N_m.x(), 0.0);  // rolls back
 }
 
@@ -69,8 +69,8 @@ TEST(Nearness, ALevelCeilingLiftsAllAlikeAndOnItsSideNone) {
     const RotorList<double> gains = thrust_gains(model, airframe, base);
     const Wrench free =
         rotor_wrench_B(airframe, RotorList<double>(4, 560.0), base, Vector3::Zero());
-    const Wrench near =
-        rotor_wrench_B(airframe, RotorList<double>(4, 560.0), base, Vector3::Zero(), &gains);
+    const Wrench near = rotor_wrench_B(lifting_by(airframe, gains), RotorList<double>(4, 560.0),
+                                       base, Vector3::Zero());
     EXPECT_NEAR(near.force_N.z() / free.force_N.z(), 1.095, 1e-9);
     EXPECT_NEAR(near.moment_N_m.z(), free.moment_N_m.z(), 1e-12);  // torque is the speed's
     base.q_WF = quaternion_from_euler({.roll_rad = 0.5 * kPi});
