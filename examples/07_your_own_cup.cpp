@@ -14,7 +14,7 @@ public:
         double& used_s = memory[0];
         const bool sucks = air.pump_running && !air.valve_open && used_s < charge_s_;
         used_s += sucks ? air.dt_s : 0.0;
-        const double towards_Pa = sucks ? air.vacuum_pressure_Pa : limpet::kAtmosphere_Pa;
+        const double towards_Pa = sucks ? air.vacuum_pressure_Pa : air.ambient_Pa;
         const double tau_s = sucks ? air.sealing_time_constant_s : air.unsealing_time_constant_s;
         return air.pressure_Pa + (towards_Pa - air.pressure_Pa) * air.dt_s / tau_s;
     }

@@ -19,6 +19,7 @@ struct CupPressureInput {
     double sealing_time_constant_s = 0.0;    ///< tau_1, towards P_vac
     double unsealing_time_constant_s = 0.0;  ///< tau_2, towards the atmosphere
     double dt_s = 0.0;                       ///< length of the step
+    double ambient_Pa = kAtmosphere_Pa;      ///< of the air around
 };
 
 /// How the pressure in a sealed cup goes on, in place of the built-in models; when it is sealed,
@@ -31,7 +32,7 @@ public:
     /// How many numbers it remembers; they begin as zeros.
     [[nodiscard]] virtual std::size_t memory_size() const { return 0; }
     /// Once a step of the plant, 0.25 to 1 ms, while the cup is sealed.
-    /// @return the pressure after the step [Pa], 0..101325
+    /// @return the pressure after the step [Pa], 0..ambient_Pa
     [[nodiscard]] virtual double next_Pa(const CupPressureInput& air,
                                          std::span<double> memory) const = 0;
 };

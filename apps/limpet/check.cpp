@@ -13,6 +13,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/makers.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
 
@@ -66,6 +67,9 @@ void check_scenario(const std::string& file) {
     const scenario::Scenario scenario = scenario::load_scenario(file);
     (void)simulation::build_model(scenario);  // the plant compiles it as well
     fmt::print("{}: a good scenario: {}\n", file, scenario.description);
+    for (const std::string& note : scenario::makers_notes(scenario)) {
+        fmt::print("  {}\n", note);
+    }
 }
 
 void check_yaml(const std::string& file) {

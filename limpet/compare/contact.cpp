@@ -74,6 +74,9 @@ FlightChannel acting_pressure(const record::Recording& recording,
         return acting;
     }
     // F = A (P_atm - P), the ripple adds to P alone: A by least squares over the sealed stretches.
+    // Open, before the first touch, the cup has the pressure of the air.
+    const bool opens = !phase->values.empty() && phase->values.front() == 0.0;
+    const double ambient_Pa = opens ? pressure->values.front() : kAtmosphere_Pa;
     double force_force = 0.0;
     double force_vacuum = 0.0;
     std::vector<double> force(pull->values.size(), 0.0);
@@ -81,7 +84,7 @@ FlightChannel acting_pressure(const record::Recording& recording,
         if (phase->values[i] >= static_cast<double>(static_cast<int>(CupPhase::sealing))) {
             force[i] = pull->values[i] + margin->values[i];
             force_force += force[i] * force[i];
-            force_vacuum += force[i] * (kAtmosphere_Pa - pressure->values[i]);
+            force_vacuum += force[i] * (ambient_Pa - pressure->values[i]);
         }
     }
     if (!(force_force > 0.0 && force_vacuum > 0.0)) {
@@ -89,7 +92,7 @@ FlightChannel acting_pressure(const record::Recording& recording,
     }
     for (std::size_t i = 0; i < force.size(); ++i) {
         const double vacuum_Pa = force[i] * force_vacuum / force_force;
-        acting.values[i] = hectopascals(kAtmosphere_Pa - vacuum_Pa);
+        acting.values[i] = hectopascals(ambient_Pa - vacuum_Pa);
     }
     return acting;
 }

@@ -36,14 +36,15 @@ suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupSta
                          .vacuum_pressure_Pa = surface.vacuum_pressure_Pa,
                          .sealing_time_constant_s = surface.sealing_time_constant_s,
                          .unsealing_time_constant_s = surface.unsealing_time_constant_s,
-                         .dt_s = dt_s};
+                         .dt_s = dt_s,
+                         .ambient_Pa = model.parameters.ambient_Pa};
     suction::CupOutput output = suction::step(model, state, surface, cup, input, dt_s);
     const CupPhase phase = state.status.phase;
     if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
         air.pump_running = input.pump_on;
         air.valve_open = input.valve_open;
         air.press_N = -state.status.pull_N;
-        state.mean_pressure_Pa = std::clamp(pressure_->next_Pa(air, memory), 0.0, kAtmosphere_Pa);
+        state.mean_pressure_Pa = std::clamp(pressure_->next_Pa(air, memory), 0.0, air.ambient_Pa);
         state.status.pressure_Pa = state.mean_pressure_Pa;
         state.status.pump_running = air.pump_running;
         state.pump_resting = false;

@@ -14,10 +14,10 @@ namespace {
 std::vector<Vector3> arms_of(const vehicle::Airframe& airframe) {
     std::vector<Vector3> arms;
     for (const vehicle::Rotor& rotor : airframe.rotors) {
-        const double thrust = rotor.thrust_share * airframe.rotor.motor_constant_kg_m;
+        const double thrust = rotor.thrust_share * airframe.rotor.thrust_per_speed_2_kg_m();
         arms.emplace_back(-rotor.p_B_m.y() * thrust, rotor.p_B_m.x() * thrust,
                           rotor.direction * airframe.rotor.moment_constant_m *
-                              airframe.rotor.motor_constant_kg_m);
+                              airframe.rotor.thrust_per_speed_2_kg_m());
     }
     return arms;
 }

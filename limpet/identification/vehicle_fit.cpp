@@ -211,7 +211,7 @@ void fit_drag(const FlightData& data, const vehicle::Airframe& airframe,
             for (std::size_t axis = 0; axis < 2; ++axis) {
                 const auto i = static_cast<Eigen::Index>(axis);
                 inputs[axis][static_cast<Eigen::Index>(k)] =
-                    turning.hub_flow_m[k][i] / airframe.mass_kg;
+                    turning.hub_flow_m[k][i] * airframe.rotor.density_ratio / airframe.mass_kg;
                 outputs[axis][static_cast<Eigen::Index>(k)] =
                     data.specific_force_B_m_s2[k][i] + turned_m_s2[i];
             }

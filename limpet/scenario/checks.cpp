@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/time.hpp"
@@ -63,6 +64,31 @@ void check_environment(const Environment& environment, const YamlNode& root) {
     if (environment.wind.gust_sigma_m_s > 0.0 && environment.wind.gust_wind_m_s > 0.0) {
         fail_at(root, "environment.gust_sigma_m_s",
                 "gusts are given by gust_wind_m_s already, one of the two must be 0");
+    }
+}
+
+void check_ceiling(const Scenario& scenario, const YamlNode& root) {
+    const double ceiling_m = scenario.environment.nearness.ceiling_height_m;
+    const double top_m = scenario.simulation.start_height_m + scenario.airframe.rotor.height_m;
+    if (ceiling_m > 0.0 && top_m >= ceiling_m) {
+        fail_at(
+            root, "environment.ceiling_height_m",
+            fmt::format("{:.6g} is not above the rotors at the start, {:.6g} m", ceiling_m, top_m));
+    }
+}
+
+/// Vacuum begins below the pressure of the air.
+void check_vacuum(const Scenario& scenario, const YamlNode& root) {
+    const double ambient_Pa = scenario.cup.ambient_Pa;
+    for (const auto& [path, pressure_Pa] :
+         {std::pair("suction.attachment_pressure_Pa", scenario.cup.attachment_pressure_Pa),
+          std::pair("guidance.land_pressure_Pa", scenario.guidance.land_pressure_Pa),
+          std::pair("guidance.detach_pressure_Pa", scenario.guidance.detach_pressure_Pa)}) {
+        if (pressure_Pa > ambient_Pa) {
+            fail_at(root, path,
+                    fmt::format("{:.6g} is above the pressure of the air at {:.6g} m, {:.6g} Pa",
+                                pressure_Pa, scenario.environment.air.altitude_m, ambient_Pa));
+        }
     }
 }
 
@@ -164,6 +190,8 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_derived(scenario, sections, root);
     check_mission(scenario, root);
     check_environment(scenario.environment, root);
+    check_vacuum(scenario, root);
+    check_ceiling(scenario, root);
     check_steps(scenario.simulation, root);
     check_mount(scenario, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,

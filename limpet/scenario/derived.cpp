@@ -21,7 +21,7 @@ double drag_1_s(const Scenario& scenario) {
     const double hover_speed_rad_s =
         rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_command(scenario.airframe);
     return static_cast<double>(scenario.airframe.rotors.size()) * rotor.drag_constant_kg *
-           hover_speed_rad_s / scenario.airframe.mass_kg;
+           rotor.density_ratio * hover_speed_rad_s / scenario.airframe.mass_kg;
 }
 
 /// Within what guidance takes: a vehicle without a cup has legs of no meaning.
@@ -31,6 +31,17 @@ double perched_pitch_deg(const Scenario& scenario) {
                       kMost_deg);
 }
 
+/// A pressure with the vacuum, and so the force, that the same number has at sea level.
+double of_same_vacuum_Pa(const Scenario& scenario, double at_sea_level_Pa) {
+    return scenario.cup.ambient_Pa - (kAtmosphere_Pa - at_sea_level_Pa);
+}
+
+/// Of a diaphragm pump: its dead volume makes a ratio of pressures, not a difference.
+double pump_Pa(const Scenario& scenario, double suction::PneumaticParameters::*pressure_Pa) {
+    return suction::PneumaticParameters{}.*pressure_Pa * (scenario.cup.ambient_Pa / kAtmosphere_Pa);
+}
+
+using Pneumatic = suction::PneumaticParameters;
 using S = const Scenario&;
 
 struct DerivedKey {
@@ -41,11 +52,20 @@ struct DerivedKey {
 
 constexpr DerivedKey kDerived[] = {
     {"suction", "radius_m", [](S s) { return s.airframe.cup.radius_m; }},
+    {"suction", "attachment_pressure_Pa",
+     [](S s) { return of_same_vacuum_Pa(s, suction::CupParameters{}.attachment_pressure_Pa); }},
+    {"suction", "pump_ultimate_Pa", [](S s) { return pump_Pa(s, &Pneumatic::pump_ultimate_Pa); }},
+    {"suction", "pump_stop_Pa", [](S s) { return pump_Pa(s, &Pneumatic::pump_stop_Pa); }},
+    {"suction", "pump_restart_Pa", [](S s) { return pump_Pa(s, &Pneumatic::pump_restart_Pa); }},
     {"guidance", "lidar_separation_m", [](S s) { return s.airframe.lidar_separation_m; }},
     {"guidance", "lidar_x_m", [](S s) { return s.airframe.lidar_x_m; }},
     {"guidance", "joint_x_m", [](S s) { return s.airframe.cup.joint_x_m; }},
     {"guidance", "joint_z_m", [](S s) { return s.airframe.cup.joint_z_m; }},
     {"guidance", "perched_pitch_deg", &perched_pitch_deg},
+    {"guidance", "land_pressure_Pa",
+     [](S s) { return of_same_vacuum_Pa(s, guidance::PerchingParameters{}.land_pressure_Pa); }},
+    {"guidance", "detach_pressure_Pa",
+     [](S s) { return of_same_vacuum_Pa(s, guidance::PerchingParameters{}.detach_pressure_Pa); }},
     {"guidance", "hover_thrust", [](S s) { return hover_command(s.airframe); }},
     {"guidance", "zero_thrust", &zero_thrust},
     {"guidance", "drag_1_s", &drag_1_s},
@@ -77,6 +97,23 @@ RotorList<autopilot::RotorGeometry> rotor_geometry(const vehicle::AirframeNumber
                      .moment_constant_m = airframe.rotor.moment_constant_m};
     }
     return rotors;
+}
+
+std::vector<suction::Surface> surfaces_met(const Scenario& scenario) {
+    std::vector<suction::Surface> met(scenario.wall.first_touches.begin(),
+                                      scenario.wall.first_touches.end());
+    met.push_back(scenario.wall.surface);
+    for (suction::Surface& surface : met) {
+        surface = in_condition(surface, *scenario.wall.condition);
+        surface.vacuum_pressure_Pa *= air_at(scenario.environment.air).pressure_ratio;
+    }
+    return met;
+}
+
+void take_air(Scenario& scenario) {
+    const Air air = air_at(scenario.environment.air);
+    scenario.airframe.rotor.density_ratio = air.density_ratio;
+    scenario.cup.ambient_Pa = air.pressure_Pa;
 }
 
 void derive(const Section& section, const Scenario& scenario) {

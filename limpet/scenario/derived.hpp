@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "limpet/autopilot/allocation.hpp"
 #include "limpet/scenario/sections.hpp"
@@ -25,11 +26,24 @@ namespace limpet::scenario {
 ///   guidance.drag_1_s                         4 lambda_1 w_hover / m
 ///   guidance.valve_fitted                     suction.valve_fitted
 ///   suction.radius_m                          the vehicle's cup
+///   suction.attachment_pressure_Pa,           the vacuum of the defaults at sea level, below the
+///   guidance.land_pressure_Pa,                ambient pressure
+///   detach_pressure_Pa
+///   suction.pump_ultimate_Pa, pump_stop_Pa,   the defaults in proportion to the ambient pressure
+///   pump_restart_Pa
 ///   autopilot.mag_field_*_gauss               the magnetometer's strength, dip and declination
 ///
 /// @return nullopt for any other key
 [[nodiscard]] std::optional<double> derived(std::string_view section, std::string_view name,
                                             const Scenario& scenario);
+
+/// Of the first, second, ... touch and all after the last, in the wall's condition and the air
+/// around: `wall.surface` tells its vacuum as it is at sea level, and what a pump keeps is its
+/// ratio of pressures.
+[[nodiscard]] std::vector<suction::Surface> surfaces_met(const Scenario& scenario);
+
+/// What rotors and cup know of the air around, by `environment:`. Before derive().
+void take_air(Scenario& scenario);
 
 /// Sets those of one section.
 /// @param section  bound to `scenario`

@@ -95,6 +95,7 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     for (const char* name : {"pendulum", "press_rig", "environment", "simulation"}) {
         read_section(root.find(name), section(name));
     }
+    take_air(scenario);
     refuse_fault_keys(root.find("sensors"));
     read_section(root.find("sensors"), section("sensors"),
                  {kFormerFaultKeys.begin(), kFormerFaultKeys.end()});

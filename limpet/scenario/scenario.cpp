@@ -64,7 +64,7 @@ const ParameterTable<WallSetup>& wall_table() {
          "of the wall, half on each side of the line of flight", "assumed: wide enough"},
         {"height_m", "m", 0.2, 100.0, &W::height_m,
          "of the wall, half above and half below the start", "assumed: high enough"},
-        {"radius_m", "m", 1.0, 1e4, [](W& w) -> double& { return w.radius_m; },
+        {"radius_m", "m", 0.1, 1e4, [](W& w) -> double& { return w.radius_m; },
          "of a wall whose shape bends; a plane has none", "assumed: a tank of 10 m"},
     };
     return table;

@@ -9,6 +9,7 @@
 
 #include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
+#include "limpet/core/atmosphere.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/random.hpp"
@@ -19,9 +20,11 @@
 #include "limpet/plant/engines.hpp"
 #include "limpet/scenario/surface.hpp"
 #include "limpet/sensors/registry.hpp"
+#include "limpet/suction/condition.hpp"
 #include "limpet/suction/cup.hpp"
 #include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/mount.hpp"
+#include "limpet/vehicle/nearness.hpp"
 #include "limpet/vehicle/swell.hpp"
 #include "limpet/vehicle/wall_aerodynamics.hpp"
 #include "limpet/vehicle/wind.hpp"
@@ -63,7 +66,8 @@ struct WallSetup {
     double lean_deg = 0.0;     ///< > 0: the top leans away from the vehicle
     double width_m = 4.0;
     double height_m = 4.0;
-    double radius_m = 5.0;  ///< of a shape that bends
+    double radius_m = 5.0;                                            ///< of a shape that bends
+    const suction::SurfaceCondition* condition = &suction::kAsGiven;  ///< of all of it
     WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
     Surface surface;
     /// Surface met by the first, second, ... touch; `surface` after those.
@@ -72,10 +76,13 @@ struct WallSetup {
 
 [[nodiscard]] const ParameterTable<WallSetup>& wall_table();
 
-/// The air around the vehicle, and the sea below; still and without a wall's effect by default.
+/// The air around the vehicle, and the sea below; at sea level, still and without a wall's effect
+/// by default.
 struct Environment {
+    AirParameters air;
     vehicle::WindParameters wind;
     vehicle::WallAirParameters wall_air;
+    vehicle::NearnessParameters nearness;
     vehicle::SwellParameters swell;
 };
 

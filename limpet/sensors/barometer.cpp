@@ -2,28 +2,10 @@
 #include "limpet/sensors/barometer.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "limpet/core/atmosphere.hpp"
 
 namespace limpet::sensors {
-namespace {
-
-constexpr double kSeaLevelTemperature_K = 288.15;
-constexpr double kLapseRate_K_m = 0.0065;
-constexpr double kGasConstant_J_kg_K = 287.05287;
-constexpr double kExponent = kGravity_m_s2 / (kGasConstant_J_kg_K * kLapseRate_K_m);
-
-}  // namespace
-
-double standard_pressure_Pa(double altitude_m) {
-    return kAtmosphere_Pa *
-           std::pow(1.0 - kLapseRate_K_m * altitude_m / kSeaLevelTemperature_K, kExponent);
-}
-
-double standard_altitude_m(double pressure_Pa) {
-    return kSeaLevelTemperature_K / kLapseRate_K_m *
-           (1.0 - std::pow(pressure_Pa / kAtmosphere_Pa, 1.0 / kExponent));
-}
-
 // clang-format off
 const ParameterTable<BarometerSensor::Parameters>& BarometerSensor::table() {
     using P = Parameters;
@@ -38,10 +20,12 @@ const ParameterTable<BarometerSensor::Parameters>& BarometerSensor::table() {
 
 std::optional<BarometerReading> BarometerSensor::measure(const Parameters& p, State& state,
                                                          const SensorView& view) {
-    const double pressure_Pa =
-        std::max(0.0, standard_pressure_Pa(-(view.earth.p_EW_W_m + view.truth.base.p_WF_m).z()) +
-                          state.bias + p.baro_noise_Pa * state.random.normal());
-    return Reading{.pressure_Pa = pressure_Pa, .altitude_m = standard_altitude_m(pressure_Pa)};
+    const double pressure_Pa = std::max(
+        0.0,
+        standard_pressure_Pa(view.altitude_m - (view.earth.p_EW_W_m + view.truth.base.p_WF_m).z()) +
+            state.bias + p.baro_noise_Pa * state.random.normal());
+    return Reading{.pressure_Pa = pressure_Pa,
+                   .altitude_m = standard_altitude_m(pressure_Pa) - view.altitude_m};
 }
 
 }  // namespace limpet::sensors

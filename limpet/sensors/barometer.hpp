@@ -5,14 +5,9 @@
 
 namespace limpet::sensors {
 
-/// Standard atmosphere, troposphere; altitude 0 is the origin of W at kAtmosphere_Pa.
-/// @param altitude_m  below 44 km, the model's top
-/// Source: ISO 2533.
-[[nodiscard]] double standard_pressure_Pa(double altitude_m);
-/// Inverse of standard_pressure_Pa. @param pressure_Pa  >= 0
-[[nodiscard]] double standard_altitude_m(double pressure_Pa);
-
-/// Static pressure at B's origin. The rotors' own pressure field is left out.
+/// Static pressure at B's origin, zeroed at W's, in the standard atmosphere (core/atmosphere.hpp):
+/// one that is warmer is read as too low by as many per cent. The rotors' own pressure field is
+/// left out.
 struct BarometerSensor {
     using Reading = BarometerReading;
     struct Parameters {

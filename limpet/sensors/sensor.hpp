@@ -66,6 +66,7 @@ struct SensorView {
     const SensorMounts& mounts;
     const plant::Plant* plant = nullptr;  ///< for rays
     std::size_t unit = 0;                 ///< which one looks
+    double altitude_m = 0.0;              ///< of W's origin above sea level
     EarthMotion earth = {};
 };
 

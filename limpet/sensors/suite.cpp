@@ -37,8 +37,12 @@ LIMPET_FOR_MACHINES void sense(const SensorsModel& model, SensorsState& state, c
         if (Sensor::kOnCup && !model.has_cup) {
             return;
         }
-        const SensorView view{
-            .truth = truth, .mounts = model.mounts, .plant = &plant, .unit = k, .earth = earth};
+        const SensorView view{.truth = truth,
+                              .mounts = model.mounts,
+                              .plant = &plant,
+                              .unit = k,
+                              .altitude_m = model.altitude_m,
+                              .earth = earth};
         if constexpr (kIsRead<Sensor>) {
             sense(model.parameters, unit, view, tick, state.readings.*Sensor::kReadings[k]);
         } else {

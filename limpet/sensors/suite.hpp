@@ -14,6 +14,7 @@ struct SensorsModel {
     SensorParameters parameters;
     bool has_cup = true;  ///< LiDARs, force and pressure belong to the perching mechanism
     SensorMounts mounts = {};
+    double altitude_m = 0.0;  ///< of W's origin above sea level
 };
 
 /// All units of a registry's sensors.

@@ -73,15 +73,26 @@ struct AirLoad {
     double thrust_N = 0.0;
 };
 
+/// The rotors beside ground or ceiling, seldom.
+[[gnu::noinline]] Wrench near_wrench_B(const FlightModel& model,
+                                       const RotorList<double>& speeds_rad_s,
+                                       const Kinematics& base, const Vector3& wind_W_m_s) {
+    return vehicle::rotor_wrench_B(
+        lifting_by(model.airframe, thrust_gains(model.nearness, model.airframe, base)),
+        speeds_rad_s, base, wind_W_m_s);
+}
+
 AirLoad load_of_air(const FlightModel& model, const FlightState& state,
                     const RotorList<double>& speeds_rad_s, const vehicle::SwellMotion& swell) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
-    const Wrench rotors_B = vehicle::rotor_wrench_B(
-        airframe, speeds_rad_s, base,
-        vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s - swell.v_EW_W_m_s);
+    const Vector3 wind_W_m_s =
+        vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s - swell.v_EW_W_m_s;
+    const Wrench rotors_B = model.nearness.acts()
+                                ? near_wrench_B(model, speeds_rad_s, base, wind_W_m_s)
+                                : vehicle::rotor_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};

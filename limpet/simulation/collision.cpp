@@ -44,6 +44,13 @@ std::optional<guidance::Ending> collision(const FlightModel& model, const Truth&
     if (on_ground) {
         return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ground"};
     }
+    if (model.nearness.has_ceiling()) {
+        for (const vehicle::Rotor& rotor : airframe.rotors) {
+            if ((p_WB_m + truth.base.q_WF * rotor.p_B_m).z() < model.nearness.ceiling_z_W_m) {
+                return guidance::Ending{.outcome = Outcome::crashed, .reason = "hit the ceiling"};
+            }
+        }
+    }
     if (!model.has_wall) {
         return std::nullopt;
     }

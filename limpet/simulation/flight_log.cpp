@@ -42,7 +42,8 @@ record::Scene scene_of_recording(const FlightModel& model) {
                         .rotor_p_B_m = model.autopilot.vehicle.rotor_p_B_m,
                         .thrust_N_s2 = RotorList<double>(airframe.rotors.size())};
     for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
-        scene.thrust_N_s2[i] = airframe.rotors[i].thrust_share * airframe.rotor.motor_constant_kg_m;
+        scene.thrust_N_s2[i] =
+            airframe.rotors[i].thrust_share * airframe.rotor.thrust_per_speed_2_kg_m();
     }
     if (scenario.wall.present) {
         const models::FinishLook& finish =

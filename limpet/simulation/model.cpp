@@ -17,7 +17,8 @@ sensors::SensorsModel sensors_of(const scenario::Scenario& scenario) {
     return {.parameters = scenario.sensors,
             .has_cup = airframe.has_cup,
             .mounts = {.lidar_p_B_m = {Vector3{airframe.lidar_x_m, -half_m, airframe.lidar_z_m},
-                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}}};
+                                       Vector3{airframe.lidar_x_m, half_m, airframe.lidar_z_m}}},
+            .altitude_m = scenario.environment.air.altitude_m};
 }
 
 int whole(double value) {
@@ -32,7 +33,8 @@ Vector3 trim_W_m_s2(const FlightModel& model) {
     Kinematics level;
     level.q_WF = quaternion_from_euler({.yaw_rad = model.start.yaw_rad});
     const vehicle::RotorsState rotors = spinning(model.airframe.rotor, model.airframe.rotors.size(),
-                                                 vehicle::hover_command(model.airframe));
+                                                 vehicle::hover_command(model.airframe),
+                                                 vehicle::hover_drive_share(model.airframe));
     const Vector3 force_B_N =
         vehicle::rotor_wrench_B(model.airframe, rotors.speed_rad_s, level, model.wind.mean_W_m_s)
             .force_N;
@@ -85,8 +87,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->guidance = scenario.guidance;
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
     model->has_wall = scenario.wall.present;
-    model->surfaces.assign(scenario.wall.first_touches.begin(), scenario.wall.first_touches.end());
-    model->surfaces.push_back(scenario.wall.surface);
+    model->surfaces = surfaces_met(scenario);
     model->ahead_W = heading_W(scenario.wall);
     model->start = scenario.start;
     model->seed = scenario.seed;
@@ -94,6 +95,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->mount = scenario.mount;
     model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
+    model->nearness = make_nearness(scenario.environment.nearness, scenario.start.ground_z_W_m);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->swell = make_swell(scenario.environment.swell, model->ahead_W, scenario.airframe);
     model->faults = {.faults = scenario.faults, .ahead_W = model->ahead_W};
@@ -135,7 +137,8 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.command.command.resize(rotors);
     if (model.mount == vehicle::Mount::free) {
         const double hover = vehicle::hover_command(airframe);
-        state.rotors = spinning(airframe.rotor, rotors, hover);
+        state.rotors =
+            spinning(airframe.rotor, rotors, hover, vehicle::hover_drive_share(airframe));
         state.command = {.command = RotorList<double>(rotors, hover), .armed = true};
     }
     state.battery = charged(airframe.battery);
@@ -157,6 +160,8 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     state.sensors = sensors::start(model.sensors, state.truth, model.seed, run, model.noise);
     state.wind = vehicle::start(model.wind, model.random(run, Stream::wind));
     state.wall_air = vehicle::start(model.wall_air, model.random(run, Stream::wall_air));
+    state.cup.mean_pressure_Pa = model.cup.parameters.ambient_Pa;
+    state.cup.status.pressure_Pa = model.cup.parameters.ambient_Pa;
     state.cup.random = model.random(run, Stream::seal);
     return state;
 }

@@ -32,6 +32,7 @@ struct FlightModel {
         surfaces;  ///< of the first, second, ... touch and all after the last
     vehicle::WindModel wind;
     vehicle::WallAirModel wall_air;
+    vehicle::NearnessModel nearness;
     vehicle::SwellModel swell;
     faults::FaultsModel faults;
     scenario::Start start;

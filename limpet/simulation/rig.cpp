@@ -49,7 +49,7 @@ void watch_touch(const FlightModel& model, FlightState& state) {
     rig.sealed = rig.sealed || phase == CupPhase::sealing || phase == CupPhase::attached;
 }
 
-std::string_view why_not(const RigState& rig) {
+std::string_view why_not(const FlightModel& model, const RigState& rig) {
     if (rig.attached) {
         return "came off after it had attached";
     }
@@ -58,6 +58,9 @@ std::string_view why_not(const RigState& rig) {
     }
     if (!rig.pressed) {
         return "not enough force: pressed less than the spot asks for";
+    }
+    if (!follows(model.cup.parameters.lip, model.cup.wall)) {
+        return "the wall is rounder than the lip follows";
     }
     return rig.straight ? "the lip slid or rocked while it was pressed"
                         : "tilted too far while it was pressed";
@@ -87,7 +90,7 @@ void operate_pendulum(const FlightModel& model, FlightState& state, double time_
         end(state, Outcome::perched, "the cup attached and held", time_s);
     } else if (rig.off_since_s >= 0.0 && time_s - rig.off_since_s >= model.pendulum_hold_s) {
         report(state, EventName::hold_over, "off the wall", time_s, events);
-        end(state, Outcome::failed_to_seal, why_not(rig), time_s);
+        end(state, Outcome::failed_to_seal, why_not(model, rig), time_s);
     }
 }
 
@@ -105,7 +108,7 @@ void operate_press_rig(const FlightModel& model, FlightState& state, double time
     } else if (state.guidance.state == guidance::PerchingState::holding && age_s >= press.seal_s) {
         report(state, EventName::hold_over, "sealed for long enough", time_s, events);
         if (cup.phase != CupPhase::attached) {
-            end(state, Outcome::failed_to_seal, why_not(state.rig), time_s);
+            end(state, Outcome::failed_to_seal, why_not(model, state.rig), time_s);
         } else if (press.leak_s <= 0.0) {
             end(state, Outcome::perched, "the cup attached, no leak was asked for", time_s);
         } else {

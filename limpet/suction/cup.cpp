@@ -14,7 +14,9 @@ LipLoad load_on(const CupModel& model, CupState& state, const Surface& surface,
                 const LipMotion& motion, const CupInput& input) {
     const LipParameters& lip = model.parameters.lip;
     const bool sealed = is_sealed(state.status.phase);
-    const double vacuum_N = sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m) : 0.0;
+    const double vacuum_N =
+        sealed ? vacuum_force_N(state.mean_pressure_Pa, lip.radius_m, model.parameters.ambient_Pa)
+               : 0.0;
     if (sealed && input.held_T) {
         return held_load(lip, *input.held_T, surface.friction, vacuum_N);
     }
@@ -39,6 +41,8 @@ std::optional<Event> advance_phase(const CupParameters& parameters, CupState& st
                 seals(state.demand, contact.press_N, contact.tilt_rad)) {
                 status.phase = CupPhase::sealing;
                 state.let_go_said = false;
+                state.leak_growth = 0.0;
+                state.worn_at_N = contact.pull_N;
             }
             break;
         case CupPhase::sealing:
@@ -85,32 +89,47 @@ std::optional<Event> advance_contact(const CupParameters& parameters, CupState& 
                                        : let_go(state, contact, input.time_s);
 }
 
+/// A seal that creeps or that its load works loose leaks more with time.
+void wear_seal(const CupParameters& parameters, CupState& state, double dt_s) {
+    const double pull_N = state.status.pull_N;
+    state.leak_growth += parameters.seal_creep_1_s * dt_s +
+                         parameters.seal_wear_1_N * std::abs(pull_N - state.worn_at_N);
+    state.worn_at_N = pull_N;
+}
+
 void advance_pressure(const CupParameters& parameters, CupState& state, const Surface& surface,
                       const CupInput& input, double dt_s) {
     const PressureModel& model = model_of(parameters);
     CupStatus& status = state.status;
+    const bool sealed = is_sealed(status.phase);
+    if (sealed && (parameters.seal_creep_1_s > 0.0 || parameters.seal_wear_1_N > 0.0)) {
+        wear_seal(parameters, state, dt_s);
+    }
     SealedAir air{.surface = surface,
                   .radius_m = parameters.lip.radius_m,
                   .press_N = -status.pull_N,
                   .pressure_Pa = state.mean_pressure_Pa,
                   .pump_resting = state.pump_resting,
                   .valve_open = input.valve_open,
-                  .hole_mm2 = input.hole_mm2};
+                  .hole_mm2 = input.hole_mm2,
+                  .ambient_Pa = parameters.ambient_Pa,
+                  .leak_growth = state.leak_growth};
     state.pump_resting =
         status.phase == CupPhase::attached && model.pump_rests(parameters.pressure, air);
     status.pump_running = air.pump_running =
         input.pump_on && input.pump_draws && !state.pump_resting;
     status.valve_open = input.valve_open;
-    const bool sealed = is_sealed(status.phase);
-    state.mean_pressure_Pa = sealed ? model.next_Pa(parameters.pressure, air, dt_s)
-                                    : pressure_after(surface, parameters.pressure, Airflow::open,
-                                                     state.mean_pressure_Pa, dt_s);
-    status.pressure_Pa = state.mean_pressure_Pa +
-                         (status.pump_running && sealed
-                              ? surface.pump_ripple_Pa * (kAtmosphere_Pa - state.mean_pressure_Pa) /
-                                    (kAtmosphere_Pa - surface.vacuum_pressure_Pa) *
-                                    std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
-                              : 0.0);
+    state.mean_pressure_Pa =
+        sealed ? model.next_Pa(parameters.pressure, air, dt_s)
+               : pressure_after(surface, parameters.pressure, Airflow::open, state.mean_pressure_Pa,
+                                dt_s, 0.0, parameters.ambient_Pa);
+    status.pressure_Pa =
+        state.mean_pressure_Pa +
+        (status.pump_running && sealed
+             ? surface.pump_ripple_Pa * (parameters.ambient_Pa - state.mean_pressure_Pa) /
+                   (parameters.ambient_Pa - surface.vacuum_pressure_Pa) *
+                   std::sin(2.0 * kPi * surface.pump_ripple_Hz * input.time_s)
+             : 0.0);
 }
 
 }  // namespace
@@ -122,6 +141,12 @@ const ParameterTable<CupParameters>& cup_table() {
          "the cup counts as attached below it (Fig. 6)", "assumed: equal to P_land, paper IV"},
         {"valve_fitted", "switch", 0.0, 1.0, &C::valve_fitted, "a solenoid valve breaks the vacuum",
          "paper, section V.B (proposed)"},
+        {"seal_creep_1_s", "1/s", 0.0, 10.0, &C::seal_creep_1_s,
+         "a seal's leak grows by this share of its fresh one in each second that it lasts",
+         "assumed: 0, nobody has measured it with this cup; leaks and lifetimes: arXiv 1905.09042"},
+        {"seal_wear_1_N", "1/N", 0.0, 10.0, &C::seal_wear_1_N,
+         "and by this share for each newton by which the pull on it rises or falls (vibration)",
+         "assumed: 0, nobody has measured it with this cup"},
     };
     return table;
 }
@@ -176,7 +201,9 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
     lip.contact = {.touches = touches,
                    .gap_m = motion.gap_m,
                    .tilt_rad = motion.tilt_rad(),
-                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0,
+                   .lies_still = load.shear_margin_N >= 0.0 && load.peel_margin_N >= 0.0 &&
+                                 (motion.bulge_1_m <= 0.0 ||
+                                  motion.bulge_1_m * least_radius_m(model.parameters.lip) <= 1.0),
                    .let_go = load.let_go,
                    .press_N = input.bearer != nullptr ? load.press_N : input.press_N,
                    .pull_N = load.pull_N,

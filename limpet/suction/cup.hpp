@@ -37,7 +37,10 @@ struct CupParameters {
     PressureParameters pressure;
     double attachment_pressure_Pa = 88000.0;  ///< below it the cup counts as attached
     bool valve_fitted = false;                ///< a solenoid valve breaks the vacuum
+    double seal_creep_1_s = 0.0;              ///< growth of a seal's leak by time
+    double seal_wear_1_N = 0.0;               ///< and by what the pull on it rises and falls
     int pressure_model = 0;                   ///< place in pressure_models()
+    double ambient_Pa = kAtmosphere_Pa;       ///< of the air around; the environment's, no row
 };
 
 [[nodiscard]] inline const PressureModel& model_of(const CupParameters& cup) {
@@ -60,6 +63,8 @@ struct CupState {
     Anchor anchor;
     SealDemand demand;
     bool pump_resting = false;  ///< a cycling pump between two refills
+    double leak_growth = 0.0;   ///< of this seal, over its fresh leak
+    double worn_at_N = 0.0;     ///< pull of the step before
     int touches = 0;
     bool let_go_said = false;  ///< of this touch: lifting off is no more news
     RandomStream random;
@@ -97,7 +102,8 @@ struct LipContact {
     bool touches = false;  ///< on the wall, mouth first
     double gap_m = 0.0;
     double tilt_rad = 0.0;
-    bool lies_still = true;  ///< neither slides nor rocks: a seal needs the whole lip on the wall
+    /// Neither slides nor rocks, nor is the wall too round: a seal needs the whole lip on the wall.
+    bool lies_still = true;
     LetGo let_go = LetGo::no;
     double press_N = 0.0;  ///< as CupInput::press_N
     double pull_N = 0.0;

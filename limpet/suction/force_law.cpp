@@ -204,8 +204,23 @@ const ParameterTable<LipParameters>& lip_table() {
         {"twist_damping_N_m_s_rad", "N m s/rad", 0.0, 1e3, &L::twist_damping_N_m_s_rad,
          "of the lip about the cup's axis",
          "assumed: a loss factor of rubber of 0.2 at the 3 Hz at which the vehicle rolls on it"},
+        {"least_radius_m", "m", 0.0, 1e3, &L::least_radius_m,
+         "least radius of a round wall that the lip seals on, as makers tell it for each cup; 0: "
+         "where radius_m^2 / 2R is hard_depth_m",
+         "assumed: by geometry; Schmalz: \"minimum radius of curvature of the workpiece\""},
     };
     return table;
+}
+
+double least_radius_m(const LipParameters& lip) {
+    return lip.least_radius_m > 0.0 ? lip.least_radius_m
+                                    : 0.5 * lip.radius_m * lip.radius_m / lip.hard_depth_m;
+}
+
+bool follows(const LipParameters& lip, const WallGeometry& wall) {
+    const TangentFrame spot = tangent_frame(wall, wall.p_WT_m);
+    const double bulge_1_m = std::max(spot.curvature_y_1_m, spot.curvature_z_1_m);
+    return bulge_1_m <= 0.0 || bulge_1_m * least_radius_m(lip) <= 1.0;
 }
 
 std::string_view to_string(LetGo reason) {
@@ -238,12 +253,13 @@ LipMotion lip_motion(const WallGeometry& wall, const Kinematics& cup) {
     // T itself turns as its spot wanders over the bulge.
     motion.rate_rad_s.y() -= spot.curvature_z_1_m * motion.z_rate_m_s;
     motion.rate_rad_s.z() += spot.curvature_y_1_m * motion.y_rate_m_s;
+    motion.bulge_1_m = std::max(spot.curvature_y_1_m, spot.curvature_z_1_m);
     motion.faces_wall = R_TC(0, 0) > 0.5 && spot.on_wall;
     return motion;
 }
 
-double vacuum_force_N(double pressure_Pa, double radius_m) {
-    return std::max(0.0, kAtmosphere_Pa - pressure_Pa) * kPi * radius_m * radius_m;
+double vacuum_force_N(double pressure_Pa, double radius_m, double ambient_Pa) {
+    return std::max(0.0, ambient_Pa - pressure_Pa) * kPi * radius_m * radius_m;
 }
 
 LipLoad lip_load(const LipParameters& lip, const LipMotion& motion, Anchor& anchor, double friction,

@@ -41,7 +41,14 @@ struct LipParameters {
     double tilt_damping_N_m_s_rad = 0.02;
     double twist_stiffness_N_m_rad = 20.0;
     double twist_damping_N_m_s_rad = 0.2;
+    double least_radius_m = 0.0;  ///< of a round wall that it seals on; 0: by least_radius_m()
 };
+
+/// Least radius of a round wall that the lip follows all around: over a lip of radius r a wall of
+/// radius R falls away by r^2 / 2R, which must be within the lip's soft depth.
+[[nodiscard]] double least_radius_m(const LipParameters& lip);
+/// Whether a lip follows the wall where its origin is.
+[[nodiscard]] bool follows(const LipParameters& lip, const WallGeometry& wall);
 
 [[nodiscard]] const ParameterTable<LipParameters>& lip_table();
 
@@ -53,6 +60,7 @@ struct LipMotion {
     Matrix3 R_TC = Matrix3::Identity();
     double gap_m = 0.0;  ///< lip's centre to the wall, < 0 compressed
     double gap_rate_m_s = 0.0;
+    double bulge_1_m = 0.0;       ///< the spot's larger curvature, > 0 towards the lip
     double y_m = 0.0, z_m = 0.0;  ///< lip's centre along the wall
     double y_rate_m_s = 0.0, z_rate_m_s = 0.0;
     Vector3 rotation_rad = Vector3::Zero();  ///< of C against T: x twist, y and z tilt
@@ -108,6 +116,7 @@ struct LipLoad {
                                 double vacuum_N);
 
 /// Force with which vacuum holds a cup of this radius: (P_atm - P) pi R^2 [N].
-[[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m);
+[[nodiscard]] double vacuum_force_N(double pressure_Pa, double radius_m,
+                                    double ambient_Pa = kAtmosphere_Pa);
 
 }  // namespace limpet::suction

@@ -74,7 +74,7 @@ struct Inflow {
     double slope_m3_s;
 };
 Inflow inflow(const CupAir& cup, double pressure_Pa) {
-    const double vacuum_Pa = kAtmosphere_Pa - pressure_Pa;
+    const double vacuum_Pa = cup.ambient_Pa - pressure_Pa;
     const double clamping_N = std::max(0.0, vacuum_Pa * cup.area_m2 + cup.press_N);
     const double leak_m3_s = clamped_leak_m3_s(cup.leak_100_m3_s, cup.leak_exponent, clamping_N);
     const double loosening = clamping_N > 0.0 ? cup.leak_exponent * cup.area_m2 * vacuum_Pa /
@@ -84,9 +84,9 @@ Inflow inflow(const CupAir& cup, double pressure_Pa) {
               leak_m3_s * (loosening - 1.0) - cup.off_wall_m3_s};
     if (cup.hole_m2 > 0.0) {
         constexpr double kStep_Pa = 1.0;
-        const double here = orifice_flow_Pa_m3_s(cup.hole_m2, kAtmosphere_Pa, pressure_Pa);
+        const double here = orifice_flow_Pa_m3_s(cup.hole_m2, cup.ambient_Pa, pressure_Pa);
         const double there =
-            orifice_flow_Pa_m3_s(cup.hole_m2, kAtmosphere_Pa, pressure_Pa + kStep_Pa);
+            orifice_flow_Pa_m3_s(cup.hole_m2, cup.ambient_Pa, pressure_Pa + kStep_Pa);
         in.flow_Pa_m3_s += here;
         in.slope_m3_s += (there - here) / kStep_Pa;
     }
@@ -160,7 +160,7 @@ void advance_piece(const Pump& pump, std::span<const CupAir> cups, std::span<dou
     // Between the pump's and the atmosphere's all pressures stay, however wide a hole is.
     const auto [least, most] = std::minmax_element(pressures_Pa.begin(), pressures_Pa.end());
     const double floor_Pa = std::min(*least, pump.ultimate_Pa);
-    const double ceiling_Pa = std::max(*most, kAtmosphere_Pa);
+    const double ceiling_Pa = std::max(*most, cups.front().ambient_Pa);
     for (std::size_t k = 0; k < law.count; ++k) {
         pressures_Pa[k] = std::clamp(pressures_Pa[k] + dt_s * step[k], floor_Pa, ceiling_Pa);
     }
@@ -293,6 +293,8 @@ bool Pneumatic::pump_rests(const Parameters& parameters, const SealedAir& air) {
 double Pneumatic::next_Pa(const Parameters& parameters, const SealedAir& air, double dt_s) {
     CupAir cup = sealed_cup(parameters, air.surface, air.radius_m, air.press_N, air.valve_open);
     cup.hole_m2 += 1e-6 * air.hole_mm2;
+    cup.ambient_Pa = air.ambient_Pa;
+    cup.leak_100_m3_s *= 1.0 + air.leak_growth;
     return pressure_after(pump_of(parameters, air.pump_running), cup, air.pressure_Pa, dt_s);
 }
 

@@ -72,6 +72,7 @@ struct CupAir {
     double press_N = 0.0;        ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
     double hole_m2 = 0.0;        ///< to the atmosphere: unsealed part of the lip, open valve
     double off_wall_m3_s = 0.0;  ///< conductance of the open mouth of a cup off the wall
+    double ambient_Pa = kAtmosphere_Pa;  ///< of the air around, of all cups on a pump the same
 };
 
 /// A cup that seals on a surface.

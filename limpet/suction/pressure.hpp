@@ -31,11 +31,12 @@ struct FirstOrderParameters {
 /// @param dt_s         >= 0 [s]
 /// @param hole_mm2     lets air in beside the flow, at the rate of the valve's 2 mm orifice by its
 /// area
+/// @param ambient_Pa  of the air around
 /// @return absolute pressure after dt_s [Pa]
 /// Source: paper eqs. (5), (6) and Table II; the valve adds its rate to that of the leak.
 [[nodiscard]] double pressure_after(const Surface& surface, const FirstOrderParameters& cup,
                                     Airflow flow, double pressure_Pa, double dt_s,
-                                    double hole_mm2 = 0.0);
+                                    double hole_mm2 = 0.0, double ambient_Pa = kAtmosphere_Pa);
 
 /// The paper's model: eqs. (5), (6).
 struct FirstOrder {

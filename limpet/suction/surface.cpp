@@ -7,7 +7,8 @@ const ParameterTable<Surface>& surface_table() {
     using S = Surface;
     static const ParameterTable<S> table = {
         {"vacuum_pressure_Pa", "Pa", 1000.0, 101324.0, &S::vacuum_pressure_Pa,
-         "steady pressure inside the sealed cup, pump running (P_vac)", "paper, Table II"},
+         "steady pressure inside the sealed cup, pump running (P_vac), at sea level",
+         "paper, Table II"},
         {"sealing_time_constant_s", "s", 1e-3, 1e3, &S::sealing_time_constant_s,
          "pressure falls with it while the pump runs (tau_1)", "paper, Table II"},
         {"sealing_time_tolerance_s", "s", 0.0, 1e3, &S::sealing_time_tolerance_s,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
 
 namespace limpet::suction {
@@ -38,7 +39,9 @@ struct SealedAir {
     bool pump_resting = false;  ///< so far
     bool pump_running = false;
     bool valve_open = false;
-    double hole_mm2 = 0.0;  ///< to the atmosphere, beyond the lip's own leak
+    double hole_mm2 = 0.0;               ///< to the atmosphere, beyond the lip's own leak
+    double ambient_Pa = kAtmosphere_Pa;  ///< of the air around
+    double leak_growth = 0.0;  ///< what the seal leaks more than when it was fresh, over that
 };
 
 }  // namespace limpet::suction

@@ -26,6 +26,14 @@ struct RotorParameters {
     double radius_m = 0.1524;            ///< of the propeller, 12 in
     double height_m = 0.04;              ///< of the propeller planes above the centre of mass
     double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
+    bool speed_follows_voltage = false;  ///< at any command, not the highest speed alone
+    /// Of the air around to that of the constants above, all of which go with it; the
+    /// environment's, no row.
+    double density_ratio = 1.0;
+
+    [[nodiscard]] double thrust_per_speed_2_kg_m() const {
+        return motor_constant_kg_m * density_ratio;
+    }
 
     friend bool operator==(const RotorParameters&, const RotorParameters&) = default;
 };

@@ -32,6 +32,11 @@ const ParameterTable<RotorParameters>& rotor_table() {
          "assumed: baseline.md"},
         {"axial_loss_speed_m_s", "m/s", 1.0, 1000.0, &P::axial_loss_speed_m_s,
          "axial wind at which the thrust is gone", "Gazebo motor model"},
+        {"speed_follows_voltage", "switch", 0.0, 1.0, &P::speed_follows_voltage,
+         "a speed controller without feedback: every command's speed goes with the battery's "
+         "voltage "
+         "under load, as told at 3.7 V a cell; off: the highest speed alone, below that voltage",
+         "brushless motor: speed = KV x duty x voltage; Gazebo motor model: none"},
     };
     return table;
 }

@@ -74,4 +74,10 @@ double voltage_share(const BatteryParameters& battery, double voltage_V) {
     return std::min(1.0, voltage_V / (battery.cells * kRatedCellVoltage_V));
 }
 
+double drive_share(const AirframeNumbers& airframe, double voltage_V) {
+    return airframe.rotor.speed_follows_voltage
+               ? voltage_V / (airframe.battery.cells * kRatedCellVoltage_V)
+               : voltage_share(airframe.battery, voltage_V);
+}
+
 }  // namespace limpet::vehicle

@@ -50,4 +50,8 @@ void drain(const BatteryParameters& battery, BatteryState& state, double at_most
 /// Source: assumed; facts.md section 1 gives 768-830 rad/s at 22.2 V.
 [[nodiscard]] double voltage_share(const BatteryParameters& battery, double voltage_V);
 
+/// What the motors make of the battery's voltage: voltage_share(), or with speed_follows_voltage
+/// the voltage over the rated one, which a full pack is above.
+[[nodiscard]] double drive_share(const AirframeNumbers& airframe, double voltage_V);
+
 }  // namespace limpet::vehicle

@@ -8,6 +8,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/lanes.hpp"
 #include "limpet/core/machines.hpp"
+#include "limpet/vehicle/battery.hpp"
 
 namespace limpet::vehicle {
 namespace {
@@ -61,19 +62,39 @@ RotorsState standing(std::size_t count) {
     return state;
 }
 
-RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command) {
-    const double asked_rad_s = steady_speed_rad_s(rotor, command);
+RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command,
+                     double drive_share) {
+    const double asked_rad_s = steady_speed_rad_s(rotor, command) * drive_share;
     RotorsState state;
     for (auto& asked : state.asked_rad_s) {
         std::fill_n(asked.begin(), count, asked_rad_s);
     }
-    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s));
+    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s * drive_share));
     return state;
 }
 
-double hover_command(const AirframeNumbers& airframe) {
+namespace {
+
+double hover_speed_rad_s(const AirframeNumbers& airframe) {
     const double thrust_N = airframe.mass_kg * kGravity_m_s2 / lifting_rotors(airframe);
-    const double speed_rad_s = std::sqrt(thrust_N / airframe.rotor.motor_constant_kg_m);
+    return std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
+}
+
+}  // namespace
+
+double hover_drive_share(const AirframeNumbers& airframe) {
+    if (!airframe.rotor.speed_follows_voltage) {
+        return 1.0;
+    }
+    RotorsState rotors;
+    rotors.speed_rad_s.resize(airframe.rotors.size(), hover_speed_rad_s(airframe));
+    BatteryState battery = charged(airframe.battery);
+    step(airframe.battery, battery, mechanical_power_W(airframe.rotor, rotors), false, true, 0.0);
+    return drive_share(airframe, battery.voltage_V);
+}
+
+double hover_command(const AirframeNumbers& airframe) {
+    const double speed_rad_s = hover_speed_rad_s(airframe) / hover_drive_share(airframe);
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 
@@ -86,17 +107,20 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
 }
 
 LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-                              const RotorCommand& command, double voltage_share,
+                              const RotorCommand& command, double drive_share,
                               const RotorList<double>* speed_share, int steps) {
     const std::size_t count = state.speed_rad_s.size();
     std::array<double, kMaxRotors> newest_rad_s{};
     for_each(count, [&](std::size_t i) {
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
+    if (rotor.speed_follows_voltage) {
+        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= drive_share; });
+    }
     if (speed_share != nullptr) {
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
-    const double limit_rad_s = rotor.speed_max_rad_s * voltage_share;
+    const double limit_rad_s = rotor.speed_max_rad_s * drive_share;
     std::size_t oldest = 0;
     for (int k = 0; k < steps; ++k) {
         if (k == 0 || lag.delay > 0) {
@@ -114,10 +138,13 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
     }
 }
 
-LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers& airframe,
-                                                           const RotorList<double>& speeds_rad_s,
-                                                           const Kinematics& base,
-                                                           const Vector3& wind_W_m_s) {
+namespace {
+
+/// In air of the density for which the constants are told.
+LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench standard_wrench_B(const AirframeNumbers& airframe,
+                                                              const RotorList<double>& speeds_rad_s,
+                                                              const Kinematics& base,
+                                                              const Vector3& wind_W_m_s) {
     const RotorParameters& rotor = airframe.rotor;
     const Vector3 v_air_B_m_s = base.q_WF.conjugate() * (base.v_WF_W_m_s - wind_W_m_s);
     double sum_fx_N = 0.0, sum_fy_N = 0.0, sum_fz_N = 0.0;
@@ -166,13 +193,25 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] Wrench rotor_wrench_B(const AirframeNumbers
             .moment_N_m = {sum_mx_N_m, sum_my_N_m, sum_mz_N_m}};
 }
 
+}  // namespace
+
+Wrench rotor_wrench_B(const AirframeNumbers& airframe, const RotorList<double>& speeds_rad_s,
+                      const Kinematics& base, const Vector3& wind_W_m_s) {
+    Wrench wrench = standard_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
+    if (const double density = airframe.rotor.density_ratio; density != 1.0) {
+        wrench.force_N *= density;  // thrust, torque and drag all go with it
+        wrench.moment_N_m *= density;
+    }
+    return wrench;
+}
+
 double mechanical_power_W(const RotorParameters& rotor, const RotorsState& state) {
     double cubes = 0.0;
     for_each(state.speed_rad_s.size(), [&](std::size_t i) {
         const double speed_rad_s = state.speed_rad_s[i];
         cubes += std::abs(speed_rad_s) * speed_rad_s * speed_rad_s;
     });
-    return rotor.moment_constant_m * rotor.motor_constant_kg_m * cubes;
+    return rotor.moment_constant_m * rotor.thrust_per_speed_2_kg_m() * cubes;
 }
 
 }  // namespace limpet::vehicle

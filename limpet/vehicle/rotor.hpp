@@ -67,10 +67,16 @@ struct RotorsState {
 /// So many rotors that stand still.
 [[nodiscard]] RotorsState standing(std::size_t count);
 /// So many at the steady speed of a command, as if it had been given for long.
-/// @param command  0..1
-[[nodiscard]] RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command);
+/// @param command      0..1
+/// @param drive_share  of the battery, where speeds follow its voltage
+[[nodiscard]] RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command,
+                                   double drive_share = 1.0);
 
-/// @return the command, alike on all rotors, whose thrust equals the weight in still air
+/// What the motors make of the battery's voltage in a hover at the start of its charge; 1 where
+/// speeds do not follow the voltage.
+[[nodiscard]] double hover_drive_share(const AirframeNumbers& airframe);
+/// @return the command, alike on all rotors, whose thrust equals the weight in still air, at the
+///         voltage of hover_drive_share()
 [[nodiscard]] double hover_command(const AirframeNumbers& airframe);
 
 /// How far rotors follow within a step: the exact solution of their lag.
@@ -87,11 +93,12 @@ struct RotorLag {
 /// @param lag            the same at every call
 /// @param command        beyond 0..1 it is cut; of as many rotors as the state has, what is not
 ///                       there is 0; disarmed rotors run down
-/// @param voltage_share  of the battery (battery.hpp), scales the highest speed
+/// @param drive_share    of the battery (battery.hpp), scales the highest speed, and with
+///                       speed_follows_voltage all
 /// @param speed_share    of each rotor that does not turn as it should; null: all do
 /// @param steps          >= 1, of the same command
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double voltage_share = 1.0,
+          const RotorCommand& command, double drive_share = 1.0,
           const RotorList<double>* speed_share = nullptr, int steps = 1);
 
 /// Sum over the rotors.

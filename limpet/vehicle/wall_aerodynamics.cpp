@@ -124,8 +124,8 @@ Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
     if (parameters.wall_aerodynamics) {
         const WallCoefficients c = wall_coefficients(radii);
         const double diameter_m = 2.0 * airframe.rotor.radius_m;
-        const double unit_N =
-            level * kAirDensity_kg_m3 * mean_square_rev_s(rotors) * std::pow(diameter_m, 4);
+        const double unit_N = level * kAirDensity_kg_m3 * airframe.rotor.density_ratio *
+                              mean_square_rev_s(rotors) * std::pow(diameter_m, 4);
         wrench.force_N = parameters.wall_force_scale * c.force * unit_N * x_T_W;
         // Turning from the axis that points down towards the wall's normal lifts the wall's side.
         wrench.moment_N_m = -parameters.wall_moment_scale * c.moment * unit_N * diameter_m *

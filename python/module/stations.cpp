@@ -178,7 +178,8 @@ void add_stations(py::module_& module) {
         .def_readonly("sealing_time_constant_s", &CupPressureInput::sealing_time_constant_s, "[s]")
         .def_readonly("unsealing_time_constant_s", &CupPressureInput::unsealing_time_constant_s,
                       "[s]")
-        .def_readonly("dt_s", &CupPressureInput::dt_s, "length of the step [s]");
+        .def_readonly("dt_s", &CupPressureInput::dt_s, "length of the step [s]")
+        .def_readonly("ambient_Pa", &CupPressureInput::ambient_Pa, "of the air around [Pa]");
 }
 
 }  // namespace limpet::python

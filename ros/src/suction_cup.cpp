@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "limpet/core/time.hpp"
+#include "limpet/scenario/derived.hpp"
 
 namespace limpet::ros {
 namespace {
@@ -15,12 +16,14 @@ constexpr double kLongestGap_s = seconds(kLongestGap);
 
 }  // namespace
 
-SuctionCup::SuctionCup(const scenario::Scenario& scenario) : scenario_(scenario) {
+SuctionCup::SuctionCup(const scenario::Scenario& scenario)
+    : scenario_(scenario), surfaces_(surfaces_met(scenario)) {
     start();
 }
 
 void SuctionCup::start() {
     state_ = {};
+    state_.mean_pressure_Pa = state_.status.pressure_Pa = scenario_.cup.ambient_Pa;
     state_.random = RandomStream(scenario_.seed, 0, Stream::seal);
     sensor_ = start_unit<sensors::PressureSensor>(
         scenario_.sensors, RandomStream(scenario_.seed, 0, Stream::pressure), {});
@@ -37,10 +40,9 @@ void SuctionCup::command(bool pump_on, bool valve_open) {
 
 /// Of the spot that is under the cup; a touch that has not come yet meets the next one.
 const suction::Surface& SuctionCup::surface() const {
-    const std::vector<scenario::Surface>& first = scenario_.wall.first_touches;
     const bool between = state_.status.phase == CupPhase::free;
     const auto spot = static_cast<std::size_t>(std::max(state_.touches - (between ? 0 : 1), 0));
-    return spot < first.size() ? first[spot] : scenario_.wall.surface;
+    return surfaces_[std::min(spot, surfaces_.size() - 1)];
 }
 
 std::optional<Event> SuctionCup::feel(const suction::LipContact& contact, double time_s) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "limpet/core/time.hpp"
 #include "limpet/scenario/scenario.hpp"
@@ -33,6 +34,7 @@ private:
     [[nodiscard]] const suction::Surface& surface() const;
 
     scenario::Scenario scenario_;
+    std::vector<suction::Surface> surfaces_;  ///< of the touches, all after the last
     suction::CupState state_;
     sensors::SensorUnit<sensors::PressureSensor> sensor_;
     Sample<PressureReading> reading_;

@@ -80,8 +80,8 @@ TEST(Catalogue, KnowsTheKeysThatTakeAName) {
                               choice.names.front().name);
         }
     }
-    EXPECT_THAT(choices, ElementsAre("wall.shape: plane", "autopilot.kind: cascade",
-                                     "simulation.engine: reduced"));
+    EXPECT_THAT(choices, ElementsAre("wall.shape: plane", "wall.condition: as_given",
+                                     "autopilot.kind: cascade", "simulation.engine: reduced"));
 }
 
 TEST(DataRoot, IsWhereTheEnvironmentSays) {

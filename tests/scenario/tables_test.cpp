@@ -63,15 +63,20 @@ TEST(Tables, ForgetNoField) {
     });
     test::expect_whole(simulation_table(), "simulation");
     test::expect_whole(suction::lip_table(), "lip");
-    test::expect_whole(vehicle::rotor_table(), "rotor");
+    vehicle::RotorParameters rotor;
+    auto rotor_rows = bind(vehicle::rotor_table(), rotor);
+    rotor_rows.push_back({"density", "-", 0.0, 1.0, &rotor.density_ratio, "the environment's", ""});
+    test::expect_whole(rotor, rotor_rows, "rotor");
     test::expect_whole(vehicle::slider_table(), "slider");
     test::expect_whole(vehicle::cup_mount_table(), "cup");
     test::expect_whole(vehicle::leg_table(), "legs");
     test::expect_whole(vehicle::battery_table(), "battery");
+    test::expect_whole(air_table(), "air");
     test::expect_whole(vehicle::wind_table(), "wind");
     test::expect_whole(vehicle::pendulum_table(), "pendulum");
     test::expect_whole(vehicle::press_rig_table(), "press_rig");
     test::expect_whole(vehicle::wall_air_table(), "wall_air");
+    test::expect_whole(vehicle::nearness_table(), "nearness");
     for_each_type(suction::PressureModels{}, [](auto model) {
         using Model = typename decltype(model)::type;
         test::expect_whole(Model::table(), Model::kName.data());
@@ -79,6 +84,7 @@ TEST(Tables, ForgetNoField) {
     suction::CupParameters cup;
     auto rows = suction_rows(cup);
     rows.push_back({"pressure_model", "-", 0.0, 1.0, &cup.pressure_model, "given by its name", ""});
+    rows.push_back({"ambient", "Pa", 0.0, 1.0, &cup.ambient_Pa, "the environment's", ""});
     test::expect_whole(cup, rows, "suction");
 }
 
@@ -87,7 +93,7 @@ TEST(Tables, HoldEveryDerivedKey) {
     for_each_row([&](const std::string& section, const BoundParameter& row) {
         count += derived(section, row.name, {}) ? 1 : 0;
     });
-    EXPECT_EQ(count, 14);
+    EXPECT_EQ(count, 20);
 }
 
 }  // namespace

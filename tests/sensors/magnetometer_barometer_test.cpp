@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "limpet/core/atmosphere.hpp"
 #include "limpet/sensors/barometer.hpp"
 #include "limpet/sensors/magnetometer.hpp"
 #include "tests/sensors/bench_room.hpp"

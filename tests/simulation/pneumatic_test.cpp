@@ -52,5 +52,15 @@ TEST(PneumaticFlight, ItsRowsMoveNothingWhileItIsOff) {
     EXPECT_EQ(trace(rows).result.state_hash, flown("perch_concrete").result.state_hash);
 }
 
+TEST(SealWearInTheLoop, ACreepingSealLetsTheRestingVacuumFade) {
+    const Trace flight = trace(model_of("perch_metal_valve", {"suction.seal_creep_1_s=0.5"}));
+    EXPECT_EQ(flight.result.outcome, Outcome::released) << flight.result.reason;
+    const auto resting_Pa = [](const Trace& trace) {
+        return trace.mean(guidance::PerchingState::resting,
+                          [](const Truth& truth) { return truth.cup_status.pressure_Pa; });
+    };
+    EXPECT_GT(resting_Pa(flight), resting_Pa(flown("perch_metal_valve")) + 2000.0);
+}
+
 }  // namespace
 }  // namespace limpet::simulation

@@ -95,5 +95,39 @@ TEST(CoaxialPairs, HoverByWhatTheWakeLeaves) {
     EXPECT_NEAR(vehicle->autopilot.vehicle.hover_thrust, 0.5517, 1e-3);
 }
 
+/// With speeds that follow the voltage a hover's command rises as the pack empties: at the same
+/// speed (offset + scale u) V stays.
+TEST(VoltageInTheLoop, AHoversCommandRisesAsTheVoltageFalls) {
+    struct Hover {
+        double command, voltage_V, speed_rad_s;
+    };
+    const auto hover = [](const char* charge) {
+        const auto model =
+            model_of("hover", {"vehicle.rotor.speed_follows_voltage=true",
+                               std::string("vehicle.battery.initial_charge=") + charge,
+                               "simulation.hover_s=4"});
+        Flight flight(model);
+        Hover mean{};
+        int count = 0;
+        while (!flight.ended()) {
+            flight.tick();
+            const FlightState& state = flight.state();
+            EXPECT_NEAR(state.truth.base.p_WF_m.z(), 0.0, 0.05);  // begins in trim
+            if (seconds(state.tick) > 2.0) {
+                mean.command += state.command.command[0];
+                mean.voltage_V += state.battery.voltage_V;
+                mean.speed_rad_s += state.rotors.speed_rad_s[0];
+                ++count;
+            }
+        }
+        return Hover{mean.command / count, mean.voltage_V / count, mean.speed_rad_s / count};
+    };
+    const Hover full = hover("1"), low = hover("0.1");
+    EXPECT_LT(low.voltage_V, full.voltage_V - 2.0);
+    EXPECT_NEAR(low.speed_rad_s, full.speed_rad_s, 2.0);
+    const auto told = [](const Hover& at) { return 100.0 + 700.0 * at.command; };
+    EXPECT_NEAR(told(low) / told(full), full.voltage_V / low.voltage_V, 2e-3);
+}
+
 }  // namespace
 }  // namespace limpet::simulation

@@ -54,5 +54,17 @@ TEST(RoundWall, IsMetByTheMountsWhereItIs) {
               Outcome::perched);
 }
 
+/// Rounder than the lip follows: pressed and straight, it does not seal; a cup whose maker tells a
+/// smaller radius does.
+TEST(RoundWall, RounderThanTheLipFollowsDoesNotSeal) {
+    const std::vector<std::string> post = {kRound, "wall.radius_m=0.15"};
+    const FlightResult result = fly(model_of("press_concrete", post));
+    EXPECT_EQ(result.outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(result.reason, "the wall is rounder than the lip follows");
+    std::vector<std::string> small = post;
+    small.emplace_back("suction.least_radius_m=0.1");
+    EXPECT_EQ(fly(model_of("press_concrete", small)).outcome, Outcome::released);
+}
+
 }  // namespace
 }  // namespace limpet::simulation

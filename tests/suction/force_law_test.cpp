@@ -18,6 +18,23 @@ LipMotion at_gap(double gap_m) {
     return motion;
 }
 
+/// Over 40 mm a wall of 0.2 m falls away by 4 mm: the lip's soft depth.
+TEST(ForceLaw, ALipFollowsAWallAsRoundAsItsSoftDepthLets) {
+    LipParameters lip;
+    EXPECT_NEAR(least_radius_m(lip), 0.2, 1e-12);
+    WallGeometry wall;
+    EXPECT_TRUE(follows(lip, wall));  // a plane
+    for (const WallShape* shape : wall_shapes()) {
+        wall.shape = shape->name == "cylinder" ? shape : wall.shape;
+    }
+    wall.radius_m = 0.21;
+    EXPECT_TRUE(follows(lip, wall));
+    wall.radius_m = 0.19;
+    EXPECT_FALSE(follows(lip, wall));
+    lip.least_radius_m = 0.15;  // as its maker tells
+    EXPECT_TRUE(follows(lip, wall));
+}
+
 TEST(ForceLaw, VacuumTimesArea) {
     // facts.md section 3: 80 mm cup, 183 N on concrete, 371 N on metal, 67 N at 880 hPa
     EXPECT_NEAR(vacuum_force_N(65000.0, 0.04), 183.0, 1.0);

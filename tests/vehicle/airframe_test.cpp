@@ -136,7 +136,10 @@ TEST(Tables, RowsAreDistinctAndDefaultsAreAllowed) {
     expect_sound(battery_table());
     expect_sound(airframe_table());
     // One row a field: nothing of these structs is out of a vehicle file's reach.
-    test::expect_whole(rotor_table(), "rotor");
+    RotorParameters rotor;
+    auto rows = bind(rotor_table(), rotor);
+    rows.push_back({"density", "-", 0.0, 1.0, &rotor.density_ratio, "the environment's", ""});
+    test::expect_whole(rotor, rows, "rotor");
     test::expect_whole(slider_table(), "slider");
     test::expect_whole(cup_mount_table(), "cup");
     test::expect_whole(leg_table(), "legs");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/vehicle/battery.hpp"
 
 namespace limpet::vehicle {
 namespace {
@@ -58,6 +59,44 @@ TEST(Rotor, SeveralStepsAtOnceAreThoseOneByOne) {
             EXPECT_EQ(at_once.speed_rad_s, one_by_one.speed_rad_s);
         }
     }
+}
+
+/// At a fixed command the speed goes with the voltage, the thrust with its square: (V / V_n)^2.
+TEST(Rotor, ThrustGoesWithTheSquareOfTheVoltageWhereSpeedsFollowIt) {
+    Airframe airframe;
+    airframe.rotor.speed_follows_voltage = true;
+    const auto thrust_N = [&](double command, double voltage_V) {
+        RotorsState state = standing(4);
+        step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state, armed(command),
+             drive_share(airframe, voltage_V), nullptr, 5000);
+        return -rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind).force_N.z();
+    };
+    constexpr double kNominal_V = 22.2;  // 6 x 3.7 V
+    for (const double command : {0.3, 0.6, 1.0}) {
+        const double nominal_N = thrust_N(command, kNominal_V);
+        for (const double voltage_V : {19.0, 21.0, 25.2}) {
+            EXPECT_NEAR(thrust_N(command, voltage_V) / nominal_N,
+                        std::pow(voltage_V / kNominal_V, 2), 1e-9);
+        }
+    }
+    airframe.rotor.speed_follows_voltage = false;  // as the paper's: below the limit none of it
+    EXPECT_EQ(thrust_N(0.6, 19.0), thrust_N(0.6, 25.2));
+}
+
+TEST(Rotor, HoverIsToldAtTheVoltageOfAHover) {
+    Airframe airframe;
+    const double nominal = hover_command(airframe);
+    EXPECT_EQ(hover_drive_share(airframe), 1.0);
+    airframe.rotor.speed_follows_voltage = true;
+    airframe.battery.internal_resistance_ohm = 0.0;  // no sag: a full pack has 4.2 V a cell
+    EXPECT_NEAR(hover_drive_share(airframe), 4.2 / 3.7, 1e-12);
+    const RotorParameters& rotor = airframe.rotor;
+    const auto speed_rad_s = [&](double command) {
+        return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * command;
+    };
+    EXPECT_NEAR(speed_rad_s(hover_command(airframe)) * 4.2 / 3.7, speed_rad_s(nominal), 1e-9);
+    airframe.battery.internal_resistance_ohm = 0.1;
+    EXPECT_LT(hover_drive_share(airframe), 4.2 / 3.7 - 0.05);  // 19 A through it are 1.9 V
 }
 
 TEST(Rotor, HoversAt560RadiansPerSecond) {

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/vehicle/nearness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace limpet::vehicle {
+namespace {
+
+struct GainPoint {
+    double radii, gain;
+};
+/// facts.md section 5: 1.17 to 1.23, 1.08 to 1.11, about 1.04, about 1.
+constexpr std::array<GainPoint, 4> kCeiling = {
+    {{0.33, 1.20}, {1.0, 1.095}, {1.6, 1.04}, {2.3, 1.0}}};
+
+}  // namespace
+
+const ParameterTable<NearnessParameters>& nearness_table() {
+    using N = NearnessParameters;
+    static const ParameterTable<N> table = {
+        {"ground_effect", "switch", 0.0, 1.0, &N::ground_effect,
+         "rotors near the ground lift more at the same speed",
+         "Cheeseman, Bennett, R&M 3021; paper: its simulation has none"},
+        {"ceiling_height_m", "m", 0.0, 1000.0, &N::ceiling_height_m,
+         "> 0: a ceiling so far above the ground; rotors below it lift more, one that meets it "
+         "ends "
+         "the flight",
+         "JINT 110, 2024, facts.md section 5; paper: a hall, no ceiling near"},
+    };
+    return table;
+}
+
+double ground_gain(double radii) {
+    constexpr double kNearest = 0.54;
+    const double share = 0.25 / std::max(radii, kNearest);
+    return 1.0 / (1.0 - share * share);
+}
+
+double ceiling_gain(double radii) {
+    if (radii <= kCeiling.front().radii) {
+        return kCeiling.front().gain;
+    }
+    for (std::size_t i = 1; i < kCeiling.size(); ++i) {
+        const GainPoint& low = kCeiling[i - 1];
+        const GainPoint& high = kCeiling[i];
+        if (radii < high.radii) {
+            return std::lerp(low.gain, high.gain, (radii - low.radii) / (high.radii - low.radii));
+        }
+    }
+    return 1.0;
+}
+
+NearnessModel make_nearness(const NearnessParameters& parameters, double ground_z_W_m) {
+    return {.parameters = parameters,
+            .ground_z_W_m = ground_z_W_m,
+            .ceiling_z_W_m = ground_z_W_m - parameters.ceiling_height_m};
+}
+
+RotorList<double> thrust_gains(const NearnessModel& model, const AirframeNumbers& airframe,
+                               const Kinematics& base) {
+    const double radius_m = airframe.rotor.radius_m;
+    const double upright = std::max(0.0, (base.q_WF * Vector3::UnitZ()).z());
+    RotorList<double> gains(airframe.rotors.size(), 1.0);
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+        const double z_m = (base.p_WF_m + base.q_WF * airframe.rotors[i].p_B_m).z();
+        double gain = 1.0;
+        if (model.parameters.ground_effect) {
+            gain *= ground_gain((model.ground_z_W_m - z_m) / radius_m);
+        }
+        if (model.has_ceiling()) {
+            gain *= ceiling_gain((z_m - model.ceiling_z_W_m) / radius_m);
+        }
+        gains[i] += upright * (gain - 1.0);
+    }
+    return gains;
+}
+
+AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains) {
+    for (std::size_t i = 0; i < gains.size(); ++i) {
+        airframe.rotors[i].thrust_share *= gains[i];
+    }
+    return airframe;
+}
+
+}  // namespace limpet::vehicle

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "limpet/core/parameters.hpp"
+#include "limpet/core/signals/kinematics.hpp"
+#include "limpet/vehicle/airframe.hpp"
+
+/// What ground and ceiling do to a rotor's thrust at the same speed. Each rotor by itself:
+///
+///   ground   T / T_free = 1 / (1 - (R / 4z)^2), z from the ground to the propeller
+///   ceiling  T / T_free over d/R, d from the propeller to the ceiling, as measured
+///
+/// Both fade with the cosine between the rotor's axis and the vertical (assumed: the data are of a
+/// level vehicle).
+/// Source: Cheeseman, Bennett, ARC R&M 3021 (1955); ceiling: "Ground, Ceiling and Wall Effect
+/// Evaluation of Small Quadcopters" (JINT 110, 2024), 12 in quadrotor, by facts.md section 5.
+namespace limpet::vehicle {
+
+/// Rows of `environment:` about ground and ceiling. Off by default.
+struct NearnessParameters {
+    bool ground_effect = false;
+    double ceiling_height_m = 0.0;  ///< above the ground; 0: there is no ceiling
+};
+[[nodiscard]] const ParameterTable<NearnessParameters>& nearness_table();
+
+/// Gain of thrust above ground. Closer than 0.54 R it stays at 1.27: there the formula leaves what
+/// was measured (1.24 to 1.31 at 0.33 R).
+/// @param radii  z / R, > 0
+[[nodiscard]] double ground_gain(double radii);
+/// Gain of thrust below a ceiling: mean of two facilities, linear between the published points,
+/// that of 0.33 R below it, none from 2.3 R on.
+/// @param radii  d / R, > 0
+[[nodiscard]] double ceiling_gain(double radii);
+
+/// Immutable during a flight.
+struct NearnessModel {
+    NearnessParameters parameters;
+    double ground_z_W_m = 0.0;
+    double ceiling_z_W_m = 0.0;  ///< of no meaning without one
+    [[nodiscard]] bool has_ceiling() const { return parameters.ceiling_height_m > 0.0; }
+    [[nodiscard]] bool acts() const { return parameters.ground_effect || has_ceiling(); }
+};
+[[nodiscard]] NearnessModel make_nearness(const NearnessParameters& parameters,
+                                          double ground_z_W_m);
+
+/// @return of each rotor, over its thrust in free air
+[[nodiscard]] RotorList<double> thrust_gains(const NearnessModel& model,
+                                             const AirframeNumbers& airframe,
+                                             const Kinematics& base);
+/// The same vehicle, each rotor with so much of its thrust.
+[[nodiscard]] AirframeNumbers lifting_by(AirframeNumbers airframe, const RotorList<double>& gains);
+
+}  // namespace limpet::vehicle
