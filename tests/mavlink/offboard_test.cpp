@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/mavlink/offboard.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cstring>
 
 #include "limpet/mavlink/translate.hpp"
-#include "scripted_wire.hpp"
+#include "offboard_peer.hpp"
 
 namespace limpet::mavlink {
 namespace {
@@ -14,81 +12,6 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
-
-/// An autopilot as far as Offboard sees it: beats, tells its pose, obeys or not.
-struct Peer {
-    ScriptedLink wire;
-    Offboard offboard;
-    Setpoint setpoint{.motion = PositionSetpoint{}, .armed = true};
-    double time_s = 0.0;
-    bool armed = false;
-    std::uint32_t mode = 0;
-    bool tells_pose = true;
-    bool beats = true;
-
-    explicit Peer(const OffboardOptions& options = {}) : offboard(options) {}
-
-    void hear_all() {
-        while (const auto frame = wire.link.receive()) {
-            offboard.hear(*frame, time_s);
-        }
-    }
-    void beat() {
-        Heartbeat message;
-        message.type = 2;
-        message.autopilot = 12;
-        message.base_mode = armed ? 129 : 1;
-        message.custom_mode = mode << 16U;
-        wire.say(message);
-    }
-    void tell_pose() {
-        Estimate estimate;
-        estimate.valid = true;
-        estimate.p_WB_m = {1.0, 2.0, -3.0};
-        wire.say(odometry(estimate, static_cast<std::uint64_t>(time_s * 1e6)));
-    }
-    /// 20 ms a step, as guidance.
-    void run(double seconds) {
-        const int steps = static_cast<int>(std::lround(seconds / 0.02));
-        for (int k = 0; k < steps; ++k) {
-            time_s += 0.02;
-            if (beats && k % 50 == 0) {
-                beat();
-            }
-            if (tells_pose) {
-                tell_pose();
-            }
-            hear_all();
-            offboard.update(wire.link, setpoint, time_s);
-        }
-    }
-    [[nodiscard]] std::vector<CommandLong> commands(std::uint16_t command) const {
-        std::vector<CommandLong> all;
-        for (const CommandLong& each : wire.sent<CommandLong>()) {
-            if (each.command == command) {
-                all.push_back(each);
-            }
-        }
-        return all;
-    }
-    [[nodiscard]] std::vector<CommandLong> requests(std::uint32_t id) const {
-        std::vector<CommandLong> all;
-        for (const CommandLong& each : commands(kCommandRequestMessage)) {
-            if (each.param1 == static_cast<float>(id)) {
-                all.push_back(each);
-            }
-        }
-        return all;
-    }
-    [[nodiscard]] std::size_t origins() const { return wire.sent<SetGpsGlobalOrigin>().size(); }
-    void engage() {
-        run(2.0);
-        mode = kMainModeOffboard;
-        beat();
-        run(0.1);
-    }
-    void forget() { wire.ends->sent.clear(); }
-};
 
 TEST(Offboard, StreamsBeforeItAsksForTheModeAndArmsOnlyInIt) {
     Peer peer;
@@ -403,70 +326,6 @@ TEST(Offboard, AsksForThePoseAndGivesTheOriginAltitudeZero) {
     EXPECT_EQ(peer.commands(kCommandMessageInterval)[0].param2, 10'000.0F);
     ASSERT_FALSE(peer.wire.sent<SetGpsGlobalOrigin>().empty());
     EXPECT_EQ(peer.wire.sent<SetGpsGlobalOrigin>()[0].altitude, 0);
-}
-
-/// PX4 v1.16 takes each as another: it must not be said over and over.
-TEST(Offboard, GivesAnOriginOnceWhereThereIsNone) {
-    Peer had;
-    had.run(0.1);
-    ASSERT_THAT(had.requests(GpsGlobalOrigin::kId), SizeIs(1)) << "it is asked first";
-    had.wire.say(GpsGlobalOrigin{.latitude = 1});
-    had.run(10.0);
-    EXPECT_EQ(had.origins(), 0U);
-
-    Peer peer;
-    peer.run(0.1);
-    EXPECT_EQ(peer.origins(), 0U);
-    peer.wire.say(CommandAck{.command = kCommandRequestMessage, .result = MavResult::denied});
-    peer.run(0.1);
-    EXPECT_EQ(peer.origins(), 1U) << "it said that it has none";
-    peer.wire.say(GpsGlobalOrigin{});
-    peer.run(20.0);
-    EXPECT_EQ(peer.origins(), 1U);
-    EXPECT_THAT(peer.requests(GpsGlobalOrigin::kId), SizeIs(1));
-}
-
-TEST(Offboard, GivesAnOriginAgainWhenNothingIsToldOfIt) {
-    Peer peer;
-    peer.run(0.9);
-    EXPECT_EQ(peer.origins(), 0U) << "an answer may be on its way";
-    peer.run(0.3);
-    EXPECT_EQ(peer.origins(), 1U);
-    peer.run(4.5);
-    EXPECT_EQ(peer.origins(), 1U);
-    peer.run(6.0);
-    EXPECT_EQ(peer.origins(), 3U);
-}
-
-/// On the wall, disarmed between two flights, another origin would move the world under it.
-TEST(Offboard, GivesNoOriginOnceItHasBeenArmed) {
-    Peer peer;
-    peer.run(3.0);
-    peer.armed = true;
-    peer.run(1.5);
-    const std::size_t given = peer.origins();
-    peer.armed = false;
-    peer.run(12.0);
-    EXPECT_EQ(peer.origins(), given);
-}
-
-TEST(Offboard, ArmsNothingThatWouldGetNoOriginAnyMore) {
-    Peer peer;
-    peer.mode = kMainModeOffboard;
-    peer.run(0.9);
-    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
-    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
-    peer.run(0.3);
-    EXPECT_EQ(peer.origins(), 1U);
-    EXPECT_FALSE(peer.commands(kCommandArm).empty());
-
-    OffboardOptions by_gps;
-    by_gps.sets_origin = false;
-    Peer other(by_gps);
-    other.mode = kMainModeOffboard;
-    other.run(0.9);
-    EXPECT_FALSE(other.commands(kCommandArm).empty());
-    EXPECT_EQ(other.origins(), 0U);
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "offboard_peer.hpp"
+
+namespace limpet::mavlink {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// PX4 v1.16 takes each as another: it must not be said over and over.
+TEST(Offboard, GivesAnOriginOnceWhereThereIsNone) {
+    Peer had;
+    had.run(0.1);
+    ASSERT_THAT(had.requests(GpsGlobalOrigin::kId), SizeIs(1)) << "it is asked first";
+    had.wire.say(GpsGlobalOrigin{.latitude = 1});
+    had.run(10.0);
+    EXPECT_EQ(had.origins(), 0U);
+
+    Peer peer;
+    peer.run(0.1);
+    EXPECT_EQ(peer.origins(), 0U);
+    peer.wire.say(CommandAck{.command = kCommandRequestMessage, .result = MavResult::denied});
+    peer.run(0.1);
+    EXPECT_EQ(peer.origins(), 1U) << "it said that it has none";
+    peer.wire.say(GpsGlobalOrigin{});
+    peer.run(20.0);
+    EXPECT_EQ(peer.origins(), 1U);
+    EXPECT_THAT(peer.requests(GpsGlobalOrigin::kId), SizeIs(1));
+}
+
+TEST(Offboard, GivesAnOriginAgainWhenNothingIsToldOfIt) {
+    Peer peer;
+    peer.run(0.9);
+    EXPECT_EQ(peer.origins(), 0U) << "an answer may be on its way";
+    peer.run(0.3);
+    EXPECT_EQ(peer.origins(), 1U);
+    peer.run(4.5);
+    EXPECT_EQ(peer.origins(), 1U);
+    peer.run(6.0);
+    EXPECT_EQ(peer.origins(), 3U);
+}
+
+/// On the wall, disarmed between two flights, another origin would move the world under it.
+TEST(Offboard, GivesNoOriginOnceItHasBeenArmed) {
+    Peer peer;
+    peer.run(3.0);
+    peer.armed = true;
+    peer.run(1.5);
+    const std::size_t given = peer.origins();
+    peer.armed = false;
+    peer.run(12.0);
+    EXPECT_EQ(peer.origins(), given);
+}
+
+TEST(Offboard, ArmsNothingThatWouldGetNoOriginAnyMore) {
+    Peer peer;
+    peer.mode = kMainModeOffboard;
+    peer.run(0.9);
+    EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
+    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    peer.run(0.3);
+    EXPECT_EQ(peer.origins(), 1U);
+    EXPECT_FALSE(peer.commands(kCommandArm).empty());
+
+    OffboardOptions by_gps;
+    by_gps.sets_origin = false;
+    Peer other(by_gps);
+    other.mode = kMainModeOffboard;
+    other.run(0.9);
+    EXPECT_FALSE(other.commands(kCommandArm).empty());
+    EXPECT_EQ(other.origins(), 0U);
+}
+
+}  // namespace
+}  // namespace limpet::mavlink
