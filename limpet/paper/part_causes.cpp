@@ -90,6 +90,7 @@ void tell_causes(Study& study, const CausePosterior& posterior) {
                           std::round(weighted.effective())});
     }
     study.table("cause-sets", likely);
+    study.evidence.set("causes.motors", posterior.probability(Cause::motors));
     study.evidence.set("causes.motors_alone", posterior.weighted[1].evidence());
     study.evidence.set("causes.all", posterior.weighted[kEvery].evidence());
 }
@@ -203,8 +204,8 @@ StudyPart causes_part() {
             {"causes.draws", "causes.restless", "causes.start_deg", "causes.metal_scatter",
              "causes.concrete_scatter", "causes.flights", "causes.held", "causes.growth_low_1_s",
              "causes.growth_1_s", "causes.growth_high_1_s", "causes.frequency_low_Hz",
-             "causes.frequency_high_Hz", "causes.motors_alone", "causes.all", "causes.open_bits",
-             "causes.altitude_points", "causes.altitude_damped"},
+             "causes.frequency_high_Hz", "causes.motors", "causes.motors_alone", "causes.all",
+             "causes.open_bits", "causes.altitude_points", "causes.altitude_damped"},
             {"fig-causes", "causes", "cause-sets", "cause-inputs", "cause-measurements"}};
 }
 
