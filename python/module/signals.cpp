@@ -8,11 +8,24 @@
 namespace limpet::python {
 namespace {
 
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// @return empty: there are none in it
+/// @throws py::error_already_set what is not about them: Ctrl-C comes at any time
+Numbers array_from(const py::handle& given) {
+    try {
+        return Numbers(py::reinterpret_borrow<py::object>(given));
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) {
+            throw;
+        }
+        return {};
+    }
+}
+
 std::vector<double> numbers_from(const py::handle& given, std::size_t count, const char* what) {
-    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(
-        py::reinterpret_borrow<py::object>(given));
-    if (!array || static_cast<std::size_t>(array.size()) != count) {
-        PyErr_Clear();
+    const Numbers array = array_from(given);
+    if (static_cast<std::size_t>(array.size()) != count) {
         throw py::value_error(std::string(what) + ": " + std::to_string(count) + " numbers");
     }
     const std::vector<double> numbers(array.data(), array.data() + count);
