@@ -58,7 +58,9 @@ struct SensorMounts {
 struct EarthMotion {
     Vector3 p_EW_W_m = Vector3::Zero();  ///< since the beginning
     Vector3 v_EW_W_m_s = Vector3::Zero();
+    static const EarthMotion kStill;
 };
+inline const EarthMotion EarthMotion::kStill = {};
 
 /// What a unit looks at, at one instant.
 struct SensorView {
@@ -67,7 +69,7 @@ struct SensorView {
     const plant::Plant* plant = nullptr;  ///< for rays
     std::size_t unit = 0;                 ///< which one looks
     double altitude_m = 0.0;              ///< of W's origin above sea level
-    EarthMotion earth = {};
+    const EarthMotion& earth = EarthMotion::kStill;
 };
 
 /// What a unit of most sensors remembers.

@@ -32,17 +32,17 @@ SensorsState start(const SensorsModel& model, const Truth& truth, std::uint64_t 
 
 LIMPET_FOR_MACHINES void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
                                const plant::Plant& plant, Tick tick, const EarthMotion& earth) {
+    SensorView view{.truth = truth,
+                    .mounts = model.mounts,
+                    .plant = &plant,
+                    .altitude_m = model.altitude_m,
+                    .earth = earth};
     for_each_unit(state.sensors, [&](auto type, auto& unit, std::size_t k) {
         using Sensor = typename decltype(type)::type;
         if (Sensor::kOnCup && !model.has_cup) {
             return;
         }
-        const SensorView view{.truth = truth,
-                              .mounts = model.mounts,
-                              .plant = &plant,
-                              .unit = k,
-                              .altitude_m = model.altitude_m,
-                              .earth = earth};
+        view.unit = k;
         if constexpr (kIsRead<Sensor>) {
             sense(model.parameters, unit, view, tick, state.readings.*Sensor::kReadings[k]);
         } else {

@@ -55,6 +55,6 @@ struct SensorsState {
 /// @param plant  for the LiDARs' rays, at the same instant as `truth`
 /// @param earth  of W, at that instant
 void sense(const SensorsModel& model, SensorsState& state, const Truth& truth,
-           const plant::Plant& plant, Tick tick, const EarthMotion& earth = {});
+           const plant::Plant& plant, Tick tick, const EarthMotion& earth = EarthMotion::kStill);
 
 }  // namespace limpet::sensors

@@ -73,6 +73,12 @@ struct AirLoad {
     double thrust_N = 0.0;
 };
 
+/// At the beginning of a stride, as all forces are.
+[[gnu::noinline]] vehicle::SwellMotion swell_now(const FlightModel& model,
+                                                 const FlightState& state) {
+    return swell_motion(model.swell, seconds(state.tick));
+}
+
 /// The rotors beside ground or ceiling, seldom.
 [[gnu::noinline]] Wrench near_wrench_B(const FlightModel& model,
                                        const RotorList<double>& speeds_rad_s,
@@ -83,13 +89,15 @@ struct AirLoad {
 }
 
 AirLoad load_of_air(const FlightModel& model, const FlightState& state,
-                    const RotorList<double>& speeds_rad_s, const vehicle::SwellMotion& swell) {
+                    const RotorList<double>& speeds_rad_s) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
-    const Vector3 wind_W_m_s =
-        vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s - swell.v_EW_W_m_s;
+    Vector3 wind_W_m_s = vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s;
+    if (model.swell.moves) {
+        wind_W_m_s -= swell_now(model, state).v_EW_W_m_s;
+    }
     const Wrench rotors_B = model.nearness.acts()
                                 ? near_wrench_B(model, speeds_rad_s, base, wind_W_m_s)
                                 : vehicle::rotor_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
@@ -110,11 +118,13 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     return air;
 }
 
-/// On a hull that accelerates every part stays behind.
-void apply_swell(const FlightModel& model, plant::Plant& plant, const vehicle::SwellMotion& swell) {
+/// On a hull that accelerates every part stays behind; seldom.
+[[gnu::noinline]] void apply_swell(const FlightModel& model, const FlightState& state,
+                                   plant::Plant& plant) {
+    const Vector3 a_EW_W_m_s2 = swell_now(model, state).a_EW_W_m_s2;
     const auto stay_behind = [&](plant::Body body, const vehicle::SwellModel::Part& part) {
         const Kinematics at = plant.kinematics(body);
-        plant.apply(body, {.force_N = -part.mass_kg * swell.a_EW_W_m_s2},
+        plant.apply(body, {.force_N = -part.mass_kg * a_EW_W_m_s2},
                     at.p_WF_m + at.q_WF * part.centre_m);
     };
     stay_behind(plant::Body::base, model.swell.base);
@@ -141,8 +151,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
     const plant::StepMode mode{.step_s = stride.step_s(),
                                .contacts = stride.contacts,
                                .legs_lost = state.faults.now.legs_lost};
-    const vehicle::SwellMotion swell = swell_motion(model.swell, seconds(state.tick));
-    const AirLoad air = load_of_air(model, state, speeds_rad_s, swell);
+    const AirLoad air = load_of_air(model, state, speeds_rad_s);
     for (int k = 0; k < stride.steps; ++k) {
         const double time_s = seconds(state.tick) + k * mode.step_s;
         if (k > 0) {
@@ -150,7 +159,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
         }
         plant.apply(plant::Body::base, air.wrench_W, state.truth.base.p_WF_m);
         if (model.swell.moves) {
-            apply_swell(model, plant, swell);
+            apply_swell(model, state, plant);
         }
         if (model.mount != vehicle::Mount::free) {
             plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);

@@ -28,6 +28,9 @@ void see_truth(const FlightModel& model, FlightState& state, const plant::Plant&
 void sense(const FlightModel& model, FlightState& state, const plant::Plant& plant,
            TickReport& report) {
     const auto sample = [&] {
+        if (!model.swell.moves) {
+            return sensors::sense(model.sensors, state.sensors, state.truth, plant, state.tick);
+        }
         const vehicle::SwellMotion swell = swell_motion(model.swell, seconds(state.tick));
         sensors::sense(model.sensors, state.sensors, state.truth, plant, state.tick,
                        {swell.p_EW_W_m, swell.v_EW_W_m_s});
