@@ -93,10 +93,12 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
         }
         if (ack.command == kCommandArm) {  // sooner than the next heartbeat, which comes at 1 Hz
             report_.armed = asked_armed_;
+            was_armed_ = was_armed_ || asked_armed_;
         }
         hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == kCommandSetMode);
     } else if (ack.command == kCommandRequestMessage) {
-        no_origin_ = true;  // what else it is asked for every autopilot has
+        // What else it is asked for every autopilot has; one that is busy has not said so.
+        no_origin_ = no_origin_ || ack.result != MavResult::temporarily_rejected;
     } else if (ack.command != kCommandMessageInterval) {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;

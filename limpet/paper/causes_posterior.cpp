@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "limpet/campaign/statistics.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/paper/cause_places.hpp"
 #include "limpet/paper/causes.hpp"
 #include "limpet/paper/parallel.hpp"
@@ -86,6 +87,7 @@ std::vector<double> CausePosterior::set_probabilities() const {
         all.push_back(one.evidence());
         sum += all.back();
     }
+    require(sum > 0.0, "draws that explain something of what was said");
     for (double& one : all) {
         one /= sum;
     }

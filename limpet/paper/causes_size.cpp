@@ -74,10 +74,12 @@ SwingSize measure_size(std::size_t points, int jobs) {
         std::vector<double> logs;
         for (std::size_t k = 0; k < missions.size(); ++k) {
             const Mission& one = missions[k];
-            const double said = swing_deg(size, one.point, one.swing, one.waited_s);
+            // The same ones whatever size is tried.
             const bool counts =
-                one.flown_deg > kLeast_deg && one.flown_deg < kMost_deg && said < kMost_deg;
+                one.swing.rests && one.flown_deg > kLeast_deg && one.flown_deg < kMost_deg &&
+                swing_deg(SwingSize{}, one.point, one.swing, one.waited_s) < kMost_deg;
             if ((k % 2 == 0) == metal && k / (2 * kSeeds) % 2 == half && counts) {
+                const double said = swing_deg(size, one.point, one.swing, one.waited_s);
                 logs.push_back(std::log(one.flown_deg / said));
             }
         }
@@ -109,6 +111,7 @@ SwingSize measure_size(std::size_t points, int jobs) {
             held += std::abs(left) <= most ? 1 : 0;
         }
     }
+    require(asked > 0, "flights to hold the swing's size against");
     best.held = static_cast<double>(held) / static_cast<double>(asked);
     return best;
 }

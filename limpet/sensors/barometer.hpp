@@ -5,9 +5,8 @@
 
 namespace limpet::sensors {
 
-/// Static pressure at B's origin, zeroed at W's, in the standard atmosphere (core/atmosphere.hpp):
-/// one that is warmer is read as too low by as many per cent. The rotors' own pressure field is
-/// left out.
+/// Static pressure at B's origin, zeroed at W's, in the standard atmosphere (core/atmosphere.hpp);
+/// that warmer air is read as lower is left out, as is the rotors' own pressure field.
 struct BarometerSensor {
     using Reading = BarometerReading;
     struct Parameters {

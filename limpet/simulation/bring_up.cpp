@@ -22,13 +22,15 @@ constexpr Still kByMotionCapture{.near_m = 0.3, .slow_m_s = 0.08};
 /// What it follows wanders. Source: PX4 v1.15.1 hovering for 110 s, seen up to 0.37 m and 0.34 m/s
 constexpr Still kByGps{.near_m = 0.5, .slow_m_s = 0.5};
 
-/// The flight without its mission: hovers at the start for ever, in the mean wind. Gusts begin with
-/// the flight, as they do for the built-in autopilot: in them nothing stands still.
+/// The flight without its mission: hovers at the start for ever, in the mean wind. Gusts and
+/// swell begin with the flight, as they do for the built-in autopilot: in them nothing stands
+/// still.
 FlightModel hovering(const FlightModel& model) {
     FlightModel waiting = model;
     waiting.task = {
         .perch = false, .take_off = false, .hover_s = std::numeric_limits<double>::infinity()};
     waiting.wind.gusts = false;
+    waiting.swell = {};
     return waiting;
 }
 

@@ -213,8 +213,10 @@ const ParameterTable<LipParameters>& lip_table() {
 }
 
 double least_radius_m(const LipParameters& lip) {
-    return lip.least_radius_m > 0.0 ? lip.least_radius_m
-                                    : 0.5 * lip.radius_m * lip.radius_m / lip.hard_depth_m;
+    if (lip.least_radius_m > 0.0 || !(lip.hard_depth_m > 0.0)) {
+        return lip.least_radius_m;
+    }
+    return 0.5 * lip.radius_m * lip.radius_m / lip.hard_depth_m;
 }
 
 bool follows(const LipParameters& lip, const WallGeometry& wall) {

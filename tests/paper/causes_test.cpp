@@ -43,7 +43,8 @@ TEST(Causes, ADrawsSwingsAreTheLinearisedLoops) {
             };
             if (!draw.swing.rests) {
                 EXPECT_THROW((void)linear(), InternalError) << set;
-            } else if (const stability::Mode mode = linear(); is_swing(mode)) {
+            } else if (const stability::Mode mode = linear();
+                       is_swing(mode) || mode.growth_1_s > 0.0) {
                 EXPECT_EQ(draw.swing.growth_1_s, mode.growth_1_s) << set;
                 EXPECT_EQ(draw.swing.frequency_Hz, mode.frequency_Hz) << set;
             } else {
@@ -114,7 +115,7 @@ TEST(Causes, SyntheticTruthsAreRecovered) {
     SCOPED_TRACE(testing::Message() << held << " of " << asked);
     EXPECT_GE(held, 0.90 * asked);
     EXPECT_LE(held, 0.99 * asked);
-    EXPECT_LT(surprise / kTruths, static_cast<double>(kCauses));  // bits: guessing has six
+    EXPECT_LT(surprise / kTruths, kCauses - 0.1);  // bits: guessing has six
 }
 
 }  // namespace

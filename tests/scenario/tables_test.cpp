@@ -77,6 +77,7 @@ TEST(Tables, ForgetNoField) {
     test::expect_whole(vehicle::press_rig_table(), "press_rig");
     test::expect_whole(vehicle::wall_air_table(), "wall_air");
     test::expect_whole(vehicle::nearness_table(), "nearness");
+    test::expect_whole(vehicle::swell_table(), "swell");
     for_each_type(suction::PressureModels{}, [](auto model) {
         using Model = typename decltype(model)::type;
         test::expect_whole(Model::table(), Model::kName.data());

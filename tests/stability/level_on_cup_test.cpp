@@ -112,8 +112,10 @@ TEST(LevelOnCup, GustsDoNotTurnUpInIt) {
     const auto at = [](const char* gusts) {
         return linear_swing("perch_metal", {"environment.recirculation_moment_rms_N_m=0.1", gusts});
     };
-    EXPECT_EQ(at("environment.gust_sigma_m_s=2").growth_1_s,
-              linear_swing("perch_metal", {}).growth_1_s);
+    const double calm_1_s = linear_swing("perch_metal", {}).growth_1_s;
+    EXPECT_EQ(at("environment.gust_sigma_m_s=2").growth_1_s, calm_1_s);
+    EXPECT_EQ(at("environment.gust_wind_m_s=5").growth_1_s, calm_1_s);
+    EXPECT_EQ(at("environment.swell_up_m=1").growth_1_s, calm_1_s);
 }
 
 /// The paper tells of pitch: nothing else may grow.

@@ -27,7 +27,7 @@ export const kViews: [ViewName, string][] = [
 const kBriefly = 0.5;
 /** Shares of the dots, from picture to picture while it plays. */
 const kDetails = [1, 0.7, 0.5, 0.35];
-const kSlow_ms = 25; // between two pictures; 60 a second are 17
+const kSlow_ms = 40; // between two pictures; 60 a second are 17, 30 are 33
 const kSlowPictures = 4; // in a row
 const kNowhere_m = 1e6;
 /** Less than a vehicle that rests is before the wall, or the camera would be within it. */
@@ -70,11 +70,21 @@ export class Stage {
 
   /** Pictures follow each other at once, with fewer dots; a machine without a graphics card keeps up. */
   brief = false;
-  /** It plays: with as many dots as the machine draws in time. */
-  moving = false;
+  private playing = false;
   private detail = 0;
   private slow = 0; // pictures in a row
   private readonly replaced: FlightView[] = [];
+  /** It plays: with as many dots as the machine draws in time, to be found out anew. */
+  get moving(): boolean {
+    return this.playing;
+  }
+  set moving(moving: boolean) {
+    if (moving && !this.playing) {
+      this.detail = 0;
+      this.slow = 0;
+    }
+    this.playing = moving;
+  }
   /** @param took_ms  from the picture before to this one, while it plays */
   pace(took_ms: number): void {
     this.slow = took_ms > kSlow_ms ? this.slow + 1 : 0;
@@ -166,7 +176,7 @@ export class Stage {
     this.follow();
     const canvas = this.renderer.domElement;
     const { clientWidth: width, clientHeight: height } = canvas;
-    const dots = this.brief ? kBriefly : this.moving ? (kDetails[this.detail] ?? 1) : 1;
+    const dots = this.brief ? kBriefly : this.playing ? (kDetails[this.detail] ?? 1) : 1;
     const ratio = dots * Math.min(window.devicePixelRatio, 2);
     if (
       canvas.width !== Math.floor(width * ratio) ||
