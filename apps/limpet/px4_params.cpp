@@ -124,9 +124,8 @@ OptionList options_of(Px4Options& options) {
 
 Verb px4_params_verb() {
     return verb<Px4Options>(
-        "px4-params",
-        "Write what a PX4 v1.15 or v1.16 needs: parameters and airframe",
-        options_of, write_both,
+        "px4-params", "Write what a PX4 v1.15 or v1.16 needs: parameters and airframe", options_of,
+        write_both,
         "Examples:\n"
         "  limpet px4-params perching_uav --out out/px4\n"
         "  limpet px4-params perch_concrete --target hitl --set autopilot.MC_PITCHRATE_P=0.12\n"
