@@ -60,7 +60,22 @@ void check_aiding(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// A hull follows the water, which falls no faster than free.
+void check_swell(const vehicle::SwellParameters& swell, const YamlNode& root) {
+    const double turn_rad_s = 2.0 * kPi / swell.swell_period_s;
+    const double most_m_s2 =
+        turn_rad_s * turn_rad_s *
+        Vector3(swell.swell_into_wall_m, swell.swell_along_wall_m, swell.swell_up_m).norm();
+    if (most_m_s2 >= kGravity_m_s2) {
+        fail_at(root, "environment.swell_period_s",
+                fmt::format("{:.6g} s for so far a swell is {:.6g} m/s^2, allowed is less than "
+                            "{:.6g}",
+                            swell.swell_period_s, most_m_s2, kGravity_m_s2));
+    }
+}
+
 void check_environment(const Environment& environment, const YamlNode& root) {
+    check_swell(environment.swell, root);
     if (environment.wind.gust_sigma_m_s > 0.0 && environment.wind.gust_wind_m_s > 0.0) {
         fail_at(root, "environment.gust_sigma_m_s",
                 "gusts are given by gust_wind_m_s already, one of the two must be 0");

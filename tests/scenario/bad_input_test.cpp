@@ -253,6 +253,9 @@ TEST_F(BadInput, EnvironmentsThatCannotBe) {
     EXPECT_EQ(hover_error("environment:\n  gust_wind_m_s: 3\n  gust_sigma_m_s: 1\n"),
               "x.yaml:5: environment.gust_sigma_m_s: gusts are given by gust_wind_m_s already, one "
               "of the two must be 0");
+    EXPECT_EQ(hover_error("environment:\n  swell_up_m: 2\n  swell_period_s: 2\n"),
+              "x.yaml:5: environment.swell_period_s: 2 s for so far a swell is 19.7392 m/s^2, "
+              "allowed is less than 9.80665");
     EXPECT_EQ(hover_error("environment: {recirculation_full_radii: 5}\n"),
               "x.yaml:3: environment.recirculation_full_radii: 5 must be below "
               "recirculation_none_radii, 4");
