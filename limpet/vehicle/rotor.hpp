@@ -78,8 +78,6 @@ struct RotorsState {
 /// @return the command, alike on all rotors, whose thrust equals the weight in still air, at the
 ///         voltage of hover_drive_share()
 [[nodiscard]] double hover_command(const AirframeNumbers& airframe);
-/// With which each rotor carries its share of the weight in still air.
-[[nodiscard]] double hover_speed_rad_s(const AirframeNumbers& airframe);
 
 /// How far rotors follow within a step: the exact solution of their lag.
 struct RotorLag {
