@@ -90,7 +90,7 @@ TEST(Stride, EndsAsTickByTick) {
             EXPECT_EQ(strides.events[i].name, ticks.events[i].name);
             EXPECT_NEAR(strides.events[i].time_s, ticks.events[i].time_s, apart_s) << name << i;
         }
-        const auto near = [&](double Metrics::*metric, double share) {
+        const auto near = [&, name = name](double Metrics::*metric, double share) {
             EXPECT_NEAR(strides.metrics.*metric / (ticks.metrics.*metric), 1.0, share) << name;
         };
         near(&Metrics::impact_force_N, 0.01);
