@@ -19,11 +19,6 @@ constexpr double kWatch_s = 20.0;
 constexpr double kSample_s = 0.01;
 constexpr double kTooFar_deg = 15.0;  ///< beyond, nothing is linear any more
 
-Overrides joined(Overrides first, const Overrides& second) {
-    first.insert(first.end(), second.begin(), second.end());
-    return first;
-}
-
 /// Nothing random: a kick alone is to be seen.
 void silence(scenario::Scenario& scenario) {
     for (const BoundParameter& row : sensor_rows(scenario.sensors)) {
@@ -89,6 +84,11 @@ std::vector<Extreme> extremes(const std::vector<double>& time_s, const std::vect
 }
 
 }  // namespace
+
+Overrides joined(Overrides first, const Overrides& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
 
 KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_deg,
                           double floor_deg) {

@@ -15,6 +15,8 @@
 namespace limpet::paper {
 
 using stability::Overrides;
+/// Both; where they set the same key the second counts.
+[[nodiscard]] Overrides joined(Overrides first, const Overrides& second);
 
 /// Growth and frequency of the pitch mode on the cup by a whole flight without noise, kicked as it
 /// begins to wait for the release, less a twin that was not: what the take-off left does not count.

@@ -39,11 +39,6 @@ std::vector<double> axis(double from, double to, int count) {
 const Overrides kAsPx4 = {"autopilot.attitude_age_steps=2", "autopilot.dgyro_order=1",
                           "vehicle.rotor.command_delay_s=0"};
 
-Overrides with(Overrides first, const Overrides& second) {
-    first.insert(first.end(), second.begin(), second.end());
-    return first;
-}
-
 struct TitledMap {
     std::string title;
     stability::StabilityMap map = {};
@@ -61,7 +56,7 @@ std::vector<TitledMap> maps(const Study& study) {
         study.say(fmt::format("stability map: {}", title));
         all.push_back({title,
                        {.scenario = kSlow,
-                        .changes = with(kAsPx4, gains),
+                        .changes = joined(kAsPx4, gains),
                         .across = motor_lags(axis(0.010, 0.100, study.quick ? 10 : 28)),
                         .up = pivots(axis(0.40, 0.58, study.quick ? 7 : 19))}});
         fill(all.back().map, study.jobs);
