@@ -16,6 +16,12 @@ namespace {
 
 constexpr const char* kWaits[] = {"perch_metal", "perch_concrete"};
 
+/// Of the vehicle that waits.
+double mass_kg() {
+    static const double known = scenario::load_scenario(kWaits[0]).airframe.mass_kg;
+    return known;
+}
+
 double mean_square_left(const std::vector<double>& logs) {
     double squares = 0.0;
     for (const double one : logs) {
@@ -28,9 +34,9 @@ double mean_square_left(const std::vector<double>& logs) {
 
 double swing_deg(const SwingSize& size, const CausePoint& point, const PointSwing& swing,
                  double waited_s) {
-    constexpr double kMass_kg = 3.2, kSlowest_Hz = 0.2, kStanding_1_s = 1e-6;
+    constexpr double kSlowest_Hz = 0.2, kStanding_1_s = 1e-6;
     const double turn_rad_s = 2.0 * kPi * std::max(kSlowest_Hz, swing.frequency_Hz);
-    const double inertia = point[kInertia] + kMass_kg * point[kJointX] * point[kJointX];
+    const double inertia = point[kInertia] + mass_kg() * point[kJointX] * point[kJointX];
     const double memory_s = point[kCorrelation];
     // Two-sided spectral density of the moment at the swing's frequency; what it adds to the
     // squared amplitude in a second.

@@ -90,11 +90,19 @@ std::vector<MapPoint> fly_samples(const Study& study) {
     return all;
 }
 
+struct RecordedSamples {
+    std::string by;
+    std::vector<MapPoint> points;
+};
+
 /// By a real PX4, kicked: the mean of the flights at a place.
-std::vector<MapPoint> recorded_samples() {
+RecordedSamples recorded_samples() {
     const nlohmann::json recorded = read_recorded("px4_swing");
+    RecordedSamples all;
     std::map<std::pair<double, double>, std::vector<double>> flown;
     try {
+        const auto peer = recorded.at("peer").get<std::string>();
+        all.by = peer.substr(0, peer.find(','));
         for (const nlohmann::json& one : recorded.at("swings")) {
             flown[{one.at("lag_s").get<double>(), one.at("pivot_m").get<double>()}].push_back(
                 one.at("growth_1_s").get<double>());
@@ -102,10 +110,9 @@ std::vector<MapPoint> recorded_samples() {
     } catch (const nlohmann::json::exception& error) {
         throw InputError(fmt::format("paper/recorded/px4_swing.json: {}", error.what()));
     }
-    std::vector<MapPoint> all;
     for (const auto& [at, growths_1_s] : flown) {
         const double sum = std::accumulate(growths_1_s.begin(), growths_1_s.end(), 0.0);
-        all.push_back({at.first, at.second, sum / static_cast<double>(growths_1_s.size())});
+        all.points.push_back({at.first, at.second, sum / static_cast<double>(growths_1_s.size())});
     }
     return all;
 }
@@ -138,7 +145,7 @@ void study_map(Study& study) {
     auto& defaults = std::get<draw::HeatPanel>(chart.panels.front());
     TableRows rows;
     double most_1_s = 0.0;
-    const auto tell = [&](const char* who, std::vector<MapPoint> points, bool drawn) {
+    const auto tell = [&](const std::string& who, std::vector<MapPoint> points, bool drawn) {
         for (MapPoint& one : points) {
             one.linear_1_s = stability::linear_swing(kSlow, overrides_of(one)).growth_1_s;
             const double lag_ms = 1000.0 * one.lag_s;
@@ -152,7 +159,8 @@ void study_map(Study& study) {
             }
         }
     };
-    tell("PX4 v1.15.1", recorded_samples(), true);
+    const RecordedSamples recorded = recorded_samples();
+    tell(recorded.by, recorded.points, true);
     tell("built-in", fly_samples(study), false);
     study.draw("fig-map", chart);
     study.table("map-check", rows);
