@@ -41,17 +41,28 @@ struct WallSolid {
 struct WallShape;
 extern const WallShape kPlaneWall;
 
-/// A rigid wall: where it is, how large, of which shape. T here is the tangent frame at its origin.
+/// A wall: where it is, how large, of which shape. T here is the tangent frame at its origin.
 struct WallGeometry {
     Vector3 p_WT_m = Vector3::Zero();
     Matrix3 R_WT = Matrix3::Identity();
     double half_width_m = 2.0;   ///< along y_T
     double half_height_m = 2.0;  ///< along z_T
     double radius_m = 5.0;       ///< of a shape that bends
+    /// Of a spot that yields to a push into the wall, each spot by itself and without a mass; 0: it
+    /// is rigid.
+    double stiffness_N_m = 0.0;
     const WallShape* shape = &kPlaneWall;
 
     friend bool operator==(const WallGeometry&, const WallGeometry&) = default;
 };
+
+/// Springs in series: the share of a push's way that a spring before the wall takes, 1 before a
+/// rigid one; both together are as stiff as the spring times it.
+/// @param spring  stiffness, > 0
+/// @param wall    stiffness in the same direction, 0: rigid
+[[nodiscard]] constexpr double share_of_spring(double spring, double wall) {
+    return wall > 0.0 ? wall / (wall + spring) : 1.0;
+}
 
 /// What a shape answers.
 struct WallShape {

@@ -94,7 +94,11 @@ void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall&
     auto link = add(model, "link", "name", "link");
     auto collision = add(link, "collision", "name", "wall");
     sdf::write_geometry(collision, shape);
-    sdf::write_surface(collision, kRigid);
+    sdf::ContactSurface surface = kRigid;
+    if (face.stiffness_N_m > 0.0) {
+        surface.stiffness_N_m = face.stiffness_N_m;
+    }
+    sdf::write_surface(collision, surface);
     auto visual = add(link, "visual", "name", "wall");
     sdf::write_geometry(visual, shape);
     write_finish(visual, world, wall);

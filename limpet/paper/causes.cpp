@@ -8,6 +8,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/paper/cause_places.hpp"
+#include "limpet/vehicle/motor.hpp"
 
 namespace limpet::paper {
 namespace {
@@ -24,12 +25,11 @@ double log_uniform(RandomStream& random, double low, double high) {
 /// A brushless motor's lag about hover: J R / (Kt^2 + R dQ/dw), Kt of 380 rpm/V.
 /// Source: Franklin et al., "Feedback control of dynamic systems", 2.3 (a motor's equations).
 double motor_lag_s(RandomStream& random) {
-    constexpr double kVolts_s = 60.0 / (2.0 * kPi * 380.0);
-    constexpr double kMotor = 2.5e-5, kMoment = 1.9e-2, kHover_rad_s = 560.0;  // Table I, derived
-    constexpr double kLoad = 2.0 * kMotor * kMoment * kHover_rad_s;            // dQ/dw
-    const double ohms = uniform(random, 0.1, 0.4);
-    const double inertia_kg_m2 = std::clamp(random.lognormal(1e-4, 0.25), 5e-5, 1.6e-4);
-    return inertia_kg_m2 * ohms / (kVolts_s * kVolts_s + ohms * kLoad);
+    constexpr double kHover_rad_s = 560.0;
+    vehicle::RotorParameters rotor{.motor_kv_rpm_V = 380.0};  // and Table I
+    rotor.motor_resistance_ohm = uniform(random, 0.1, 0.4);
+    rotor.spin_inertia_kg_m2 = std::clamp(random.lognormal(1e-4, 0.25), 5e-5, 1.6e-4);
+    return vehicle::lag_s(vehicle::motor_law(rotor), kHover_rad_s);
 }
 
 }  // namespace

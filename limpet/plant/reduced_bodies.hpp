@@ -98,6 +98,7 @@ private:
         std::array<Spatial<T>, 3> direction;  ///< of the tip's motion along the axes of T
         std::array<StepForce<T>, 3> spring{};
         Vec3<T> rate_m_s = Vec3<T>::Zero();
+        T stiffness_N_m{}, damping_N_s_m{};  ///< across
     };
 
     void find_place() {
@@ -192,6 +193,8 @@ private:
         }
         set_lane(touch.acts, lane, true);
         gap_m.set(lane, spot.gap_m);
+        touch.stiffness_N_m.set(lane, (*faces[k])[face].tip_stiffness_N_m);
+        touch.damping_N_s_m.set(lane, (*faces[k])[face].tip_damping_N_s_m);
         for (int i = 0; i < 9; ++i) {
             touch.R_WT.data()[i].set(lane, spot.R_WT.data()[i]);
         }
@@ -213,9 +216,10 @@ private:
             const auto k = static_cast<std::size_t>(axis);
             touch.direction[k] =
                 Spatial<T>::wrench(meets_B_m, Vec3<T>(R_BT.col(axis)), Vec3<T>::Zero());
-            touch.spring[k] = within_step<T>(
-                -vehicle::kTipStiffness_N_m * stretch_m[k], T(vehicle::kTipStiffness_N_m),
-                T(vehicle::kTipDamping_N_s_m), touch.rate_m_s[axis], mobility, step_s);
+            const T stiffness_N_m = axis == 0 ? touch.stiffness_N_m : T(vehicle::kTipStiffness_N_m);
+            const T damping_N_s_m = axis == 0 ? touch.damping_N_s_m : T(vehicle::kTipDamping_N_s_m);
+            touch.spring[k] = within_step<T>(-stiffness_N_m * stretch_m[k], stiffness_N_m,
+                                             damping_N_s_m, touch.rate_m_s[axis], mobility, step_s);
         }
         // What leaves faster than its rubber follows is free.
         const Mask holds = touch.acts && touch.spring[0].now <= none;

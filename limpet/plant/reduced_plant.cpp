@@ -25,6 +25,14 @@ WallGeometry ground(double z_W_m) {
     return floor;
 }
 
+Face face(const WallGeometry& geometry, bool there) {
+    const double share = share_of_spring(vehicle::kTipStiffness_N_m, geometry.stiffness_N_m);
+    return {.there = there,
+            .geometry = geometry,
+            .tip_stiffness_N_m = share * vehicle::kTipStiffness_N_m,
+            .tip_damping_N_s_m = share * share * vehicle::kTipDamping_N_s_m};
+}
+
 std::shared_ptr<const ReducedModel> own_reduced(const std::shared_ptr<const PlantModel>& model) {
     auto own = std::dynamic_pointer_cast<const ReducedModel>(model);
     require(own != nullptr, "a model of the reduced engine's");
@@ -57,8 +65,7 @@ ReducedModel::ReducedModel(const vehicle::Airframe& airframe, const models::Scen
                       Vector3{airframe.legs.tip_x_m, airframe.legs.tip_y_m, airframe.legs.tip_z_m}},
           .tip_radius_m = airframe.legs.tip_radius_m,
           .friction = airframe.legs.friction},
-      faces_{Face{.there = scene.wall.present, .geometry = scene.wall},
-             Face{.there = true, .geometry = ground(scene.ground_z_W_m)}} {}
+      faces_{face(scene.wall, scene.wall.present), face(ground(scene.ground_z_W_m), true)} {}
 
 std::unique_ptr<Plant> ReducedModel::make() const {
     if (auto lane = free_lane(shared_from_this())) {

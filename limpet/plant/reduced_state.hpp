@@ -29,6 +29,8 @@ struct ReducedNumbers {
 struct Face {
     bool there = false;
     WallGeometry geometry;
+    double tip_stiffness_N_m = vehicle::kTipStiffness_N_m;  ///< across, with what the face yields
+    double tip_damping_N_s_m = vehicle::kTipDamping_N_s_m;
 };
 using Faces = std::array<Face, kFaces>;
 

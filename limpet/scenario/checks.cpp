@@ -52,6 +52,21 @@ void check_mission(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// Softer, a wall is a sheet that swings.
+void check_stiffness(const Scenario& scenario, const YamlNode& root) {
+    constexpr double kSoftest_N_m = 1000.0;
+    const double stiffness_N_m = scenario.wall.stiffness_N_m;
+    if (stiffness_N_m > 0.0 && stiffness_N_m < kSoftest_N_m) {
+        fail_at(root, "wall.stiffness_N_m",
+                fmt::format("{:.6g} N/m is too soft, allowed is 0 for a rigid wall or from {:.6g}",
+                            stiffness_N_m, kSoftest_N_m));
+    }
+    if (stiffness_N_m > 0.0 && scenario.engine == &plant::kMujocoEngine) {
+        fail_at(root, "wall.stiffness_N_m",
+                "MuJoCo's contacts are no springs, allowed with simulation.engine reduced");
+    }
+}
+
 /// What the estimator can only run with.
 void check_aiding(const Scenario& scenario, const YamlNode& root) {
     if (scenario.autopilot.EKF2_EV_CTRL == 0 && scenario.autopilot.EKF2_GPS_CTRL == 0) {
@@ -204,6 +219,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     const std::vector<Section> sections = scenario_sections(bound);
     check_derived(scenario, sections, root);
     check_mission(scenario, root);
+    check_stiffness(scenario, root);
     check_environment(scenario.environment, root);
     check_vacuum(scenario, root);
     check_ceiling(scenario, root);

@@ -19,8 +19,8 @@ double zero_thrust(const Scenario& scenario) {
 double drag_1_s(const Scenario& scenario) {
     const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
     const double hover_speed_rad_s =
-        (rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * hover_command(scenario.airframe)) *
-        hover_drive_share(scenario.airframe);
+        spinning(rotor, 1, hover_command(scenario.airframe), hover_drive_share(scenario.airframe))
+            .speed_rad_s[0];
     return static_cast<double>(scenario.airframe.rotors.size()) * rotor.drag_constant_kg *
            rotor.density_ratio * hover_speed_rad_s / scenario.airframe.mass_kg;
 }

@@ -86,6 +86,7 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
                    .hover_s = scenario.simulation.hover_s};
     model->guidance = scenario.guidance;
     model->cup = {.parameters = scenario.cup, .wall = scenario.wall.geometry};
+    model->cup.parameters.lip = on_wall(scenario.cup.lip, scenario.wall.geometry);
     model->has_wall = scenario.wall.present;
     model->surfaces = surfaces_met(scenario);
     model->ahead_W = heading_W(scenario.wall);

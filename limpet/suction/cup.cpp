@@ -85,6 +85,7 @@ std::optional<Event> advance_contact(const CupParameters& parameters, CupState& 
         begin_touch(state);
     }
     status.pull_N = contact.pull_N;
+    status.peel_N_m = contact.peel_N_m;
     return contact.let_go == LetGo::no ? advance_phase(parameters, state, contact, input)
                                        : let_go(state, contact, input.time_s);
 }
@@ -108,6 +109,7 @@ void advance_pressure(const CupParameters& parameters, CupState& state, const Su
     SealedAir air{.surface = surface,
                   .radius_m = parameters.lip.radius_m,
                   .press_N = -status.pull_N,
+                  .peel_N_m = status.peel_N_m,
                   .pressure_Pa = state.mean_pressure_Pa,
                   .pump_resting = state.pump_resting,
                   .valve_open = input.valve_open,
@@ -207,6 +209,7 @@ LipNow feel_lip(const CupModel& model, CupState& state, const Surface& surface,
                    .let_go = load.let_go,
                    .press_N = input.bearer != nullptr ? load.press_N : input.press_N,
                    .pull_N = load.pull_N,
+                   .peel_N_m = load.peel_N_m,
                    .pull_margin_N = load.pull_margin_N,
                    .shear_margin_N = load.shear_margin_N,
                    .peel_margin_N = load.peel_margin_N};

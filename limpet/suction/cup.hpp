@@ -107,6 +107,7 @@ struct LipContact {
     LetGo let_go = LetGo::no;
     double press_N = 0.0;  ///< as CupInput::press_N
     double pull_N = 0.0;
+    double peel_N_m = 0.0;
     double pull_margin_N = 0.0;
     double shear_margin_N = 0.0;
     double peel_margin_N = 0.0;

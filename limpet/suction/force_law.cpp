@@ -219,6 +219,21 @@ double least_radius_m(const LipParameters& lip) {
     return 0.5 * lip.radius_m * lip.radius_m / lip.hard_depth_m;
 }
 
+LipParameters on_wall(const LipParameters& lip, const WallGeometry& wall) {
+    if (wall.stiffness_N_m <= 0.0) {
+        return lip;
+    }
+    LipParameters both = lip;
+    both.least_radius_m = least_radius_m(lip);
+    const double soft = share_of_spring(lip.stiffness_N_m, wall.stiffness_N_m);
+    both.stiffness_N_m *= soft;
+    both.hard_stiffness_N_m *= share_of_spring(lip.hard_stiffness_N_m, wall.stiffness_N_m);
+    both.hard_depth_m /= soft;
+    both.damping_N_s_m *= soft * soft;
+    both.damping_depth_m /= soft;
+    return both;
+}
+
 bool follows(const LipParameters& lip, const WallGeometry& wall) {
     const TangentFrame spot = tangent_frame(wall, wall.p_WT_m);
     const double bulge_1_m = std::max(spot.curvature_y_1_m, spot.curvature_z_1_m);

@@ -52,6 +52,12 @@ struct LipParameters {
 
 [[nodiscard]] const ParameterTable<LipParameters>& lip_table();
 
+/// The lip with a wall that yields as one: springs in series, the wall's without a mass. Of the
+/// damper, which the lip alone has, the share that its rate has of both's; where the lip bottoms
+/// out that is told for its soft part still. Along the wall and against tilting the wall is rigid:
+/// a plate is far stiffer against a moment than a bed of springs that yields as it does to a push.
+[[nodiscard]] LipParameters on_wall(const LipParameters& lip, const WallGeometry& wall);
+
 /// Where the lip is relative to the wall, in the tangent frame T of the spot under its centre.
 /// The lip takes the wall for flat: over its width a wall of curvature k leaves the tangent plane
 /// by k R^2 / 2 (0.2 mm for 40 mm on a radius of 5 m), which the rubber is taken to follow.

@@ -22,7 +22,8 @@ namespace limpet::suction {
 //   pump   S (P_m - P_ult) while it runs, a check valve else: a diaphragm pump whose dead volume
 //          expands again has this straight line
 //   leak   C(N) = C_100 ((100 N + N_0) / (N + N_0))^m: a gap under a rough lip closes as the lip is
-//          pressed; N = (P_atm - P) A + press
+//          pressed; N = (P_atm - P) A + press. Graded over the lip: a moment M about it presses one
+//          side more and the other less, per length as 1 + e cos(theta), e = 2 M / (R (N + N_0))
 //   hole   orifice, choked below 0.53 P_atm
 //   hose   friction and ends: Q = G sqrt(P^2 - P_m^2), turbulent isothermal flow
 
@@ -36,11 +37,22 @@ struct PneumaticParameters {
     double hose_bore_mm = 4.0;
     double hose_length_m = 0.5;
     double partial_seal_area_mm2 = 0.0;  ///< hole where the lip does not meet the wall
+    bool graded_seal = false;            ///< a moment on the lip makes its leak uneven
 };
 
 /// @param clamping_N  force between lip and wall, >= 0 [N]
 /// @return C(N) [m^3/s]
 [[nodiscard]] double leak_conductance_m3_s(const Surface& surface, double clamping_N);
+
+/// What a lip that is clamped unevenly leaks, over what it would leak evenly.
+struct GradedLeak {
+    double ratio = 1.0;     ///< mean of (1 + e cos(theta))^-m over the circumference
+    double by_grade = 0.0;  ///< its slope by e
+};
+/// @param exponent  m
+/// @param grade     e, 0 even, 1 where one side begins to lift; taken as 0.98 at most
+/// By 64 points, to 1e-6 up to e = 0.9. Closed forms: m = 1 (1 - e^2)^-1/2, m = 2 (1 - e^2)^-3/2.
+[[nodiscard]] GradedLeak graded_leak(double exponent, double grade);
 
 /// Flow of air through a hole, isentropic up to the throat.
 /// @param area_m2        of the hole
@@ -70,6 +82,7 @@ struct CupAir {
     double leak_exponent = 0.0;  ///< m
     double area_m2 = 0.0;        ///< on which the vacuum clamps
     double press_N = 0.0;        ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
+    double uneven_N = 0.0;       ///< 2 M / R, of a graded seal: e times what clamps
     double hole_m2 = 0.0;        ///< to the atmosphere: unsealed part of the lip, open valve
     double off_wall_m3_s = 0.0;  ///< conductance of the open mouth of a cup off the wall
     double ambient_Pa = kAtmosphere_Pa;  ///< of the air around, of all cups on a pump the same

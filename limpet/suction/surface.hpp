@@ -35,6 +35,7 @@ struct SealedAir {
     const Surface& surface;     ///< of the spot under the cup
     double radius_m = 0.0;      ///< sealed
     double press_N = 0.0;       ///< presses the lip beyond the vacuum, < 0: the vehicle pulls
+    double peel_N_m = 0.0;      ///< moment that presses one side of the lip more than the other
     double pressure_Pa = 0.0;   ///< absolute, mean over the pump's strokes
     bool pump_resting = false;  ///< so far
     bool pump_running = false;

@@ -27,6 +27,11 @@ struct RotorParameters {
     double height_m = 0.04;              ///< of the propeller planes above the centre of mass
     double axial_loss_speed_m_s = 25.0;  ///< thrust is gone at this speed along the axis
     bool speed_follows_voltage = false;  ///< at any command, not the highest speed alone
+    /// A motor by its numbers (motor.hpp) in the place of the time constants; KV 0: none.
+    double motor_kv_rpm_V = 0.0;
+    double motor_resistance_ohm = 0.15;  ///< winding, speed controller and leads, of one motor
+    double spin_inertia_kg_m2 = 1e-4;    ///< propeller and bell
+    bool motor_brakes = true;            ///< the speed controller slows it down as it speeds it up
     /// Of the air around to that of the constants above, all of which go with it; the
     /// environment's, no row.
     double density_ratio = 1.0;

@@ -37,6 +37,19 @@ const ParameterTable<RotorParameters>& rotor_table() {
          "voltage "
          "under load, as told at 3.7 V a cell; off: the highest speed alone, below that voltage",
          "brushless motor: speed = KV x duty x voltage; Gazebo motor model: none"},
+        {"motor_kv_rpm_V", "rpm/V", 0.0, 1e5, &P::motor_kv_rpm_V,
+         "speed over voltage of the motor; 0: both time constants instead; else they are not used, "
+         "the lag follows from KV, resistance, inertia and speed",
+         "off; paper: 380"},
+        {"motor_resistance_ohm", "ohm", 1e-3, 100.0, &P::motor_resistance_ohm,
+         "of one motor's winding, speed controller and leads",
+         "assumed: facts.md section 1, 0.10..0.25"},
+        {"spin_inertia_kg_m2", "kg m^2", 1e-8, 1.0, &P::spin_inertia_kg_m2,
+         "of a propeller and its motor's bell about the axis",
+         "assumed: a 12 in carbon propeller's"},
+        {"motor_brakes", "switch", 0.0, 1.0, &P::motor_brakes,
+         "the speed controller brakes; off: a motor that is too fast runs down in the air",
+         "assumed: damped or active freewheeling, as today's controllers do"},
     };
     return table;
 }

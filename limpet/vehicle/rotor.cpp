@@ -17,6 +17,13 @@ double steady_speed_rad_s(const RotorParameters& rotor, double command) {
     return rotor.speed_offset_rad_s + rotor.speed_scale_rad_s * std::clamp(command, 0.0, 1.0);
 }
 
+/// What a battery makes of a speed that the nominal voltage holds.
+double driven_rad_s(const RotorParameters& rotor, double nominal_rad_s, double drive_share) {
+    return rotor.motor_kv_rpm_V > 0.0
+               ? speed_by_voltage_rad_s(motor_law(rotor), nominal_rad_s, drive_share)
+               : nominal_rad_s * drive_share;
+}
+
 /// So many rotors side by side.
 constexpr std::size_t kAbreast = 4;
 static_assert(kMaxRotors % kAbreast == 0);
@@ -64,12 +71,13 @@ RotorsState standing(std::size_t count) {
 
 RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command,
                      double drive_share) {
-    const double asked_rad_s = steady_speed_rad_s(rotor, command) * drive_share;
+    const double asked_rad_s = driven_rad_s(rotor, steady_speed_rad_s(rotor, command), drive_share);
     RotorsState state;
     for (auto& asked : state.asked_rad_s) {
         std::fill_n(asked.begin(), count, asked_rad_s);
     }
-    state.speed_rad_s.resize(count, std::min(asked_rad_s, rotor.speed_max_rad_s * drive_share));
+    state.speed_rad_s.resize(
+        count, std::min(asked_rad_s, driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share)));
     return state;
 }
 
@@ -94,7 +102,8 @@ double hover_drive_share(const AirframeNumbers& airframe) {
 }
 
 double hover_command(const AirframeNumbers& airframe) {
-    const double speed_rad_s = hover_speed_rad_s(airframe) / hover_drive_share(airframe);
+    const double speed_rad_s = driven_rad_s(airframe.rotor, hover_speed_rad_s(airframe),
+                                            1.0 / hover_drive_share(airframe));
     return (speed_rad_s - airframe.rotor.speed_offset_rad_s) / airframe.rotor.speed_scale_rad_s;
 }
 
@@ -103,7 +112,9 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
     require(delay < kCommandDelaySteps, "the rotors' dead time fits their delay line");
     return {.delay = delay,
             .keep_up = std::exp(-dt_s / rotor.time_constant_up_s),
-            .keep_down = std::exp(-dt_s / rotor.time_constant_down_s)};
+            .keep_down = std::exp(-dt_s / rotor.time_constant_down_s),
+            .dt_s = dt_s,
+            .motor = rotor.motor_kv_rpm_V > 0.0 ? motor_law(rotor) : MotorLaw{}};
 }
 
 LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
@@ -115,12 +126,15 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
     if (rotor.speed_follows_voltage) {
-        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= drive_share; });
+        for_each(count, [&](std::size_t i) {
+            newest_rad_s[i] = driven_rad_s(rotor, newest_rad_s[i], drive_share);
+        });
     }
     if (speed_share != nullptr) {
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
-    const double limit_rad_s = rotor.speed_max_rad_s * drive_share;
+    const bool motor = rotor.motor_kv_rpm_V > 0.0;
+    const double limit_rad_s = driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share);
     std::size_t oldest = 0;
     for (int k = 0; k < steps; ++k) {
         if (k == 0 || lag.delay > 0) {
@@ -129,6 +143,14 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
             state.next = (state.next + 1) % kCommandDelaySteps;
         }
         const auto& asked_rad_s = state.asked_rad_s[oldest];
+        if (motor) {
+            for_each(count, [&](std::size_t i) {
+                state.speed_rad_s[i] =
+                    speed_after_rad_s(lag.motor, state.speed_rad_s[i],
+                                      std::min(asked_rad_s[i], limit_rad_s), lag.dt_s);
+            });
+            continue;
+        }
         for_each(count, [&](std::size_t i) {
             const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
             const double error_rad_s = state.speed_rad_s[i] - target_rad_s;

@@ -9,10 +9,12 @@
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/wrench.hpp"
 #include "limpet/vehicle/airframe.hpp"
+#include "limpet/vehicle/motor.hpp"
 
 /// The motor model of PX4's Gazebo Classic, rotors whose axes are z of B.
 ///
-///   command u -> speed offset + scale u -> dead time -> limit -> first-order lag -> speed w
+///   command u -> speed offset + scale u -> dead time -> limit -> lag -> speed w; the lag is of
+///   first order, or a motor's (motor.hpp)
 ///   thrust    T = c k_mot w^2 s,  s = clamp(1 - |v_par| / 25 m/s, 0, 1)    along -z
 ///   yaw       dir k_mot w^2 k_mom                                          about +z
 ///   drag      -w lambda_1 v_perp                                           at the hub
@@ -20,8 +22,7 @@
 ///
 /// v is the hub's velocity relative to the air, v_par along the axis, v_perp across it; dir is +1
 /// for a rotor that turns counter-clockwise seen from above, c what the wake of a rotor above it
-/// leaves of its thrust. The spin of motor and propeller has no inertia here: its reaction on yaw
-/// is left out.
+/// leaves of its thrust. The reaction on yaw of a rotor that speeds up is left out.
 /// Source: PX4-SITL_gazebo-classic, gazebo_motor_model.cpp; facts.md section 1.
 namespace limpet::vehicle {
 
@@ -84,6 +85,8 @@ struct RotorLag {
     std::size_t delay = 0;  ///< dead time in steps
     double keep_up = 0.0;   ///< what is left of an error after a step, while speeding up
     double keep_down = 0.0;
+    double dt_s = 0.0;
+    MotorLaw motor = {};  ///< in their place, where there is one
 };
 /// @param dt_s  > 0
 /// @throws InternalError when the dead time is not less than kCommandDelaySteps steps

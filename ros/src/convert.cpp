@@ -82,6 +82,7 @@ constexpr ContactNumber kContactNumbers[] = {
     {&suction::LipContact::tilt_rad, &CupContact::tilt_rad},
     {&suction::LipContact::press_N, &CupContact::press_N},
     {&suction::LipContact::pull_N, &CupContact::pull_N},
+    {&suction::LipContact::peel_N_m, &CupContact::peel_N_m},
     {&suction::LipContact::pull_margin_N, &CupContact::pull_margin_N},
     {&suction::LipContact::shear_margin_N, &CupContact::shear_margin_N},
     {&suction::LipContact::peel_margin_N, &CupContact::peel_margin_N},

@@ -145,6 +145,7 @@ TEST(RosConvert, AContactComesBackWhole) {
                                       .gap_m = -0.001,
                                       .lies_still = false,
                                       .let_go = suction::LetGo::sheared,
+                                      .peel_N_m = 0.3,
                                       .shear_margin_N = -2.0};
     const auto back = lip_contact(contact_message(contact));
     ASSERT_TRUE(back);
@@ -152,6 +153,7 @@ TEST(RosConvert, AContactComesBackWhole) {
     EXPECT_FALSE(back->lies_still);
     EXPECT_EQ(back->let_go, suction::LetGo::sheared);
     EXPECT_EQ(back->gap_m, contact.gap_m);
+    EXPECT_EQ(back->peel_N_m, contact.peel_N_m);
     EXPECT_EQ(back->shear_margin_N, contact.shear_margin_N);
     auto broken = contact_message(contact);
     broken.let_go = 9;

@@ -76,8 +76,8 @@ struct LegsOnWall {
     std::unique_ptr<Plant> plant;
     Vector3 tips_B{airframe.legs.tip_x_m, 0.0, airframe.legs.tip_z_m};
 
-    explicit LegsOnWall(const Engine& engine)
-        : plant(engine.make(airframe, test::wall_ahead())->make()) {
+    explicit LegsOnWall(const Engine& engine, const models::Scene& scene = test::wall_ahead())
+        : plant(engine.make(airframe, scene)->make()) {
         const Quaternion q_WB = quaternion_from_euler({.pitch_rad = radians(60.0)});
         const double reach_m = (q_WB * tips_B).x() + airframe.legs.tip_radius_m;
         plant->set_pose({1.5 - reach_m - 1e-4, 0.0, 0.0}, q_WB);
@@ -129,6 +129,25 @@ TEST_P(Contact, SwitchedOnItIsFeltInTheVeryNextStep) {
     }
     legs.step(20.0, {.step_s = 1e-3, .contacts = true});
     EXPECT_LT(legs.plant->contact_force_W().x(), 0.0);
+}
+
+/// Each tip goes into it by its share of the push; on such a wall the vehicle swings for long.
+TEST(ReducedPlant, AWallThatYieldsGivesWayToTheLegs) {
+    const auto mean_tip_m = [](LegsOnWall legs) {
+        constexpr int kFrom = 1000, kSteps = 3000;
+        double sum_m = 0.0;
+        for (int i = 0; i < kSteps; ++i) {
+            legs.step(20.0, {.step_s = 1e-3, .contacts = true});
+            const Kinematics base = legs.plant->kinematics(Body::base);
+            sum_m += i >= kFrom ? (base.p_WF_m + base.q_WF * legs.tips_B).x() : 0.0;
+        }
+        return sum_m / (kSteps - kFrom);
+    };
+    models::Scene scene = test::wall_ahead();
+    scene.wall.stiffness_N_m = 5e3;
+    const double given_m =
+        mean_tip_m(LegsOnWall(kReducedEngine, scene)) - mean_tip_m(LegsOnWall(kReducedEngine));
+    EXPECT_NEAR(given_m, 10.0 / 5e3, 4e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Ray, test::each_engine(), test::engine_name);

@@ -57,8 +57,25 @@ TEST(Walls, ABladeTurnsTheRestByWhatTheLegsReach) {
                 degrees(farther_m / lever_m), 0.15);
 }
 
+/// The lip comes out by the cup's pull over the wall's stiffness, each tip goes in by half of what
+/// the legs push (the rest of the pull is idling rotors'); the vehicle turns by both over its
+/// lever.
+TEST(Walls, CladdingTurnsTheRestByWhatItYields) {
+    const vehicle::LegParameters legs;
+    const vehicle::CupMountParameters mount;
+    const double lever_m = std::hypot(mount.joint_x_m - legs.tip_x_m, legs.tip_z_m);
+    const Rested rigid = rested("perch_metal_valve"), cladding = rested("perch_cladding");
+    const double pull_N = cladding.state.cup.status.pull_N;
+    const double legs_N =
+        pull_N - cladding.state.truth.thrust_N * std::sin(radians(cladding.pitch_deg));
+    const double yields_m = (pull_N + 0.5 * legs_N) / 4600.0;
+    EXPECT_GT(yields_m, 2e-3);
+    EXPECT_NEAR(cladding.pitch_deg - rigid.pitch_deg, degrees(yields_m / lever_m), 0.03);
+}
+
 TEST(Walls, AllAreReleased) {
-    for (const char* name : {"perch_wet_metal", "perch_blade", "perch_overhang"}) {
+    for (const char* name : {"perch_wet_metal", "perch_blade", "perch_overhang", "perch_cladding",
+                             "perch_swaying_blade"}) {
         EXPECT_EQ(fly(build_model(scenario::load_scenario(name))).outcome, Outcome::released)
             << name;
     }

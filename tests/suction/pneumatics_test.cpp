@@ -160,6 +160,55 @@ TEST(Pneumatics, PullingOnTheCupCostsVacuum) {
     EXPECT_LT(steady_Pa({}, 60.0), steady_Pa({}, 0.0) - 1000.0);
 }
 
+TEST(GradedSeal, IsTheIntegralAroundTheLip) {
+    for (const double e : {0.0, 0.2, 0.5, 0.9}) {
+        const double rest = 1.0 - e * e;
+        EXPECT_NEAR(graded_leak(1.0, e).ratio, 1.0 / std::sqrt(rest), 1e-6);
+        EXPECT_NEAR(graded_leak(2.0, e).ratio, std::pow(rest, -1.5), 1e-4);
+        EXPECT_NEAR(graded_leak(1.0, e).by_grade, e * std::pow(rest, -1.5), 1e-4);
+    }
+    // 2F1(m/2, (m+1)/2; 1; e^2) by its series
+    const double m = 0.425, e = 0.6;
+    double sum = 0.0, term = 1.0;
+    for (int k = 0; k < 200; ++k) {
+        sum += term;
+        term *= (0.5 * m + k) * (0.5 * (m + 1.0) + k) / ((k + 1.0) * (k + 1.0)) * e * e;
+    }
+    EXPECT_NEAR(graded_leak(m, e).ratio, sum, 1e-9);
+    EXPECT_TRUE(std::isfinite(graded_leak(0.95, 5.0).ratio));
+}
+
+/// Where the lip's law lets go by peeling, M = N R / 2, one side of it bears nothing but itself.
+TEST(GradedSeal, AMomentCostsVacuumAndTheStepStaysOfSecondOrder) {
+    const Pump pump = pump_of({}, true);
+    const auto cup_with = [](double moment_N_m) {
+        CupAir cup = sealed({}, Surface{});
+        cup.uneven_N = 2.0 * moment_N_m / kRadius_m;
+        return cup;
+    };
+    double before_Pa = 0.0;
+    for (const double moment_N_m : {0.0, 0.8, 1.6, 2.4}) {
+        const CupAir cup = cup_with(moment_N_m);
+        const double pressure_Pa = after(pump, cup, kAtmosphere_Pa, 20.0, 1e-3);
+        EXPECT_GT(pressure_Pa, before_Pa);
+        const double clamping_N = (kAtmosphere_Pa - pressure_Pa) * kPi * kRadius_m * kRadius_m;
+        const double manifold_Pa =
+            manifold_pressure_Pa(pump, std::span(&cup, 1), std::span(&pressure_Pa, 1));
+        const double grade = 2.0 * moment_N_m / kRadius_m / (clamping_N + 5.0);
+        ASSERT_LT(grade, 0.98);
+        EXPECT_NEAR(14.0 / 60e3 * (manifold_Pa - 24000.0),
+                    leak_conductance_m3_s(Surface{}, clamping_N) *
+                        graded_leak(Surface{}.leak_clamping_exponent, grade).ratio *
+                        (kAtmosphere_Pa - pressure_Pa),
+                    1e-4);
+        before_Pa = pressure_Pa;
+    }
+    const CupAir cup = cup_with(2.0);
+    const auto at = [&](double dt_s) { return after(pump, cup, 75000.0, 0.256, dt_s); };
+    const double exact_Pa = at(1e-5);
+    EXPECT_NEAR(std::abs(at(1e-3) - exact_Pa) / std::abs(at(5e-4) - exact_Pa), 4.0, 0.5);
+}
+
 TEST(Pneumatics, ALongHoseIsSlowAndABlockedOneSucksNothing) {
     PneumaticParameters wide;
     PneumaticParameters narrow;
