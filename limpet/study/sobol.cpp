@@ -28,9 +28,10 @@ Moments moments_of(const std::vector<double>& values) {
     return of;
 }
 
+/// A correlation and how each of the pairs bears on it.
 struct Correlation {
     double value = kNaN;
-    campaign::Interval interval = {kNaN, kNaN};
+    std::vector<double> influence;
 };
 
 Correlation correlation(const std::vector<double>& x, const std::vector<double>& y) {
@@ -42,21 +43,54 @@ Correlation correlation(const std::vector<double>& x, const std::vector<double>&
     const auto standard = [](double value, const Moments& of) {
         return (value - of.mean) / of.deviation;
     };
-    double sum = 0.0;
+    Correlation found{.value = 0.0, .influence = {}};
     for (std::size_t i = 0; i < x.size(); ++i) {
-        sum += standard(x[i], of_x) * standard(y[i], of_y);
+        found.value += standard(x[i], of_x) * standard(y[i], of_y) / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double u = standard(x[i], of_x), v = standard(y[i], of_y);
+        found.influence.push_back(u * v - 0.5 * found.value * (u * u + v * v));
+    }
+    return found;
+}
+
+double dot(const std::vector<double>& x, const std::vector<double>& y) {
+    return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+}
+
+/// Less what another correlation, whose truth is 0, happens to be: as much of it as both go
+/// together.
+Correlation beside(const Correlation& one, const Correlation& none) {
+    const double squares = dot(none.influence, none.influence);
+    if (!std::isfinite(one.value) || !(squares > 0.0)) {
+        return one;
+    }
+    const double share = dot(one.influence, none.influence) / squares;
+    Correlation less = one;
+    less.value -= share * none.value;
+    for (std::size_t i = 0; i < less.influence.size(); ++i) {
+        less.influence[i] -= share * none.influence[i];
+    }
+    return less;
+}
+
+struct Told {
+    double value;
+    campaign::Interval interval;
+};
+
+/// In Fisher's z.
+Told told(const Correlation& correlation) {
+    if (!std::isfinite(correlation.value)) {
+        return {kNaN, {kNaN, kNaN}};
     }
     // Beyond it Fisher's z has no number: two samples that are one.
     constexpr double kMost = 1.0 - 1e-12;
-    const double r = std::clamp(sum / n, -kMost, kMost);
-    double influence2 = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double u = standard(x[i], of_x), v = standard(y[i], of_y);
-        const double influence = u * v - 0.5 * r * (u * u + v * v);
-        influence2 += influence * influence;
-    }
+    const double r = std::clamp(correlation.value, -kMost, kMost);
     const double z = std::atanh(r);
-    const double half = campaign::kNormal95 * std::sqrt(influence2) / n / (1.0 - r * r);
+    const double half = campaign::kNormal95 *
+                        std::sqrt(dot(correlation.influence, correlation.influence)) /
+                        static_cast<double>(correlation.influence.size()) / (1.0 - r * r);
     return {r, {std::tanh(z - half), std::tanh(z + half)}};
 }
 
@@ -64,11 +98,12 @@ Correlation correlation(const std::vector<double>& x, const std::vector<double>&
 
 std::vector<SobolIndex> sobol_indices(const PickFreeze& figure) {
     require(figure.a.size() > 1 && figure.b.size() == figure.a.size(), "two samples alike");
+    const Correlation of_none = correlation(figure.a, figure.b);
     std::vector<SobolIndex> indices;
     for (const std::vector<double>& mixed : figure.mixed) {
         require(mixed.size() == figure.a.size(), "a mixed sample for each input");
-        const Correlation with_b = correlation(figure.b, mixed);
-        const Correlation with_a = correlation(figure.a, mixed);
+        const Told with_b = told(beside(correlation(figure.b, mixed), of_none));
+        const Told with_a = told(correlation(figure.a, mixed));
         indices.push_back({.first = with_b.value,
                            .first_95 = with_b.interval,
                            .total = 1.0 - with_a.value,

@@ -25,11 +25,14 @@ struct PickFreeze {
 
 /// Martinez's estimators: S = corr(b, mixed), T = 1 - corr(a, mixed), which are sound for any mean
 /// and scale; the intervals by the correlation's own influence function, so that they hold for
-/// figures that are far from normal, an event's 0 and 1 too, in Fisher's z.
+/// figures that are far from normal, an event's 0 and 1 too, in Fisher's z. Of S goes what of
+/// corr(a, b), whose truth is 0, goes along with it: of an input that does little, mixed is nearly
+/// a, and most of what chance there is.
 /// @return one an input; NaN where the figure does not vary
 /// Source: Martinez, "Analyse de sensibilite globale par decomposition de la variance", GdR Ondes
 /// et MASCOT-NUM, 2011; Baudin et al., "Numerical stability of Sobol' indices estimation formula",
-/// SAMO 2016; influence of a correlation: Hampel et al., "Robust statistics", 1986, ch. 4.
+/// SAMO 2016; influence of a correlation: Hampel et al., "Robust statistics", 1986, ch. 4;
+/// control variates: Owen, "Monte Carlo theory, methods and examples", 2013, 8.9.
 [[nodiscard]] std::vector<SobolIndex> sobol_indices(const PickFreeze& figure);
 
 }  // namespace limpet::study

@@ -96,6 +96,21 @@ struct SobolCase {
     std::vector<SobolIndex> truth;
 };
 
+/// An input that does little: as a pair of correlations its share is as uncertain as one that does
+/// much.
+TEST(Sobol, ASmallShareIsFoundFromFewFlights) {
+    const Function small = [](const Inputs& u) { return u[0] + 0.1 * u[1]; };
+    const double truth = 0.01 / 1.01;
+    constexpr std::uint32_t kTrials = 100;
+    constexpr std::size_t kSamples = 256;
+    double squares = 0.0;
+    for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+        const double off = sobol_indices(flown(small, 2, kSamples, trial))[1].first - truth;
+        squares += off * off / kTrials;
+    }
+    EXPECT_LT(std::sqrt(squares), 0.3 / std::sqrt(kSamples));  // a correlation's: 1 / sqrt(n)
+}
+
 /// Of 300 studies each, how many intervals hold what is known; two of three deviations of 95 % of
 /// 300 are 2.5 %, and a small sample's are a little short.
 TEST(Sobol, IntervalsHoldTheTruthInNinetyToNinetyNineOfAHundred) {
