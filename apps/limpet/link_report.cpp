@@ -104,11 +104,11 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
     if (hil.send_jitter.count() > 0) {
         terminal.line("jitter", quantiles(hil.send_jitter));
     }
-    if (performance.wall_s > 0.0 && !(speed_ > 0.0)) {
+    if (const auto own_share = performance.own_share()) {
         terminal.line("share",
                       fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
                                   "the autopilot's",
-                                  100.0 * performance.own_share()));
+                                  100.0 * *own_share));
     }
 }
 
@@ -128,7 +128,9 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     json["send_jitter"] = json_of(hil.send_jitter);
     json["wall_s"] = performance.wall_s;
     json["waited_for_autopilot_s"] = performance.waited_s;
-    json["own_share"] = performance.own_share();
+    if (const auto own_share = performance.own_share()) {
+        json["own_share"] = *own_share;
+    }
     std::vector<std::filesystem::path> files = {folder / "link.json"};
     write_file(files.front(), json.dump(2) + "\n");
     if (figures) {

@@ -237,6 +237,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
     FlightResult result = result_of(flight, pace.elapsed_s());
     result.events = std::move(events);
     result.recording = recording;
+    result.performance.paced = conduct.speed > 0.0;
     if (autopilot != nullptr) {
         result.performance.waited_s = autopilot->waited_s() - waited_s;
         result.autopilot = autopilot->identity();

@@ -95,12 +95,16 @@ struct FlightPerformance {
     double simulated_s = 0.0;
     double wall_s = 0.0;
     double waited_s = 0.0;  ///< of it for an autopilot behind a wire
+    bool paced = false;     ///< it kept to the clock
     long long physics_steps = 0;
     [[nodiscard]] double real_time_factor() const {
         return wall_s > 0.0 ? simulated_s / wall_s : 0.0;
     }
     /// Of the wall time, what was ours and not the autopilot's.
-    [[nodiscard]] double own_share() const { return wall_s > 0.0 ? 1.0 - waited_s / wall_s : 1.0; }
+    /// @return nullopt where the flight kept to the clock: most of it was neither's
+    [[nodiscard]] std::optional<double> own_share() const {
+        return paced || !(wall_s > 0.0) ? std::nullopt : std::optional(1.0 - waited_s / wall_s);
+    }
 };
 
 struct FlightResult {

@@ -84,8 +84,8 @@ std::string result_json(const FlightResult& result) {
                            {"wall_s", result.performance.wall_s},
                            {"real_time_factor", result.performance.real_time_factor()},
                            {"physics_steps", result.performance.physics_steps}};
-    if (result.autopilot) {  // of no meaning where the flight keeps to the clock
-        json["performance"]["own_share"] = result.performance.own_share();
+    if (const auto own_share = result.performance.own_share(); result.autopilot && own_share) {
+        json["performance"]["own_share"] = *own_share;
     }
     json["recording"] = result.recording.empty() ? Json(nullptr) : Json(result.recording.string());
     json["state_hash"] = hex(result.state_hash);

@@ -36,6 +36,8 @@ TEST(ResultJson, BehindAWireItTellsWhoseTheTimeWas) {
     result.performance = {.simulated_s = 10.0, .wall_s = 2.0, .waited_s = 1.5};
     const auto json = nlohmann::json::parse(result_json(result));
     EXPECT_DOUBLE_EQ(json["performance"]["own_share"].get<double>(), 0.25);
+    result.performance.paced = true;  // it waited for the clock as well
+    EXPECT_FALSE(nlohmann::json::parse(result_json(result))["performance"].contains("own_share"));
 }
 
 TEST(ResultJson, SummaryForRecordingsKnowsNothingOfTheMachine) {
