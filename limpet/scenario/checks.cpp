@@ -92,6 +92,26 @@ void check_ceiling(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// It hangs, and does not lie there, when the flight begins.
+void check_payload(const Scenario& scenario, const YamlNode& root) {
+    const vehicle::PayloadParameters& payload = scenario.airframe.payload;
+    if (!(payload.mass_kg > 0.0)) {
+        for (const faults::Fault& fault : scenario.faults) {
+            if (fault.kind == faults::FaultKind::cable_breaks) {
+                fail_at(root, "faults",
+                        "cable_breaks needs a payload: vehicle.payload.mass_kg is 0");
+            }
+        }
+        return;
+    }
+    const double free_m = scenario.simulation.start_height_m - payload.hook_z_m;
+    if (payload.cable_length_m >= free_m) {
+        fail_at(root, "vehicle.payload.cable_length_m",
+                fmt::format("{:.6g} m reach the ground at the start, allowed is less than {:.6g}",
+                            payload.cable_length_m, free_m));
+    }
+}
+
 /// Vacuum begins below the pressure of the air.
 void check_vacuum(const Scenario& scenario, const YamlNode& root) {
     const double ambient_Pa = scenario.cup.ambient_Pa;
@@ -207,6 +227,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_environment(scenario.environment, root);
     check_vacuum(scenario, root);
     check_ceiling(scenario, root);
+    check_payload(scenario, root);
     check_steps(scenario.simulation, root);
     check_mount(scenario, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,
