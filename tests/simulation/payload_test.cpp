@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/files.hpp"
 #include "flown.hpp"
 #include "limpet/core/atmosphere.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/record/recording.hpp"
+#include "limpet/record/story.hpp"
 #include "limpet/simulation/advance.hpp"
+#include "limpet/simulation/flight_log.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -246,6 +250,40 @@ TEST(PayloadInTheLoop, ACableThatBreaksLeavesALighterVehicle) {
     EXPECT_GT(rose_m, 0.01);
     EXPECT_LT(rose_m, 0.5);
     EXPECT_NEAR(truth.base.p_WF_m.z(), 0.0, 0.05);
+}
+
+/// Where there is a payload there is its channel, and in it what was true.
+TEST(PayloadInTheLoop, IsRecordedWhereThereIsOne) {
+    const TestFolder folder;
+    const auto recorded = [&](const std::string& mass_kg) {
+        const auto model =
+            model_of("hover", {"vehicle.payload.mass_kg=" + mass_kg, "simulation.hover_s=0.5"});
+        Flight flight(model);
+        FlightLog log(folder / "a.mcap", *model, {});
+        PayloadStatus last;
+        while (!flight.ended()) {
+            const guidance::EventList& events = flight.tick();
+            log.tick(*model, flight.state(), events);
+            last = due(flight.state().tick, model->record_rate_Hz) ? flight.state().truth.payload
+                                                                   : last;
+        }
+        log.finish("{}");
+        return std::pair(record::read_recording(folder / "a.mcap"), last);
+    };
+    const auto [without, none] = recorded("0");
+    EXPECT_EQ(find_table(without, record::kPayloadTopic), nullptr);
+    const auto [with, last] = recorded("0.2");
+    const record::Table* table = find_table(with, record::kPayloadTopic);
+    ASSERT_NE(table, nullptr);
+    const auto last_of = [&](std::string_view column) {
+        const record::Column* found = table->find(column);
+        return found == nullptr ? kNaN : found->values.back();
+    };
+    ASSERT_GT(table->time_s.size(), 40U);
+    EXPECT_EQ(last_of("tension_N"), last.tension_N);
+    EXPECT_EQ(last_of("down_m"), last.p_W_m.z());
+    EXPECT_EQ(last_of("velocity_north_m_s"), last.v_W_m_s.x());
+    EXPECT_EQ(last_of("cable_parted"), 0.0);
 }
 
 /// More than the rotors lift, a cable that reaches the ground: each in a line.
