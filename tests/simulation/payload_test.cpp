@@ -217,16 +217,6 @@ TEST(PayloadInTheLoop, PerchesRestsAndTakesOff) {
     EXPECT_NEAR(shear_N / count, weight_N, 0.01 * weight_N);
 }
 
-TEST(PayloadInTheLoop, EveryEngineFliesTheSameFlight) {
-    const auto metrics = [](const std::string& engine) {
-        return trace(model_of("perch_payload", {"simulation.engine=" + engine})).result;
-    };
-    const FlightResult ours = metrics("reduced"), theirs = metrics("mujoco");
-    EXPECT_EQ(ours.outcome, theirs.outcome);
-    EXPECT_NEAR(ours.metrics.impact_speed_m_s, theirs.metrics.impact_speed_m_s, 0.02);
-    EXPECT_NEAR(ours.metrics.perched_pitch_deg, theirs.metrics.perched_pitch_deg, 0.3);
-}
-
 /// The cable parts in a hover: the payload lies on the ground, the vehicle stays where it was told.
 TEST(PayloadInTheLoop, ACableThatBreaksLeavesALighterVehicle) {
     Flight flight(model_of("hover", hung({"faults=[{fault: cable_breaks, at_s: 2, for_s: 1}]",
