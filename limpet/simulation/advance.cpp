@@ -110,9 +110,9 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
-    if (acting.payload_to_right_kg_m != 0.0) {
-        air.wrench_W.moment_N_m +=
-            (acting.payload_to_right_kg_m * R_WB.col(1)).cross(kGravity_m_s2 * Vector3::UnitZ());
+    if (acting.payload_to_right_kg_m != 0.0 || acting.payload_ahead_kg_m != 0.0) {
+        const Vector3 shift_B_kg_m(acting.payload_ahead_kg_m, acting.payload_to_right_kg_m, 0.0);
+        air.wrench_W.moment_N_m += (R_WB * shift_B_kg_m).cross(kGravity_m_s2 * Vector3::UnitZ());
     }
     if (vehicle::acts(model.wall_air) && model.has_wall) {
         const Wrench wall_W = vehicle::wall_air_wrench_W(
