@@ -48,6 +48,8 @@ constexpr std::array<KindRow, kKinds> kRows = {{
     {FaultKind::gust_along, "a gust, so fast, into the wall (< 0: off it)", 0, "m/s", -4.0, -30.0, 30.0},
     {FaultKind::gust_across, "a gust, so fast, along the wall to the right", 0, "m/s", 4.0, -30.0, 30.0},
     {FaultKind::payload_shifts, "the payload moves to the right: mass times way", 0, "kg m", 0.01, -1.0, 1.0},
+    {FaultKind::payload_shifts_ahead, "likewise ahead", 0, "kg m", 0.01, -1.0, 1.0},
+    {FaultKind::cable_breaks, "the payload's cable parts, for good"},
     {FaultKind::leg_broken, "a leg (0 left, 1 right) breaks off: it touches nothing more", 2},
     {FaultKind::clock_jumps, "guidance's clock jumps so far ahead, for good: what was heard before looks so much older", 0, "s", 1.0, 0.0, 100.0},
 }};

@@ -48,6 +48,8 @@ enum class FaultKind {
     gust_along,
     gust_across,
     payload_shifts,
+    payload_shifts_ahead,
+    cable_breaks,
     leg_broken,
     clock_jumps,
 };

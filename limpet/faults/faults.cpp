@@ -74,6 +74,8 @@ void act(const FaultsModel& model, const Fault& fault, std::size_t rotors, Actin
             now.gust_W_m_s += fault.size * to_the_right(model.ahead_W);
             break;
         case FaultKind::payload_shifts: now.payload_to_right_kg_m += fault.size; break;
+        case FaultKind::payload_shifts_ahead: now.payload_ahead_kg_m += fault.size; break;
+        case FaultKind::cable_breaks: now.cable_breaks = true; break;
         case FaultKind::leg_broken:
             for (std::size_t leg = 0; leg < now.legs_lost.size(); ++leg) {
                 now.legs_lost[leg] = now.legs_lost[leg] || hits(fault, static_cast<int>(leg));
@@ -176,6 +178,8 @@ void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const
         case FaultKind::gust_along:
         case FaultKind::gust_across:
         case FaultKind::payload_shifts:
+        case FaultKind::payload_shifts_ahead:
+        case FaultKind::cable_breaks:
         case FaultKind::leg_broken:
         case FaultKind::clock_jumps: break;  // of what acts: above
     }

@@ -33,6 +33,8 @@ struct Acting {
     double hole_mm2 = 0.0;                 ///< to the atmosphere, in hose or lip
     Vector3 gust_W_m_s = Vector3::Zero();  ///< on top of the wind
     double payload_to_right_kg_m = 0.0;    ///< along y of B
+    double payload_ahead_kg_m = 0.0;       ///< along x of B
+    bool cable_breaks = false;             ///< the payload's
     std::array<bool, 2> legs_lost{};       ///< left, right
     double clock_ahead_s = 0.0;            ///< guidance's
 };

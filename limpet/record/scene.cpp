@@ -39,6 +39,8 @@ constexpr Colour kBeam = {0.9F, 0.2F, 0.2F, 0.7F};
 constexpr Colour kForce = {0.95F, 0.55F, 0.1F, 1.0F};
 constexpr Colour kThrust = {0.2F, 0.55F, 0.95F, 0.9F};
 constexpr Colour kWanted = {0.2F, 0.75F, 0.35F, 0.6F};
+constexpr Colour kCable = {0.25F, 0.25F, 0.28F, 1.0F};
+constexpr Colour kPayload = {0.55F, 0.4F, 0.25F, 1.0F};
 constexpr Colour kWay = {0.45F, 0.45F, 0.55F, 0.8F};
 
 /// visualization_msgs/Marker, of the kinds that are used.
@@ -225,7 +227,7 @@ void SceneWriter::move(const Truth& truth) {
 
 void SceneWriter::mark(const Truth& truth, const Readings& readings, const Setpoint& setpoint) {
     const Stamp at = stamp(truth.time_s);
-    std::array<Marker, kMaxRotors + 5> marks;
+    std::array<Marker, kMaxRotors + 7> marks;
     std::size_t count = 0;
     std::array<Ends, kMaxRotors> thrusts;
     for (std::size_t k = 0; k < scene_.rotor_p_B_m.size(); ++k) {
@@ -258,6 +260,25 @@ void SceneWriter::mark(const Truth& truth, const Readings& readings, const Setpo
         const Vector3 force = flu_from_frd(truth.cup_status.wrench_C.force_N);
         pull = {Vector3::Zero(), kArrow_m_N * force};
         marks[count++] = arrow_of(at, kLipFrame, "cup_force", 0, pull, kForce);
+    }
+    Ends cable;
+    if (scene_.hook_B_m) {
+        constexpr double kThick_m = 0.006, kBall_m = 0.1;
+        cable = {ros::enu_from_ned(truth.base.p_WF_m + truth.base.q_WF * *scene_.hook_B_m),
+                 ros::enu_from_ned(truth.payload.p_W_m)};
+        marks[count++] = {.at = at,
+                          .name = "cable",
+                          .type = Marker::line_strip,
+                          .there = !truth.payload.parted,
+                          .scale = {kThick_m, 0.0, 0.0},
+                          .colour = kCable,
+                          .points = cable};
+        marks[count++] = {.at = at,
+                          .name = "payload",
+                          .type = Marker::sphere,
+                          .p = cable[1],
+                          .scale = Vector3::Constant(kBall_m),
+                          .colour = kPayload};
     }
     const auto* wanted = std::get_if<PositionSetpoint>(&setpoint.motion);
     constexpr double kSpot_m = 0.06;

@@ -43,7 +43,8 @@ struct Scene {
     Vector3 joint_B_m = Vector3::Zero();  ///< of the cup, slider at its outer stop
     double lip_m = 0.0;                   ///< ahead of the joint
     RotorList<Vector3> rotor_p_B_m{};
-    RotorList<double> thrust_N_s2{};  ///< of each at 1 rad/s
+    RotorList<double> thrust_N_s2{};    ///< of each at 1 rad/s
+    std::optional<Vector3> hook_B_m{};  ///< where a payload's cable is made fast
 };
 
 /// The cup's joint turns about y, then about the turned z; as the vehicle's angles are.
@@ -87,7 +88,8 @@ public:
 
     /// /tf: where the bodies are.
     void move(const Truth& truth);
-    /// /scene: beams, forces and thrusts as arrows, where guidance wants it, and the way so far.
+    /// /scene: beams, forces and thrusts as arrows, where guidance wants it, the way so far; a
+    /// payload on its cable.
     void mark(const Truth& truth, const Readings& readings, const Setpoint& setpoint);
 
 private:

@@ -64,7 +64,13 @@ inline constexpr std::array<TopicInfo, 20> kTopics = {{
 [[nodiscard]] constexpr const TopicInfo& info(Topic topic) {
     return kTopics[static_cast<std::size_t>(topic)];
 }
-// Channels beside them, for viewers (scene.hpp): not read back as columns.
+// A channel beside them, of a vehicle with a payload on a cable alone: numbers in W.
+inline constexpr std::string_view kPayloadTopic = "/truth/payload";
+inline constexpr std::string_view kPayloadType = "limpet_msgs/msg/PayloadTruth";
+inline constexpr std::array<std::string_view, 8> kPayloadColumns = {
+    "north_m",           "east_m",    "down_m",      "velocity_north_m_s", "velocity_east_m_s",
+    "velocity_down_m_s", "tension_n", "cable_parted"};
+// Channels for viewers (scene.hpp): not read back as columns.
 inline constexpr std::string_view kDescriptionTopic = "/robot_description";
 inline constexpr std::string_view kMovingTopic = "/tf";
 inline constexpr std::string_view kStandingTopic = "/tf_static";

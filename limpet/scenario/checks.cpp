@@ -107,6 +107,17 @@ void check_ceiling(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// It hangs, and does not lie there, when the flight begins.
+void check_payload(const Scenario& scenario, const YamlNode& root) {
+    const vehicle::PayloadParameters& payload = scenario.airframe.payload;
+    const double free_m = scenario.simulation.start_height_m - payload.hook_z_m;
+    if (payload.mass_kg > 0.0 && payload.cable_length_m >= free_m) {
+        fail_at(root, "vehicle.payload.cable_length_m",
+                fmt::format("{:.6g} m reach the ground at the start, allowed is less than {:.6g}",
+                            payload.cable_length_m, free_m));
+    }
+}
+
 /// Vacuum begins below the pressure of the air.
 void check_vacuum(const Scenario& scenario, const YamlNode& root) {
     const double ambient_Pa = scenario.cup.ambient_Pa;
@@ -223,6 +234,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_environment(scenario.environment, root);
     check_vacuum(scenario, root);
     check_ceiling(scenario, root);
+    check_payload(scenario, root);
     check_steps(scenario.simulation, root);
     check_mount(scenario, root);
     check_order(root, "guidance", "land_pressure_Pa", scenario.guidance.land_pressure_Pa,

@@ -22,7 +22,7 @@ double drag_1_s(const Scenario& scenario) {
         spinning(rotor, 1, hover_command(scenario.airframe), hover_drive_share(scenario.airframe))
             .speed_rad_s[0];
     return static_cast<double>(scenario.airframe.rotors.size()) * rotor.drag_constant_kg *
-           rotor.density_ratio * hover_speed_rad_s / scenario.airframe.mass_kg;
+           rotor.density_ratio * hover_speed_rad_s / carried_mass_kg(scenario.airframe);
 }
 
 /// Within what guidance takes: a vehicle without a cup has legs of no meaning.

@@ -21,7 +21,9 @@ namespace limpet::scenario {
 ///   guidance.lidar_separation_m, lidar_x_m    the vehicle's lidar
 ///   guidance.joint_x_m, joint_z_m             the vehicle's cup
 ///   guidance.perched_pitch_deg                where the vehicle's legs and cup meet a vertical
-///   wall guidance.hover_thrust, MPC_THR_HOVER      u = (sqrt(m g / 4 k_mot) - offset) / scale
+///                                             wall
+///   guidance.hover_thrust, MPC_THR_HOVER      u = (sqrt(m g / 4 k_mot) - offset) / scale,
+///                                             m with the payload's, as in all below
 ///   guidance.zero_thrust                      u at which the rotors would stand: -offset / scale
 ///   guidance.drag_1_s                         4 lambda_1 w_hover / m
 ///   guidance.valve_fitted                     suction.valve_fitted

@@ -17,8 +17,8 @@ struct Note {
 Note lateral(const Scenario& scenario) {
     const suction::Surface surface = surfaces_met(scenario).back();
     const double ambient_Pa = scenario.cup.ambient_Pa;
-    const double has =
-        lateral_safety(surface, scenario.cup.lip.radius_m, scenario.airframe.mass_kg, ambient_Pa);
+    const double has = lateral_safety(surface, scenario.cup.lip.radius_m,
+                                      carried_mass_kg(scenario.airframe), ambient_Pa);
     const double asked = safety_factor_asked(surface, *scenario.wall.condition);
     return {has < asked,
             fmt::format("the cup carries {:.1f} times the weight along the wall (friction {:.3g}, "

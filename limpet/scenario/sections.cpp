@@ -60,7 +60,8 @@ std::vector<Section> vehicle_sections(vehicle::Airframe& airframe) {
             {"slider", bind(vehicle::slider_table(), airframe.slider)},
             {"cup", bind(vehicle::cup_mount_table(), airframe.cup)},
             {"legs", bind(vehicle::leg_table(), airframe.legs)},
-            {"battery", bind(vehicle::battery_table(), airframe.battery)}};
+            {"battery", bind(vehicle::battery_table(), airframe.battery)},
+            {"payload", bind(vehicle::payload_table(), airframe.payload)}};
 }
 
 std::vector<BoundParameter> rotor_rows(vehicle::Rotor& rotor) {

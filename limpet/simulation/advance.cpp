@@ -88,25 +88,31 @@ struct AirLoad {
         speeds_rad_s, base, wind_W_m_s);
 }
 
+/// The air as W sees it at the vehicle.
+Vector3 air_W_m_s(const FlightModel& model, const FlightState& state) {
+    Vector3 wind_W_m_s = vehicle::wind_W_m_s(model.wind, state.wind) + state.faults.now.gust_W_m_s;
+    if (model.swell.moves) {
+        wind_W_m_s -= swell_now(model, state).v_EW_W_m_s;
+    }
+    return wind_W_m_s;
+}
+
 AirLoad load_of_air(const FlightModel& model, const FlightState& state,
                     const RotorList<double>& speeds_rad_s) {
     const vehicle::AirframeNumbers& airframe = model.airframe;
     const Kinematics& base = state.truth.base;
     const Matrix3 R_WB = base.q_WF.toRotationMatrix();
     const faults::Acting& acting = state.faults.now;
-    Vector3 wind_W_m_s = vehicle::wind_W_m_s(model.wind, state.wind) + acting.gust_W_m_s;
-    if (model.swell.moves) {
-        wind_W_m_s -= swell_now(model, state).v_EW_W_m_s;
-    }
+    const Vector3 wind_W_m_s = air_W_m_s(model, state);
     const Wrench rotors_B = model.nearness.acts()
                                 ? near_wrench_B(model, speeds_rad_s, base, wind_W_m_s)
                                 : vehicle::rotor_wrench_B(airframe, speeds_rad_s, base, wind_W_m_s);
     AirLoad air{
         .wrench_W = {.force_N = R_WB * rotors_B.force_N, .moment_N_m = R_WB * rotors_B.moment_N_m},
         .thrust_N = -rotors_B.force_N.z()};
-    if (acting.payload_to_right_kg_m != 0.0) {
-        air.wrench_W.moment_N_m +=
-            (acting.payload_to_right_kg_m * R_WB.col(1)).cross(kGravity_m_s2 * Vector3::UnitZ());
+    if (acting.payload_to_right_kg_m != 0.0 || acting.payload_ahead_kg_m != 0.0) {
+        const Vector3 shift_B_kg_m(acting.payload_ahead_kg_m, acting.payload_to_right_kg_m, 0.0);
+        air.wrench_W.moment_N_m += (R_WB * shift_B_kg_m).cross(kGravity_m_s2 * Vector3::UnitZ());
     }
     if (vehicle::acts(model.wall_air) && model.has_wall) {
         const Wrench wall_W = vehicle::wall_air_wrench_W(
@@ -132,6 +138,20 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
         stay_behind(plant::Body::carriage, model.swell.carriage);
         stay_behind(plant::Body::cup, model.swell.cup);
     }
+}
+
+/// What hangs on the vehicle's cable goes a step along, and pulls; seldom.
+[[gnu::noinline]] void apply_payload(const FlightModel& model, FlightState& state,
+                                     plant::Plant& plant, double step_s) {
+    PayloadStatus& payload = state.truth.payload;
+    payload.parted = payload.parted || state.faults.now.cable_breaks;
+    vehicle::PayloadPull pull{.wind_W_m_s = air_W_m_s(model, state)};
+    if (model.swell.moves) {
+        pull.field_W_m_s2 -= swell_now(model, state).a_EW_W_m_s2;
+    }
+    const Kinematics& base = state.truth.base;
+    plant.apply(plant::Body::base, vehicle::step(model.payload, payload, base, pull, step_s),
+                base.p_WF_m);
 }
 
 }  // namespace
@@ -160,6 +180,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
         plant.apply(plant::Body::base, air.wrench_W, state.truth.base.p_WF_m);
         if (model.swell.moves) {
             apply_swell(model, state, plant);
+        }
+        if (model.payload.hangs) {
+            apply_payload(model, state, plant, mode.step_s);
         }
         if (model.mount != vehicle::Mount::free) {
             plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);

@@ -60,6 +60,7 @@ Snapshot first_state(const FlightModel& model, const FlightState& now, const pla
                      std::uint32_t run) {
     FlightState state = start(model, now.truth.base, now.truth.cup, run);
     state.truth.rotor_speed_rad_s = now.truth.rotor_speed_rad_s;
+    state.truth.payload = now.truth.payload;
     state.rotors = now.rotors;
     state.command = now.command;
     state.autopilot.estimate = now.autopilot.estimate;
@@ -91,7 +92,7 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
     autopilot::ExternalAutopilot& autopilot = *outside.autopilot;
     const FlightModel waiting = hovering(model);
     const Vector3 stand_W_m = model.start.p_WB_m + Vector3(0.0, 0.0, options.stand_below_m);
-    const double weight_N = model.airframe.mass_kg * kGravity_m_s2;
+    const double weight_N = carried_mass_kg(model.airframe) * kGravity_m_s2;
 
     const std::unique_ptr<plant::Plant> made = model.plant->make();
     plant::Plant& plant = *made;

@@ -45,6 +45,9 @@ record::Scene scene_of_recording(const FlightModel& model) {
         scene.thrust_N_s2[i] =
             airframe.rotors[i].thrust_share * airframe.rotor.thrust_per_speed_2_kg_m();
     }
+    if (model.payload.hangs) {
+        scene.hook_B_m = model.payload.hook_B_m;
+    }
     if (scenario.wall.present) {
         const models::FinishLook& finish =
             models::look(models::finish_of(scenario.wall.surface.name));
@@ -81,6 +84,11 @@ record::RecordingInfo describe(const FlightModel& model, const FlightLog::Option
                 {.topic = Sensor::kTopic, .type = Sensor::kMessage, .columns = Sensor::kColumns});
         }
     });
+    if (model.payload.hangs) {
+        info.columns.push_back({.topic = record::kPayloadTopic,
+                                .type = record::kPayloadType,
+                                .columns = record::kPayloadColumns});
+    }
     info.attachments.push_back({.name = "model.xml",
                                 .media_type = "application/xml",
                                 .text = write_mjcf(scenario.airframe, scene_of(scenario))});
@@ -126,6 +134,14 @@ void FlightLog::tick(const FlightModel& model, const FlightState& state,
     moment(model, moment_of(state));
 }
 
+void FlightLog::record_payload(std::size_t channel, const Truth& truth) {
+    const PayloadStatus& payload = truth.payload;
+    const Vector3 &p = payload.p_W_m, &v = payload.v_W_m_s;
+    const std::array<double, record::kPayloadColumns.size()> numbers = {
+        p.x(), p.y(), p.z(), v.x(), v.y(), v.z(), payload.tension_N, payload.parted ? 1.0 : 0.0};
+    recorder_.columns(channel, Sample<PayloadStatus>{truth.time_s, payload}, numbers);
+}
+
 void FlightLog::moment(const FlightModel& model, const Moment& now) {
     constexpr int kBrief_Hz = 25;
     if (brief_ && !due(now.tick, kBrief_Hz)) {
@@ -146,6 +162,9 @@ void FlightLog::moment(const FlightModel& model, const Moment& now) {
                        sensors::sampled(now.tick, model.sensors.parameters.force_rate_Hz);
     if (regular || touch) {
         recorder_.truth(now.truth);
+        if (model.payload.hangs) {
+            record_payload(channel, now.truth);
+        }
     }
     const int marks_Hz = brief_ ? 5 : 25;
     if (due(now.tick, marks_Hz)) {

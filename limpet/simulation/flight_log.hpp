@@ -63,6 +63,9 @@ public:
     void finish(const std::string& summary_json) { recorder_.finish(summary_json); }
 
 private:
+    /// @param channel  its place among the channels of columns
+    void record_payload(std::size_t channel, const Truth& truth);
+
     record::Recorder recorder_;
     Readings last_;
     bool brief_;

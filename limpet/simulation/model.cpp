@@ -38,7 +38,11 @@ Vector3 trim_W_m_s2(const FlightModel& model) {
     const Vector3 force_B_N =
         vehicle::rotor_wrench_B(model.airframe, rotors.speed_rad_s, level, model.wind.mean_W_m_s)
             .force_N;
-    return -(level.q_WF * Vector3(force_B_N.x(), force_B_N.y(), 0.0)) / model.airframe.mass_kg;
+    Vector3 force_W_N = level.q_WF * Vector3(force_B_N.x(), force_B_N.y(), 0.0);
+    if (model.payload.hangs) {
+        force_W_N += vehicle::drag_W_N(model.payload, model.wind.mean_W_m_s);
+    }
+    return -force_W_N / carried_mass_kg(model.airframe);
 }
 
 Quaternion leaning(const FlightModel& model, const Vector3& trim_W) {
@@ -57,7 +61,7 @@ Quaternion leaning(const FlightModel& model, const Vector3& trim_W) {
 autopilot::AutopilotModel autopilot_model(const scenario::Scenario& scenario) {
     const auto rotors = scenario::rotor_geometry(scenario.airframe);
     autopilot::AutopilotModel model = make_autopilot(scenario.autopilot, rotors);
-    model.vehicle = {.mass_kg = scenario.airframe.mass_kg,
+    model.vehicle = {.mass_kg = carried_mass_kg(scenario.airframe),
                      .inertia_kg_m2 = scenario.airframe.inertia_kg_m2,
                      .hover_thrust = vehicle::hover_command(scenario.airframe),
                      .rotor_p_B_m = RotorList<Vector3>(rotors.size())};
@@ -99,6 +103,9 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->nearness = make_nearness(scenario.environment.nearness, scenario.start.ground_z_W_m);
     model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
     model->swell = make_swell(scenario.environment.swell, model->ahead_W, scenario.airframe);
+    model->payload =
+        make_payload(scenario.airframe, scenario.start.ground_z_W_m,
+                     model->has_wall ? std::optional(scenario.wall.geometry) : std::nullopt);
     model->faults = {.faults = scenario.faults, .ahead_W = model->ahead_W};
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
                            attitude(scenario.start));
@@ -134,6 +141,9 @@ FlightState start(const FlightModel& model, const Kinematics& base, const Kinema
     FlightState state;
     state.truth.base = base;
     state.truth.cup = cup;
+    if (model.payload.hangs) {
+        state.truth.payload = hang(model.payload, base, {.wind_W_m_s = model.wind.mean_W_m_s});
+    }
     state.rotors = vehicle::standing(rotors);
     state.command.command.resize(rotors);
     if (model.mount == vehicle::Mount::free) {

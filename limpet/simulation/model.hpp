@@ -10,6 +10,7 @@
 #include "limpet/plant/plant.hpp"
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/simulation/state.hpp"
+#include "limpet/vehicle/payload.hpp"
 
 namespace limpet::simulation {
 
@@ -34,6 +35,7 @@ struct FlightModel {
     vehicle::WallAirModel wall_air;
     vehicle::NearnessModel nearness;
     vehicle::SwellModel swell;
+    vehicle::PayloadModel payload;
     faults::FaultsModel faults;
     scenario::Start start;
     std::uint64_t seed = 1;

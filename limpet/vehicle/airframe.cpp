@@ -104,6 +104,10 @@ void validate(const Airframe& airframe) {
                      base.inertia_kg_m2);
 }
 
+double carried_mass_kg(const AirframeNumbers& airframe) {
+    return airframe.mass_kg + airframe.payload.mass_kg;
+}
+
 double lifting_rotors(const AirframeNumbers& airframe) {
     double sum = 0.0;
     for (const Rotor& rotor : airframe.rotors) {

@@ -104,6 +104,21 @@ struct BatteryParameters {
     friend bool operator==(const BatteryParameters&, const BatteryParameters&) = default;
 };
 
+/// What hangs below the vehicle on a cable; by default nothing does.
+struct PayloadParameters {
+    double mass_kg = 0.0;  ///< 0: there is none
+    double cable_length_m = 1.0;
+    double cable_stretch_m = 1e-3;  ///< under the payload's weight
+    double cable_damping = 0.1;     ///< along the cable, share of the critical
+    double hook_x_m = 0.0;          ///< where the cable is made fast, in B
+    double hook_y_m = 0.0;
+    double hook_z_m = 0.05;
+    double drag_area_m2 = 0.004;  ///< c_d A
+    double friction = 0.5;        ///< on ground and wall
+
+    friend bool operator==(const PayloadParameters&, const PayloadParameters&) = default;
+};
+
 /// Mass of one body, with the slider at its outer stop and the joint centred.
 struct BodyInertia {
     double mass_kg = 0.0;
@@ -139,6 +154,7 @@ struct AirframeNumbers {
     CupMountParameters cup;
     LegParameters legs;
     BatteryParameters battery;
+    PayloadParameters payload;
     double lidar_x_m = 0.205;          ///< both LiDARs on the front arms
     double lidar_separation_m = 0.41;  ///< l of eq. (7)
     double lidar_z_m = 0.0;
@@ -157,12 +173,15 @@ struct Airframe : AirframeNumbers {
     friend bool operator==(const Airframe&, const Airframe&) = default;
 };
 
+/// What the rotors carry: the vehicle and what hangs on it.
+[[nodiscard]] double carried_mass_kg(const AirframeNumbers& airframe);
 /// Rotors as many as would lift alike if nothing were in another's wake.
 [[nodiscard]] double lifting_rotors(const AirframeNumbers& airframe);
 /// From the centre of mass to the furthest hub.
 [[nodiscard]] double hubs_reach_m(const AirframeNumbers& airframe);
 
-/// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery` of a vehicle file.
+/// Tables behind the YAML sections `rotor`, `slider`, `cup`, `legs`, `battery`, `payload` of a
+/// vehicle file.
 [[nodiscard]] const ParameterTable<RotorParameters>& rotor_table();
 /// Of an item of the list `rotors`, besides its direction.
 [[nodiscard]] const ParameterTable<Rotor>& rotor_place_table();
@@ -170,6 +189,7 @@ struct Airframe : AirframeNumbers {
 [[nodiscard]] const ParameterTable<CupMountParameters>& cup_mount_table();
 [[nodiscard]] const ParameterTable<LegParameters>& leg_table();
 [[nodiscard]] const ParameterTable<BatteryParameters>& battery_table();
+[[nodiscard]] const ParameterTable<PayloadParameters>& payload_table();
 /// Numbers of the airframe itself: mass_kg, inertia_xx_kg_m2, lidar_x_m, ...
 [[nodiscard]] const ParameterTable<Airframe>& airframe_table();
 

@@ -153,6 +153,30 @@ const ParameterTable<BatteryParameters>& battery_table() {
     return table;
 }
 
+const ParameterTable<PayloadParameters>& payload_table() {
+    using P = PayloadParameters;
+    static const ParameterTable<P> table = {
+        {"mass_kg", "kg", 0.0, 100.0, &P::mass_kg, "that hangs on a cable; 0: nothing does",
+         "paper: nothing hangs there"},
+        {"cable_length_m", "m", 0.05, 50.0, &P::cable_length_m, "under the payload's weight",
+         "assumed"},
+        {"cable_stretch_m", "m", 1e-4, 0.02, &P::cable_stretch_m,
+         "of the cable under the payload's weight",
+         "assumed: a metre of 1.5 mm nylon cord and 2 N"},
+        {"cable_damping", "-", 0.0, 1.0, &P::cable_damping,
+         "along the cable, share of the critical on a vehicle that is held", "assumed"},
+        {"hook_x_m", "m", -2.0, 2.0, &P::hook_x_m,
+         "where the cable is made fast, ahead of the centre of mass", "assumed: under it"},
+        {"hook_y_m", "m", -2.0, 2.0, &P::hook_y_m, "to the right of it", "assumed: under it"},
+        {"hook_z_m", "m", -2.0, 2.0, &P::hook_z_m, "below it", "assumed: the body's underside"},
+        {"drag_area_m2", "m2", 0.0, 10.0, &P::drag_area_m2,
+         "of the payload, drag coefficient times area",
+         "assumed: a ball of 10 cm, c_d 0.5 (Hoerner, Fluid-dynamic drag)"},
+        {"friction", "-", 0.0, 2.0, &P::friction, "of the payload on ground and wall", "assumed"},
+    };
+    return table;
+}
+
 const ParameterTable<Airframe>& airframe_table() {
     using A = Airframe;
     static const ParameterTable<A> table = {

@@ -84,7 +84,7 @@ RotorsState spinning(const RotorParameters& rotor, std::size_t count, double com
 namespace {
 
 double hover_speed_rad_s(const AirframeNumbers& airframe) {
-    const double thrust_N = airframe.mass_kg * kGravity_m_s2 / lifting_rotors(airframe);
+    const double thrust_N = carried_mass_kg(airframe) * kGravity_m_s2 / lifting_rotors(airframe);
     return std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
 }
 

@@ -76,7 +76,7 @@ struct RotorsState {
 /// What the motors make of the battery's voltage in a hover at the start of its charge; 1 where
 /// speeds do not follow the voltage.
 [[nodiscard]] double hover_drive_share(const AirframeNumbers& airframe);
-/// @return the command, alike on all rotors, whose thrust equals the weight in still air, at the
+/// @return the command, alike on all rotors, whose thrust carries all in still air, at the
 ///         voltage of hover_drive_share()
 [[nodiscard]] double hover_command(const AirframeNumbers& airframe);
 

@@ -83,6 +83,32 @@ TEST(Scene, DescriptionAndStandingFramesComeOnceMovingOnesWithEveryTruth) {
     EXPECT_TRUE(holds(all.at("/scene")[1], "thrust"));
 }
 
+TEST(Scene, APayloadHangsOnItsCableUntilThatParts) {
+    const TestFolder folder;
+    const auto marked = [&](bool hangs) {
+        RecordingInfo info{.scenario = "a", .version = "0", .attachments = {}, .range_sensor = {}};
+        info.scene = sample_scene();
+        if (hangs) {
+            info.scene->hook_B_m = Vector3(0.0, 0.0, 0.05);
+        }
+        Recorder recorder(folder / "a.mcap", info);
+        Truth truth = moving_truth(0.1);
+        recorder.scene(truth, {}, {});
+        truth.payload.parted = true;
+        truth.time_s = 0.2;
+        recorder.scene(truth, {}, {});
+        recorder.finish("{}");
+        return messages(folder / "a.mcap").at("/scene");
+    };
+    const auto with = marked(true), without = marked(false);
+    ASSERT_EQ(with.size(), 3U);  // the wall, then what moves
+    EXPECT_TRUE(holds(with[1], "payload"));
+    EXPECT_TRUE(holds(with[1], "cable"));
+    EXPECT_NE(with[1], with[2]);
+    EXPECT_FALSE(holds(without[1], "payload"));
+    EXPECT_FALSE(holds(without[1], "cable"));
+}
+
 TEST(Scene, IsNotReadBackAsColumnsNorAsDamage) {
     const TestFolder folder;
     RecordingInfo info{.scenario = "a", .version = "0", .attachments = {}, .range_sensor = {}};

@@ -59,7 +59,7 @@ TEST(Catalogue, FindsTheSectionsOfARoom) {
     Scenario defaults;
     const auto all = scenario_sections(defaults);
     EXPECT_EQ(sections_of("", all).size(), all.size());
-    EXPECT_EQ(sections_of("vehicle", all).size(), 9U);
+    EXPECT_EQ(sections_of("vehicle", all).size(), 10U);
     const auto slider = sections_of("vehicle.slider", all);
     ASSERT_EQ(slider.size(), 1U);
     EXPECT_EQ(slider[0].rows[0].name, "stiffness_N_m");

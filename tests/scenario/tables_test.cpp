@@ -71,6 +71,7 @@ TEST(Tables, ForgetNoField) {
     test::expect_whole(vehicle::cup_mount_table(), "cup");
     test::expect_whole(vehicle::leg_table(), "legs");
     test::expect_whole(vehicle::battery_table(), "battery");
+    test::expect_whole(vehicle::payload_table(), "payload");
     test::expect_whole(air_table(), "air");
     test::expect_whole(vehicle::wind_table(), "wind");
     test::expect_whole(vehicle::pendulum_table(), "pendulum");

@@ -123,7 +123,7 @@ TEST_F(VehicleFile, ErrorsNameTheirLine) {
     EXPECT_EQ(error("has_cup: maybe\n"), ":1: has_cup: must be true or false, is \"maybe\"");
     EXPECT_EQ(error("base: small\n"),
               ":1: base: unknown key; there are name, description, has_cup, rotors, model, "
-              "inertia_kg_m2, lidar, pump, rotor, slider, cup, legs, battery, mass_kg");
+              "inertia_kg_m2, lidar, pump, rotor, slider, cup, legs, battery, payload, mass_kg");
     EXPECT_EQ(error("mas_kg: 2\n"), ":1: mas_kg: unknown key, did you mean mass_kg?");
 }
 

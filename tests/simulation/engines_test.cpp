@@ -44,7 +44,7 @@ TEST_P(EveryEngineFlies, TheSameFlight) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, EveryEngineFlies,
                          testing::Values("perch_concrete", "perch_metal", "perch_metal_valve",
                                          "failed_perch", "pendulum_concrete", "press_concrete",
-                                         "hover"),
+                                         "hover", "perch_payload"),
                          [](const auto& name) { return std::string(name.param); });
 
 }  // namespace

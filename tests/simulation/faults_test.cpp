@@ -8,6 +8,7 @@
 
 #include "flown.hpp"
 #include "limpet/scenario/fault_table.hpp"
+#include "limpet/simulation/advance.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -80,6 +81,37 @@ TEST(FaultsInTheLoop, WithoutAnImuItStaysOnTheWallThatItRestsOn) {
         EXPECT_EQ(trace.result.outcome, Outcome::release_aborted) << scenario;
         EXPECT_EQ(trace.result.reason, "no position estimate: rests on the wall") << scenario;
     }
+}
+
+/// A mass that has moved turns what nothing else turns: I dw/dt = s g, its side goes down.
+TEST(FaultsInTheLoop, APayloadThatShiftsTurnsByItsMoment) {
+    constexpr double kShift_kg_m = 0.02, kFor_s = 0.1;
+    const auto model = model_of("hover", {"vehicle.has_cup=false"});
+    const auto turned_rad = [&](double faults::Acting::*shift) {
+        const auto plant = model->plant->make();
+        FlightState state = start(*model, *plant);
+        plant->set_pose(Vector3::Zero(), Quaternion::Identity());
+        see_motion(*model, state.truth, *plant);
+        state.faults.now.*shift = kShift_kg_m;
+        RotorList<double> still = state.rotors.speed_rad_s;
+        std::fill(still.begin(), still.end(), 0.0);
+        TickReport report;
+        while (seconds(state.tick) < kFor_s) {
+            const Stride stride = one_tick(*model, state);
+            advance(*model, state, *plant, stride, still, report);
+            state.tick += stride.ticks;
+            see_motion(*model, state.truth, *plant);
+        }
+        return state.truth.base.w_WF_F_rad_s;
+    };
+    const Vector3& inertia_kg_m2 = model->airframe.inertia_kg_m2;
+    const double moment_N_m = kShift_kg_m * kGravity_m_s2;
+    const Vector3 right = turned_rad(&faults::Acting::payload_to_right_kg_m);
+    const Vector3 ahead = turned_rad(&faults::Acting::payload_ahead_kg_m);
+    EXPECT_NEAR(right.x(), moment_N_m * kFor_s / inertia_kg_m2.x(), 0.01 * right.x());
+    EXPECT_NEAR(ahead.y(), -moment_N_m * kFor_s / inertia_kg_m2.y(), -0.01 * ahead.y());
+    EXPECT_NEAR(right.y(), 0.0, 1e-9);
+    EXPECT_NEAR(ahead.x(), 0.0, 1e-9);
 }
 
 /// Nothing holds it off the wall any more: two engines agree on how it falls against it.

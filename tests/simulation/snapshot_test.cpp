@@ -58,7 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Cut{"perch_concrete", {}, 15.0}, Cut{"perch_concrete", kAirMoves, 11.5},
                     Cut{"perch_concrete", {"suction.pressure_model=pneumatic"}, 5.5},
                     Cut{"perch_concrete", {"vehicle.rotor.command_delay_s=0.02"}, 3.0},
-                    Cut{"pendulum_concrete", {}, 0.7}, Cut{"press_concrete", {}, 2.0}));
+                    Cut{"perch_payload", {}, 5.3}, Cut{"pendulum_concrete", {}, 0.7},
+                    Cut{"press_concrete", {}, 2.0}));
 
 TEST(Snapshot, DamagedBytesAreRefused) {
     Flight flight(model_of("hover"));

@@ -80,7 +80,7 @@ TEST(Stride, EndsAsTickByTick) {
     for (const auto& [name, apart_s] :
          {Case{"perch_concrete", 0.021}, Case{"perch_metal_valve", 0.045},
           Case{"perch_cinder_block", 0.045}, Case{"failed_perch", 0.065},
-          Case{"slow_motors_concrete", 0.045}}) {
+          Case{"slow_motors_concrete", 0.045}, Case{"perch_payload", 0.021}}) {
         const FlightResult strides = fly(model_of(name));
         const FlightResult ticks = fly(model_of(name, {"simulation.longest_step_s=0.001"}));
         EXPECT_EQ(strides.outcome, ticks.outcome) << name;

@@ -20,6 +20,14 @@ struct SliderStatus {
     double force_N = 0.0;       ///< spring, damper and stops on the cup's side: < 0 when pressed
 };
 
+/// What hangs on the vehicle's cable, where there is such a thing. No plant moves it.
+struct PayloadStatus {
+    Vector3 p_W_m = Vector3::Zero();
+    Vector3 v_W_m_s = Vector3::Zero();
+    double tension_N = 0.0;  ///< of the cable, mean over the last step
+    bool parted = false;     ///< the cable, for good
+};
+
 /// What is really so at a tick; sensors and recordings read it, guidance and autopilot never do.
 struct Truth {
     double time_s = 0.0;
@@ -31,6 +39,7 @@ struct Truth {
     double thrust_N = 0.0;  ///< sum of the rotors
     BatteryStatus battery;
     Vector3 legs_force_W_N = Vector3::Zero();  ///< by the wall on the legs
+    PayloadStatus payload;
 };
 
 }  // namespace limpet
