@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <limpet_ros/PerchingAction.h>
 #include <limpet_ros/PerchingStatus.h>
+#include <rcl_interfaces/Log.h>
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
 
@@ -83,6 +84,16 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
                              const std::lock_guard lock(mutex_);
                              status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
                          });
+    std::map<std::string, std::set<std::string>> log;  // of INFO, by who said it; by mutex_
+    const auto rosout =
+        node_->subscribe("/rosout", rcl_interfaces::Log::kType,
+                         {.transient_local = true, .depth = 100}, [&](const Bytes& bytes) {
+                             const auto said = decode<rcl_interfaces::Log>(bytes).value();
+                             const std::lock_guard lock(mutex_);
+                             if (said.level == rcl_interfaces::Log::INFO) {
+                                 log[said.name].insert(said.msg);
+                             }
+                         });
     const dds_entity_t poses =
         peer.reader("rt/mavros/local_position/pose", geometry_msgs_msg_dds__PoseStamped__desc,
                     {.reliable = false});
@@ -150,6 +161,9 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
     EXPECT_EQ(end.result.outcome, "released") << end.result.reason;
     {
         const std::lock_guard lock(mutex_);
+        EXPECT_TRUE(log["perching_node"].contains("ready: all inputs are here"));
+        EXPECT_TRUE(log["suction_cup_node"].contains("detached: peeled off"));
+        EXPECT_EQ(log.size(), 3U);
         EXPECT_GE(states.size(), 2U);  // on its way it comes through several
     }
     EXPECT_EQ(guidance.end(), 0);
