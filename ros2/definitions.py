@@ -20,6 +20,12 @@ def lines(text, place):
             yield found.groups()
 
 
+def read(package, file):
+    """A file's text. A recording has as many rotors as its vehicle has (float64[4] stands for them), a type of ROS 2 a sequence."""
+    text = file.read_text()
+    return text.replace("float64[4]", "float64[]") if package == "limpet_msgs" else text
+
+
 def parts(text):
     """Request and response; goal, result and feedback."""
     return re.split(r"^---$", text, flags=re.M)

@@ -10,7 +10,7 @@ PACKAGE=FOLDER is ROS 1's layout, FOLDER/{msg,srv,action}. --as: these of a pack
 import argparse
 import pathlib
 
-from definitions import files, lines, owners, parts
+from definitions import files, lines, owners, parts, read
 from type_hashes import hashes
 
 PRIMITIVES = {"bool": "std::uint8_t", "byte": "std::uint8_t", "char": "std::uint8_t", "float32": "float", "float64": "double",
@@ -111,7 +111,7 @@ def main():
     definitions = list(files(given.folders))
     for package, file in definitions:
         wire = f"{others.get((package, file.stem), package)}::{file.suffix[1:]}::dds_::{file.stem}"
-        text = file.read_text()
+        text = read(package, file)
         if file.suffix == ".msg":
             out = header([Interface(package, file.stem, f"{wire}_", text, file)])
         elif file.suffix == ".srv":

@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from definitions import FIELD, owners
+from definitions import FIELD, owners, read
 
 # What rosidl takes as the name of a field.
 NAME = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
@@ -77,7 +77,7 @@ def package(name, folder, others, out, version):
     for file in sorted(folder.rglob("*.*")):
         kind = file.suffix[1:]
         if kind in ("msg", "srv", "action") and (name, file.stem) not in others:
-            text, more = definition(file.read_text(), file)
+            text, more = definition(read(name, file), file)
             needs |= more | ({"action_msgs"} if kind == "action" else set())
             files.append(f"{kind}/{file.name}")
             to = out / name / kind / file.name

@@ -5,7 +5,7 @@ defaults not. By them ROS 2 tells definitions of one name apart (`ros2 topic inf
 import hashlib
 import json
 
-from definitions import lines, parts
+from definitions import lines, parts, read
 
 # The numbers of type_description_interfaces/FieldType; of arrays and sequences by an offset.
 KINDS = {"int8": 2, "uint8": 3, "int16": 4, "uint16": 5, "int32": 6, "uint32": 7, "int64": 8, "uint64": 9, "float32": 10,
@@ -87,8 +87,9 @@ def hashes(files, others):
     types, on_wire = Types(), {}
     for package, file in files:
         kind, stem = file.suffix[1:], file.stem
+        text = read(package, file)
         package = others.get((package, stem), package)
-        made = [fields(package, part, file) for part in parts(file.read_text())]
+        made = [fields(package, part, file) for part in parts(text)]
         name, wire = f"{package}/{kind}/{SAME.get(stem, stem)}", f"{package}::{kind}::dds_::{stem}"
         halves = {"srv": [""], "action": ["_SendGoal", "_GetResult"]}.get(kind, [])
         if kind == "msg":

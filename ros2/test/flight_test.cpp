@@ -2,6 +2,8 @@
 // Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched
 // by another DDS library.
 #include <gtest/gtest.h>
+#include <limpet_msgs/RotorCommand.h>
+#include <limpet_msgs/VehicleTruth.h>
 #include <limpet_ros/PerchingAction.h>
 #include <limpet_ros/PerchingStatus.h>
 #include <rcl_interfaces/Log.h>
@@ -168,6 +170,54 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
     }
     EXPECT_EQ(guidance.end(), 0);
     EXPECT_EQ(cup.end(), 0);
+    EXPECT_EQ(vehicle.end(), 0);
+}
+
+/// Of a message: none has come.
+template <class Message>
+class Last {
+public:
+    Last(Node& node, const std::string& topic)
+        : handle_(node.subscribe(topic, Message::kType, {}, [this](const Bytes& bytes) {
+              const std::lock_guard lock(mutex_);
+              bytes_ = bytes;
+          })) {}
+    Message wait() {
+        EXPECT_TRUE(soon(
+            [this] {
+                const std::lock_guard lock(mutex_);
+                return !bytes_.empty();
+            },
+            30));
+        const std::lock_guard lock(mutex_);
+        const auto read = decode<Message>(bytes_);
+        EXPECT_TRUE(read);
+        const Bytes again = encode(read.value_or(Message()));
+        EXPECT_LT(bytes_.size(), again.size() + 4);  // no more than what fills the last four bytes
+        bytes_.resize(again.size());
+        EXPECT_EQ(again, bytes_);
+        return read.value_or(Message());
+    }
+
+private:
+    std::mutex mutex_;
+    Bytes bytes_;
+    Handle handle_;  ///< last: gone first
+};
+
+TEST_F(Ros2Flight, TellsAsManyRotorsAsThereAre) {
+    Process vehicle("vehicle_node", {"scenario:=perch_concrete", "vehicle:=perching_hexa"});
+    node_ = std::make_unique<Node>(read_settings("watch", {}));
+    Last<limpet_msgs::RotorCommand> commands(*node_, "/limpet/rotor_command");
+    Last<limpet_msgs::VehicleTruth> truths(*node_, "/limpet/truth/vehicle");
+    const limpet_msgs::RotorCommand command = commands.wait();
+    EXPECT_EQ(command.command.size(), 6U);
+    EXPECT_EQ(command.armed, 1);
+    const limpet_msgs::VehicleTruth truth = truths.wait();
+    ASSERT_EQ(truth.rotor_speed_rad_s.size(), 6U);
+    EXPECT_GT(truth.rotor_speed_rad_s[5], 100.0);  // it hovers
+    EXPECT_GT(truth.battery_remaining, 0.9);       // the last field
+    EXPECT_LE(truth.battery_remaining, 1.0);
     EXPECT_EQ(vehicle.end(), 0);
 }
 
