@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Interfaces of ROS 2 as structs of C++: of every PACKAGE/{msg,srv,action}/NAME.{msg,srv,action} (or PACKAGE/NAME.msg) below the
 folders a header OUT/PACKAGE/NAME.h (NAMEAction.h of an action), named as ROS 1 names it, so that what is written for one is
-compiled for the other.
+compiled for the other; and OUT/type_hashes.h, by which ROS 2 tells definitions of one name apart.
 
     interfaces.py --out OUT [--as PACKAGE:OTHER:NAME,...] FOLDER... PACKAGE=FOLDER...
 
@@ -9,8 +9,9 @@ PACKAGE=FOLDER is ROS 1's layout, FOLDER/{msg,srv,action}. --as: these of a pack
 
 import argparse
 import pathlib
-import re
-import sys
+
+from definitions import files, lines, owners, parts, read
+from type_hashes import hashes
 
 PRIMITIVES = {"bool": "std::uint8_t", "byte": "std::uint8_t", "char": "std::uint8_t", "float32": "float", "float64": "double",
               "string": "std::string",
@@ -22,7 +23,6 @@ OF_ACTION = [("SendGoalRequest", "SendGoal_Request_", "unique_identifier_msgs/UU
              ("GetResultRequest", "GetResult_Request_", "unique_identifier_msgs/UUID goal_id"),
              ("GetResultResponse", "GetResult_Response_", "int8 status\n{0}Result result"),
              ("FeedbackMessage", "FeedbackMessage_", "unique_identifier_msgs/UUID goal_id\n{0}Feedback feedback")]
-FIELD = re.compile(r"^([\w/]+)(<=\d+)?(\[(<=)?(\d*)\])?\s+(\w+)\s*(?:=\s*(.+)|\s(.+))?$")
 
 
 class Interface:
@@ -32,13 +32,8 @@ class Interface:
         """of_file: how names begin that are in this very file"""
         self.package, self.name, self.wire, self.of_file = package, name, wire, of_file
         self.fields, self.constants, self.includes = [], [], set()
-        for number, line in enumerate(text.splitlines(), 1):
-            line = line.split("#")[0].strip()
-            found = FIELD.match(line)
-            if line and not found:
-                sys.exit(f"{place}:{number}: {line}: must be TYPE NAME, with =VALUE or a default")
-            if line:
-                self.add(*found.groups())
+        for found in lines(text, place):
+            self.add(*found)
         if not self.fields:  # ROS 2 sends one byte for nothing
             self.fields.append(("std::uint8_t", "structure_needs_at_least_one_member{}"))
 
@@ -84,14 +79,26 @@ def header(structs, more=""):
 
 
 def action(package, name, wire, text, place):
-    parts = re.split(r"^---$", text, flags=re.M)
     structs = [Interface(package, f"{name}{part}", f"{wire}_{part}_", body, place)
-               for part, body in zip(("Goal", "Result", "Feedback"), parts)]
+               for part, body in zip(("Goal", "Result", "Feedback"), parts(text))]
     structs += [Interface(package, f"{name}{part}", f"{wire}_{kind}", body.format(name), place, name)
                 for part, kind, body in OF_ACTION]
     names = ("Goal", "Result", "Feedback", *(part for part, *_ in OF_ACTION))
     uses = "".join(f"    using {part} = {name}{part};\n" for part in names)
     return header(structs, f"struct {name}Action {{\n{uses}}};")
+
+
+def table_of_hashes(found):
+    rows = [f'    {{"{wire}", "{of}"}},' for wire, of in sorted(found.items())]
+    return "\n".join(["#pragma once", "#include <string_view>", "#include <utility>", "namespace limpet::ros2 {",
+                      "/// Of types on the wire, sorted.",
+                      "inline constexpr std::pair<std::string_view, std::string_view> kTypeHashes[] = {", *rows, "};", "}", ""])
+
+
+def write(to, text):
+    to.parent.mkdir(parents=True, exist_ok=True)
+    if not to.exists() or to.read_text() != text:
+        to.write_text(text)
 
 
 def main():
@@ -100,33 +107,22 @@ def main():
     parser.add_argument("--as", dest="others", action="append", default=[])
     parser.add_argument("folders", nargs="+")
     given = parser.parse_args()
-    others = {(package, name): other for package, other, names in (one.split(":") for one in given.others)
-              for name in names.split(",")}
-    files = []
-    for folder in given.folders:
-        package, equals, path = folder.partition("=")
-        for file in sorted(pathlib.Path(path if equals else folder).rglob("*.*")):
-            of = package if equals else next(part for part in reversed(file.parent.parts) if part not in ("msg", "srv", "action"))
-            files.append((of, file))
-    for package, file in files:
+    others = owners(given.others)
+    definitions = list(files(given.folders))
+    for package, file in definitions:
         wire = f"{others.get((package, file.stem), package)}::{file.suffix[1:]}::dds_::{file.stem}"
-        text = file.read_text()
+        text = read(package, file)
         if file.suffix == ".msg":
             out = header([Interface(package, file.stem, f"{wire}_", text, file)])
         elif file.suffix == ".srv":
-            halves = re.split(r"^---$", text, flags=re.M)
             out = header([Interface(package, f"{file.stem}{half}", f"{wire}_{half}_", part, file)
-                          for half, part in zip(("Request", "Response"), halves)],
+                          for half, part in zip(("Request", "Response"), parts(text))],
                          f"struct {file.stem} {{\n    using Request = {file.stem}Request;\n    using Response = "
                          f"{file.stem}Response;\n    Request request{{}};\n    Response response{{}};\n}};")
-        elif file.suffix == ".action":
-            out = action(package, file.stem, wire, text, file)
         else:
-            continue
-        to = given.out / package / f"{file.stem}{'Action' if file.suffix == '.action' else ''}.h"
-        to.parent.mkdir(parents=True, exist_ok=True)
-        if not to.exists() or to.read_text() != out:
-            to.write_text(out)
+            out = action(package, file.stem, wire, text, file)
+        write(given.out / package / f"{file.stem}{'Action' if file.suffix == '.action' else ''}.h", out)
+    write(given.out / "type_hashes.h", table_of_hashes(hashes(definitions, others)))
 
 
 if __name__ == "__main__":

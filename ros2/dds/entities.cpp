@@ -4,6 +4,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <type_hashes.h>
 
 #include <algorithm>
 #include <chrono>
@@ -92,7 +93,15 @@ public:
 
 /// What readers and writers have in common.
 template <class Qos>
-void set(Qos& qos, const Profile& profile) {
+void set(Qos& qos, const std::string& type, const Profile& profile) {
+    // As every endpoint of ROS 2 since Iron tells it: rmw_cyclonedds warns of each that does not.
+    const auto* const hash = std::lower_bound(
+        std::begin(kTypeHashes), std::end(kTypeHashes), type,
+        [](const auto& row, const std::string& wanted) { return row.first < wanted; });
+    if (hash != std::end(kTypeHashes) && hash->first == type) {
+        const std::string told = "typehash=" + std::string(hash->second) + ";";
+        qos.user_data().assign(told.begin(), told.end());
+    }
     qos.reliability().kind =
         profile.reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
     qos.durability().kind = profile.transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS
@@ -211,7 +220,7 @@ public:
                const Profile& profile)
         : inside_(std::move(inside)) {
         fast::DataWriterQos qos = fast::DATAWRITER_QOS_DEFAULT;
-        set(qos, profile);
+        set(qos, topic->get_type_name(), profile);
         qos.publish_mode().kind = fast::SYNCHRONOUS_PUBLISH_MODE;
         writer_ = inside_->publisher->create_datawriter(topic, qos, this);
         require(writer_ != nullptr, "DDS gives a writer");
@@ -284,7 +293,7 @@ public:
                const Profile& profile, Hear hear)
         : inside_(std::move(inside)), hear_(std::move(hear)) {
         fast::DataReaderQos qos = fast::DATAREADER_QOS_DEFAULT;
-        set(qos, profile);
+        set(qos, topic->get_type_name(), profile);
         reader_ = inside_->subscriber->create_datareader(topic, qos, nullptr);
         require(reader_ != nullptr, "DDS gives a reader");
         reader_->set_listener(this);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <rcl_interfaces/Log.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
 
 #include <algorithm>
 #include <csignal>
+#include <cstdarg>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -25,14 +28,21 @@ void end(int /*signal*/) {
     over = true;
 }
 
+/// As rcl has /rosout: who comes later hears what was said.
+constexpr ros2::Profile kLog{.reliable = true, .transient_local = true, .depth = 1000};
+
 /// A process is a node, as in ROS 1. Used by its main thread, but for what mutex guards.
 struct Core {
     explicit Core(const ros2::NodeSettings& settings)
-        : node(settings), name(settings.full_name()), parameters(serve_parameters(node)) {}
+        : node(settings),
+          name(settings.full_name()),
+          parameters(serve_parameters(node)),
+          log(node.advertise(settings.resolve("/rosout"), rcl_interfaces::Log::kType, kLog)) {}
 
     ros2::Node node;
     std::string name;
     std::vector<ros2::Handle> parameters;
+    std::unique_ptr<ros2::Writer> log;
     CallbackQueue queue;
     std::vector<std::weak_ptr<detail::TimerState>> timers;
 
@@ -255,7 +265,34 @@ ros2::Profile detail::profile_of(const std::string& type, std::uint32_t queue) {
 void detail::tell_unsound(const std::string& topic, const std::string& type) {
     const std::lock_guard lock(core->mutex);
     if (core->unsound.insert(topic).second) {
-        std::fprintf(stderr, "%s: what came is no %s: left unread\n", topic.c_str(), type.c_str());
+        ROS_WARN("%s: what came is no %s: left unread", topic.c_str(), type.c_str());
+    }
+}
+
+void detail::say(Level level, const Place& place, const char* format, ...) {
+    std::va_list values, again;
+    va_start(values, format);
+    va_copy(again, values);
+    const int size = std::max(std::vsnprintf(nullptr, 0, format, values), 0);
+    std::string text(static_cast<std::size_t>(size) + 1, '\0');
+    std::vsnprintf(text.data(), text.size(), format, again);
+    va_end(again);
+    va_end(values);
+    text.pop_back();
+    std::fprintf(level < Level::warn ? stdout : stderr, "%s\n", text.c_str());
+    if (core) {
+        rcl_interfaces::Log log;
+        log.stamp =
+            Time(std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+                     .count());
+        log.level = static_cast<std::uint8_t>(level);
+        log.name = core->name.substr(1);
+        std::replace(log.name.begin(), log.name.end(), '/', '.');
+        log.msg = text;
+        log.file = place.file;
+        log.function = place.function;
+        log.line = static_cast<std::uint32_t>(place.line);
+        core->log->write(ros2::encode(log));
     }
 }
 

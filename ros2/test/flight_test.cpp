@@ -2,8 +2,11 @@
 // Vehicle, cup and guidance as three processes that speak ROS 2, commanded by services and watched
 // by another DDS library.
 #include <gtest/gtest.h>
+#include <limpet_msgs/RotorCommand.h>
+#include <limpet_msgs/VehicleTruth.h>
 #include <limpet_ros/PerchingAction.h>
 #include <limpet_ros/PerchingStatus.h>
+#include <rcl_interfaces/Log.h>
 #include <std_srvs/Trigger.h>
 #include <unistd.h>
 
@@ -83,6 +86,16 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
                              const std::lock_guard lock(mutex_);
                              status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
                          });
+    std::map<std::string, std::set<std::string>> log;  // of INFO, by who said it; by mutex_
+    const auto rosout =
+        node_->subscribe("/rosout", rcl_interfaces::Log::kType,
+                         {.transient_local = true, .depth = 100}, [&](const Bytes& bytes) {
+                             const auto said = decode<rcl_interfaces::Log>(bytes).value();
+                             const std::lock_guard lock(mutex_);
+                             if (said.level == rcl_interfaces::Log::INFO) {
+                                 log[said.name].insert(said.msg);
+                             }
+                         });
     const dds_entity_t poses =
         peer.reader("rt/mavros/local_position/pose", geometry_msgs_msg_dds__PoseStamped__desc,
                     {.reliable = false});
@@ -150,10 +163,61 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
     EXPECT_EQ(end.result.outcome, "released") << end.result.reason;
     {
         const std::lock_guard lock(mutex_);
+        EXPECT_TRUE(log["perching_node"].contains("ready: all inputs are here"));
+        EXPECT_TRUE(log["suction_cup_node"].contains("detached: peeled off"));
+        EXPECT_EQ(log.size(), 3U);
         EXPECT_GE(states.size(), 2U);  // on its way it comes through several
     }
     EXPECT_EQ(guidance.end(), 0);
     EXPECT_EQ(cup.end(), 0);
+    EXPECT_EQ(vehicle.end(), 0);
+}
+
+/// Of a message: none has come.
+template <class Message>
+class Last {
+public:
+    Last(Node& node, const std::string& topic)
+        : handle_(node.subscribe(topic, Message::kType, {}, [this](const Bytes& bytes) {
+              const std::lock_guard lock(mutex_);
+              bytes_ = bytes;
+          })) {}
+    Message wait() {
+        EXPECT_TRUE(soon(
+            [this] {
+                const std::lock_guard lock(mutex_);
+                return !bytes_.empty();
+            },
+            30));
+        const std::lock_guard lock(mutex_);
+        const auto read = decode<Message>(bytes_);
+        EXPECT_TRUE(read);
+        const Bytes again = encode(read.value_or(Message()));
+        EXPECT_LT(bytes_.size(), again.size() + 4);  // no more than what fills the last four bytes
+        bytes_.resize(again.size());
+        EXPECT_EQ(again, bytes_);
+        return read.value_or(Message());
+    }
+
+private:
+    std::mutex mutex_;
+    Bytes bytes_;
+    Handle handle_;  ///< last: gone first
+};
+
+TEST_F(Ros2Flight, TellsAsManyRotorsAsThereAre) {
+    Process vehicle("vehicle_node", {"scenario:=perch_concrete", "vehicle:=perching_hexa"});
+    node_ = std::make_unique<Node>(read_settings("watch", {}));
+    Last<limpet_msgs::RotorCommand> commands(*node_, "/limpet/rotor_command");
+    Last<limpet_msgs::VehicleTruth> truths(*node_, "/limpet/truth/vehicle");
+    const limpet_msgs::RotorCommand command = commands.wait();
+    EXPECT_EQ(command.command.size(), 6U);
+    EXPECT_EQ(command.armed, 1);
+    const limpet_msgs::VehicleTruth truth = truths.wait();
+    ASSERT_EQ(truth.rotor_speed_rad_s.size(), 6U);
+    EXPECT_GT(truth.rotor_speed_rad_s[5], 100.0);  // it hovers
+    EXPECT_GT(truth.battery_remaining, 0.9);       // the last field
+    EXPECT_LE(truth.battery_remaining, 1.0);
     EXPECT_EQ(vehicle.end(), 0);
 }
 

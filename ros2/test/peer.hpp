@@ -3,7 +3,11 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -62,7 +66,27 @@ public:
         require(made > 0, "Cyclone DDS gives a reader");
         return made;
     }
-    [[nodiscard]] dds_entity_t participant() const { return participant_; }
+    /// @param builtin  DDS_BUILTIN_TOPIC_DCPSPUBLICATION or DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
+    [[nodiscard]] dds_entity_t discovers(dds_entity_t builtin) const {
+        return dds_create_reader(participant_, builtin, nullptr, nullptr);
+    }
+    /// What it has discovered by itself, by its identifier.
+    struct Endpoint {
+        std::string topic, type, user_data;
+    };
+    using Endpoints = std::map<std::array<std::uint8_t, 16>, Endpoint>;
+    static void discovered(dds_entity_t discovers, Endpoints& all) {
+        take<dds_builtintopic_endpoint_t>(discovers, [&](const dds_builtintopic_endpoint_t& found) {
+            std::array<std::uint8_t, 16> key{};
+            std::copy_n(found.key.v, key.size(), key.begin());
+            void* told = nullptr;
+            std::size_t size = 0;
+            dds_qget_userdata(found.qos, &told, &size);
+            all[key] = {found.topic_name, found.type_name,
+                        std::string(static_cast<const char*>(told), size)};
+            dds_free(told);
+        });
+    }
 
     /// Calls each(const T&) for what has come.
     /// @return how many

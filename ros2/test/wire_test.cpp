@@ -168,19 +168,6 @@ TEST_F(Ros2Wire, AReliableReaderIsNotPromisedWhatIsSentOnce) {
     EXPECT_FALSE(Peer::has_writer(reliable));
 }
 
-/// What the peer has discovered by itself: whose topic is of which name and type.
-struct Endpoint {
-    std::string topic, type;
-};
-template <class Set>
-void discovered(dds_entity_t builtin, Set& all) {
-    Peer::take<dds_builtintopic_endpoint_t>(builtin, [&](const dds_builtintopic_endpoint_t& found) {
-        std::array<std::uint8_t, 16> key{};
-        std::copy_n(found.key.v, key.size(), key.begin());
-        all[key] = {found.topic_name, found.type_name};
-    });
-}
-
 TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
     NodeSettings of_node = settings("perching_node");
     of_node.space = "/uav1";
@@ -195,16 +182,14 @@ TEST_F(Ros2Wire, TheDiscoveryInfoNamesTheNodeAndItsTopics) {
     const dds_entity_t infos =
         peer_.reader("ros_discovery_info", rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc,
                      {.reliable = true, .stays = true});
-    const dds_entity_t publications =
-        dds_create_reader(peer_.participant(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
-    const dds_entity_t subscriptions = dds_create_reader(
-        peer_.participant(), DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, nullptr, nullptr);
-    std::map<std::array<std::uint8_t, 16>, Endpoint> writers, readers;
+    const dds_entity_t publications = peer_.discovers(DDS_BUILTIN_TOPIC_DCPSPUBLICATION);
+    const dds_entity_t subscriptions = peer_.discovers(DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION);
+    Peer::Endpoints writers, readers;
     std::set<std::pair<std::string, std::string>> written, read;
     std::string name, space;
     EXPECT_TRUE(soon([&] {
-        discovered(publications, writers);
-        discovered(subscriptions, readers);
+        Peer::discovered(publications, writers);
+        Peer::discovered(subscriptions, readers);
         Peer::take<PeerInfo>(infos, [&](const PeerInfo& info) {
             written.clear();
             read.clear();

@@ -13,7 +13,8 @@
 #include <algorithm>
 #include <atomic>
 #include <boost/function.hpp>
-#include <cstdio>
+#include <chrono>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -130,6 +131,21 @@ namespace detail {
                                                            const std::string& response_type);
 /// Says once for a topic that what came there is not what its type says.
 void tell_unsound(const std::string& topic, const std::string& type);
+
+/// Numbered as rcl_interfaces/Log has them.
+enum class Level : std::uint8_t {
+    info = 20,
+    warn = 30,
+    error = 40
+};
+struct Place {
+    const char* file;
+    const char* function;
+    int line;
+};
+/// A line of the node's log, formatted as by printf: to standard output, from a warning on to
+/// standard error, and to /rosout.
+[[gnu::format(printf, 3, 4)]] void say(Level level, const Place& place, const char* format, ...);
 
 struct TimerState {
     double period_s = 0.0;
@@ -293,15 +309,16 @@ private:
 
 }  // namespace ros
 
-// As roscpp's, for its users' sake; to standard output and error.
-#define ROS_INFO(...) (std::printf(__VA_ARGS__), std::printf("\n"))
+// As roscpp's, for its users' sake; to standard output and error, and to /rosout.
+#define ROS_SAY(level, ...) ::ros::detail::say(level, {__FILE__, __func__, __LINE__}, __VA_ARGS__)
+#define ROS_INFO(...) ROS_SAY(::ros::detail::Level::info, __VA_ARGS__)
 #define ROS_INFO_ONCE(...)                                      \
     do {                                                        \
         static const bool said = (ROS_INFO(__VA_ARGS__), true); \
         static_cast<void>(said);                                \
     } while (false)
-#define ROS_WARN(...) (std::fprintf(stderr, __VA_ARGS__), std::fprintf(stderr, "\n"))
-#define ROS_ERROR(...) ROS_WARN(__VA_ARGS__)
+#define ROS_WARN(...) ROS_SAY(::ros::detail::Level::warn, __VA_ARGS__)
+#define ROS_ERROR(...) ROS_SAY(::ros::detail::Level::error, __VA_ARGS__)
 #define ROS_WARN_THROTTLE(period_s, ...)                                                       \
     do {                                                                                       \
         static double said_s = -1e9;                                                           \
@@ -310,7 +327,6 @@ private:
                 .count();                                                                      \
         if (wall_s - said_s > (period_s)) {                                                    \
             said_s = wall_s;                                                                   \
-            std::fprintf(stderr, __VA_ARGS__);                                                 \
-            std::fprintf(stderr, "\n");                                                        \
+            ROS_WARN(__VA_ARGS__);                                                             \
         }                                                                                      \
     } while (false)
