@@ -289,5 +289,17 @@ TEST_F(TableReaderTest, AnArrayGrowsNoMoreColumnsThanFieldsAreAllowed) {
                 HasSubstr("more than 10000 fields"));
 }
 
+/// For others, who read it by its definition.
+TEST(Schema, APayloadsColumnsAreItsMessages) {
+    const auto fields = [](const std::string& text) {
+        std::vector<std::string> names;
+        for (const Field& field : parse_ros2msg(std::string(kPayloadType), text).front().fields) {
+            names.push_back(field.name);
+        }
+        return names;
+    };
+    EXPECT_EQ(fields(ros2msg_schema(kPayloadType)), fields(column_schema(kPayloadColumns)));
+}
+
 }  // namespace
 }  // namespace limpet::record
