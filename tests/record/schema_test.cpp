@@ -97,7 +97,7 @@ TEST(MessageDefinitions, OursFollowRosAndCarryUnits) {
     // rosidl accepts no other field names.
     const std::regex allowed("^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$");
     const std::regex united(
-        ".*_(rad|m|m_s|m_s2|rad_s|n|n_m|pa|v|a|j)$|.*(remaining|thrust|command|values)$");
+        ".*_(rad|m|m_s|m_s2|rad_s|n|n_m|pa|v|a|j)$|.*(remaining|thrust|command|values|parted)$");
     for (const MessageDefinition& definition : message_definitions()) {
         const auto type =
             parse_message_type(std::string(definition.type), std::string(definition.text));
@@ -293,7 +293,8 @@ TEST_F(TableReaderTest, AnArrayGrowsNoMoreColumnsThanFieldsAreAllowed) {
 TEST(Schema, APayloadsColumnsAreItsMessages) {
     const auto fields = [](const std::string& text) {
         std::vector<std::string> names;
-        for (const Field& field : parse_ros2msg(std::string(kPayloadType), text).front().fields) {
+        const auto types = parse_ros2msg(std::string(kPayloadType), text);
+        for (const Field& field : types.front().fields) {
             names.push_back(field.name);
         }
         return names;
