@@ -139,6 +139,17 @@ struct Stage::Parts {
         }
     }
 
+    void set_payload(const Pose& pose) {
+        const int body = mj_name2id(model.get(), mjOBJ_BODY, "payload");
+        const int cable = mj_name2id(model.get(), mjOBJ_TENDON, "cable");
+        if (pose.payload_m && body >= 0 && model->body_mocapid[body] >= 0) {
+            std::copy_n(pose.payload_m->data(), 3, data->mocap_pos + 3 * model->body_mocapid[body]);
+        }
+        if (cable >= 0) {
+            model->tendon_rgba[4 * cable + 3] = pose.payload_m && pose.cable_holds ? 1.0F : 0.0F;
+        }
+    }
+
     void set(const Pose& pose) {
         const Quaternion& q = pose.attitude;
         const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
@@ -147,8 +158,10 @@ struct Stage::Parts {
         set_joint("slider", pose.slider_m);
         set_joint("cup_pitch", pose.cup_pitch_rad);
         set_joint("cup_yaw", pose.cup_yaw_rad);
+        set_payload(pose);
         mj_kinematics(model.get(), data.get());
         mj_comPos(model.get(), data.get());
+        mj_tendon(model.get(), data.get());
         mj_camlight(model.get(), data.get());
     }
 

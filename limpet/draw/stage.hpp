@@ -19,7 +19,9 @@ struct Pose {
     double slider_m = 0.0;
     double cup_pitch_rad = 0.0;
     double cup_yaw_rad = 0.0;
-    bool rotors_turn = false;  ///< discs instead of blades
+    bool rotors_turn = false;               ///< discs instead of blades
+    std::optional<Vector3> payload_m = {};  ///< what hangs on the cable, where there is one
+    bool cable_holds = true;
 };
 
 /// Where the camera is, in the same world.

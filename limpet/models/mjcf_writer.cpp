@@ -185,6 +185,22 @@ void write_mechanism(pugi::xml_node base, const vehicle::Airframe& airframe,
     write_parts(cup, parts);
 }
 
+/// What hangs on the cable, for pictures: it goes where they put it, and the cable with it.
+void write_payload(pugi::xml_node root, pugi::xml_node base,
+                   const vehicle::PayloadParameters& payload) {
+    add(base, "site", "name", "hook", "pos",
+        flu(Vector3(payload.hook_x_m, payload.hook_y_m, payload.hook_z_m)), "size", "0.004",
+        "group", "3");
+    auto body = add(root.child("worldbody"), "body", "name", "payload", "mocap", "true");
+    add(body, "geom", "name", "payload", "type", "sphere", "size", "0.05", "rgba",
+        "0.55 0.40 0.25 1", "group", "1");
+    add(body, "site", "name", "load", "size", "0.004", "group", "3");
+    auto cable = add(add(root, "tendon"), "spatial", "name", "cable", "width", "0.003", "rgba",
+                     "0.12 0.12 0.12 1");
+    add(cable, "site", "site", "hook");
+    add(cable, "site", "site", "load");
+}
+
 void write_vehicle(pugi::xml_node world, const vehicle::Airframe& airframe, const Scene& scene) {
     const auto parts = scene.visuals ? draw(airframe) : std::vector<Part>{};
     auto base = add(world, "body", "name", "base");
@@ -225,6 +241,10 @@ std::string write_mjcf(const vehicle::Airframe& airframe, const Scene& scene) {
         write_lights_and_cameras(world, scene);
     }
     write_vehicle(world, airframe, scene);
+    if (scene.visuals && airframe.payload.mass_kg > 0.0) {
+        write_payload(root, world.find_child_by_attribute("body", "name", "base"),
+                      airframe.payload);
+    }
     if (scene.wall.present) {
         write_contacts(root, airframe);
     }

@@ -59,6 +59,9 @@ struct Extent {
         rear_m = std::min(rear_m, at_m - kRear_m * std::max(0.55, std::abs(nose.dot(ahead))));
         front_m = std::max(front_m, at_m + gap_m + kInside_m);
         low_m = std::min(low_m, pose.position_m.z() + 0.1 * nose.z());
+        if (pose.payload_m && pose.cable_holds) {
+            low_m = std::min(low_m, pose.payload_m->z());
+        }
         high_m = std::max(high_m, pose.position_m.z() + 0.1 * nose.z());
     }
 };

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "limpet/record/story.hpp"
+#include "limpet/record/topics.hpp"
 
 namespace limpet::report {
 namespace {
@@ -189,6 +190,13 @@ draw::Pose pose_at(const record::Recording& recording, double time_s) {
     pose.cup_pitch_rad = truth("cup_pitch_rad");
     pose.cup_yaw_rad = truth("cup_yaw_rad");
     pose.rotors_turn = truth("rotor_speed_rad_s[0]") > kStanding_rad_s;
+    if (record::find_table(recording, record::kPayloadTopic) != nullptr) {
+        const auto payload = [&](const char* column) {
+            return value_at(recording, record::kPayloadTopic, column, time_s).value_or(0.0);
+        };
+        pose.payload_m = {payload("north_m"), -payload("east_m"), -payload("down_m")};
+        pose.cable_holds = payload("cable_parted") == 0.0;
+    }
     return pose;
 }
 

@@ -83,6 +83,22 @@ TEST(Stage, sees_every_part_move) {
     EXPECT_GT(test::difference(still, stage.photograph(flying, view())), 0.005);
 }
 
+TEST(Stage, sees_what_hangs_on_the_cable_and_that_it_parts) {
+    vehicle::Airframe airframe;
+    airframe.payload.mass_kg = 0.2;
+    Stage stage(write_mjcf(airframe, scene()), kWidth_px, kHeight_px);
+    Pose hangs = pose();
+    hangs.payload_m = Vector3(2.4, 0.0, 1.1);
+    const Image hanging = stage.photograph(hangs, view());
+    Pose swung = hangs;
+    swung.payload_m = Vector3(2.7, 0.0, 1.15);
+    EXPECT_GT(test::difference(hanging, stage.photograph(swung, view())), 0.002);
+    Pose parted = hangs;
+    parted.cable_holds = false;
+    EXPECT_GT(test::difference(hanging, stage.photograph(parted, view())), 0.0);
+    EXPECT_LT(test::difference(hanging, stage.photograph(parted, view())), 0.01);
+}
+
 TEST(Stage, knows_its_wall) {
     models::Scene turned = scene();
     turned.wall.R_WT = quaternion_from_euler({.yaw_rad = radians(90.0)}).toRotationMatrix();
