@@ -124,9 +124,8 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     return air;
 }
 
-/// On a hull that accelerates every part stays behind; seldom.
-[[gnu::noinline]] void apply_swell(const FlightModel& model, const FlightState& state,
-                                   plant::Plant& plant) {
+/// On a hull that accelerates every part stays behind.
+void apply_swell(const FlightModel& model, const FlightState& state, plant::Plant& plant) {
     const Vector3 a_EW_W_m_s2 = swell_now(model, state).a_EW_W_m_s2;
     const auto stay_behind = [&](plant::Body body, const vehicle::SwellModel::Part& part) {
         const Kinematics at = plant.kinematics(body);
@@ -140,9 +139,9 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     }
 }
 
-/// What hangs on the vehicle's cable goes a step along, and pulls; seldom.
-[[gnu::noinline]] void apply_payload(const FlightModel& model, FlightState& state,
-                                     plant::Plant& plant, double step_s) {
+/// What hangs on the vehicle's cable goes a step along, and pulls.
+void apply_payload(const FlightModel& model, FlightState& state, plant::Plant& plant,
+                   double step_s) {
     PayloadStatus& payload = state.truth.payload;
     payload.parted = payload.parted || state.faults.now.cable_breaks;
     vehicle::PayloadPull pull{.wind_W_m_s = air_W_m_s(model, state)};
@@ -152,6 +151,20 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
     const Kinematics& base = state.truth.base;
     plant.apply(plant::Body::base, vehicle::step(model.payload, payload, base, pull, step_s),
                 base.p_WF_m);
+}
+
+/// What pushes besides air and cup; seldom.
+[[gnu::noinline]] void apply_more(const FlightModel& model, FlightState& state, plant::Plant& plant,
+                                  double step_s) {
+    if (model.swell.moves) {
+        apply_swell(model, state, plant);
+    }
+    if (model.payload.hangs) {
+        apply_payload(model, state, plant, step_s);
+    }
+    if (model.mount != vehicle::Mount::free) {
+        plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
+    }
 }
 
 }  // namespace
@@ -178,14 +191,8 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void advance(const FlightModel& model, Flig
             see_motion(model, state.truth, plant);
         }
         plant.apply(plant::Body::base, air.wrench_W, state.truth.base.p_WF_m);
-        if (model.swell.moves) {
-            apply_swell(model, state, plant);
-        }
-        if (model.payload.hangs) {
-            apply_payload(model, state, plant, mode.step_s);
-        }
-        if (model.mount != vehicle::Mount::free) {
-            plant.apply(plant::Body::base, mount_wrench_W(model, state), state.truth.base.p_WF_m);
+        if (model.pushed_by_more) {
+            apply_more(model, state, plant, mode.step_s);
         }
         if (has_cup) {
             apply_cup(model, state, plant, time_s, mode, report, external_cup);

@@ -106,6 +106,8 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->payload =
         make_payload(scenario.airframe, scenario.start.ground_z_W_m,
                      model->has_wall ? std::optional(scenario.wall.geometry) : std::nullopt);
+    model->pushed_by_more =
+        model->swell.moves || model->payload.hangs || scenario.mount != vehicle::Mount::free;
     model->faults = {.faults = scenario.faults, .ahead_W = model->ahead_W};
     model->pendulum = hang(scenario.pendulum, scenario.airframe, touching_p_WB_m(scenario),
                            attitude(scenario.start));

@@ -36,6 +36,7 @@ struct FlightModel {
     vehicle::NearnessModel nearness;
     vehicle::SwellModel swell;
     vehicle::PayloadModel payload;
+    bool pushed_by_more = false;  ///< swell, payload or mount may push, not air and cup alone
     faults::FaultsModel faults;
     scenario::Start start;
     std::uint64_t seed = 1;

@@ -85,7 +85,6 @@ std::optional<Event> advance_contact(const CupParameters& parameters, CupState& 
         begin_touch(state);
     }
     status.pull_N = contact.pull_N;
-    status.peel_N_m = contact.peel_N_m;
     return contact.let_go == LetGo::no ? advance_phase(parameters, state, contact, input)
                                        : let_go(state, contact, input.time_s);
 }
@@ -246,6 +245,7 @@ Wrench load_cup(const CupModel& model, CupState& state, const Surface& surface,
 std::optional<Event> step(const CupParameters& parameters, CupState& state, const Surface& surface,
                           const LipContact& contact, const CupInput& input, double dt_s) {
     auto event = advance_contact(parameters, state, surface, contact, input);
+    state.status.peel_N_m = contact.peel_N_m;
     advance_pressure(parameters, state, surface, input, dt_s);
     return event;
 }

@@ -18,10 +18,13 @@ double steady_speed_rad_s(const RotorParameters& rotor, double command) {
 }
 
 /// What a battery makes of a speed that the nominal voltage holds.
+[[gnu::noinline]] double driven_by_motor_rad_s(const RotorParameters& rotor, double nominal_rad_s,
+                                               double drive_share) {
+    return speed_by_voltage_rad_s(motor_law(rotor), nominal_rad_s, drive_share);
+}
 double driven_rad_s(const RotorParameters& rotor, double nominal_rad_s, double drive_share) {
-    return rotor.motor_kv_rpm_V > 0.0
-               ? speed_by_voltage_rad_s(motor_law(rotor), nominal_rad_s, drive_share)
-               : nominal_rad_s * drive_share;
+    return rotor.motor_kv_rpm_V > 0.0 ? driven_by_motor_rad_s(rotor, nominal_rad_s, drive_share)
+                                      : nominal_rad_s * drive_share;
 }
 
 /// So many rotors side by side.
@@ -117,11 +120,50 @@ RotorLag make_lag(const RotorParameters& rotor, double dt_s) {
             .motor = rotor.motor_kv_rpm_V > 0.0 ? motor_law(rotor) : MotorLaw{}};
 }
 
+namespace {
+
+using Speeds = std::array<double, kMaxRotors>;
+
+/// Through the dead time and on, some steps of the same command.
+/// @param next_rad_s  of a rotor's speed and its target
+template <class Next>
+[[gnu::always_inline]] inline void follow(const RotorLag& lag, RotorsState& state,
+                                          const Speeds& newest_rad_s, double limit_rad_s, int steps,
+                                          Next&& next_rad_s) {
+    const std::size_t count = state.speed_rad_s.size();
+    std::size_t oldest = 0;
+    for (int k = 0; k < steps; ++k) {
+        if (k == 0 || lag.delay > 0) {
+            Speeds& newest = state.asked_rad_s[state.next];
+            for_each(count, [&](std::size_t i) { newest[i] = newest_rad_s[i]; });
+            oldest = (state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps;
+            state.next = (state.next + 1) % kCommandDelaySteps;
+        }
+        const auto& asked_rad_s = state.asked_rad_s[oldest];
+        for_each(count, [&](std::size_t i) {
+            double& speed_rad_s = state.speed_rad_s[i];
+            speed_rad_s = next_rad_s(speed_rad_s, std::min(asked_rad_s[i], limit_rad_s));
+        });
+    }
+}
+
+/// As motors do; seldom.
+[[gnu::noinline]] void follow_as_motors(const RotorParameters& rotor, const RotorLag& lag,
+                                        RotorsState& state, const Speeds& newest_rad_s,
+                                        double drive_share, int steps) {
+    follow(lag, state, newest_rad_s, driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share), steps,
+           [&lag](double speed_rad_s, double target_rad_s) {
+               return speed_after_rad_s(lag.motor, speed_rad_s, target_rad_s, lag.dt_s);
+           });
+}
+
+}  // namespace
+
 LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
                               const RotorCommand& command, double drive_share,
                               const RotorList<double>* speed_share, int steps) {
     const std::size_t count = state.speed_rad_s.size();
-    std::array<double, kMaxRotors> newest_rad_s{};
+    Speeds newest_rad_s;  // of as many as there are
     for_each(count, [&](std::size_t i) {
         newest_rad_s[i] = command.armed ? steady_speed_rad_s(rotor, command.command[i]) : 0.0;
     });
@@ -133,31 +175,16 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
     if (speed_share != nullptr) {
         for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
     }
-    const bool motor = rotor.motor_kv_rpm_V > 0.0;
-    const double limit_rad_s = driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share);
-    std::size_t oldest = 0;
-    for (int k = 0; k < steps; ++k) {
-        if (k == 0 || lag.delay > 0) {
-            state.asked_rad_s[state.next] = newest_rad_s;
-            oldest = (state.next + kCommandDelaySteps - lag.delay) % kCommandDelaySteps;
-            state.next = (state.next + 1) % kCommandDelaySteps;
-        }
-        const auto& asked_rad_s = state.asked_rad_s[oldest];
-        if (motor) {
-            for_each(count, [&](std::size_t i) {
-                state.speed_rad_s[i] =
-                    speed_after_rad_s(lag.motor, state.speed_rad_s[i],
-                                      std::min(asked_rad_s[i], limit_rad_s), lag.dt_s);
-            });
-            continue;
-        }
-        for_each(count, [&](std::size_t i) {
-            const double target_rad_s = std::min(asked_rad_s[i], limit_rad_s);
-            const double error_rad_s = state.speed_rad_s[i] - target_rad_s;
-            state.speed_rad_s[i] =
-                target_rad_s + error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
-        });
+    if (rotor.motor_kv_rpm_V > 0.0) {
+        follow_as_motors(rotor, lag, state, newest_rad_s, drive_share, steps);
+        return;
     }
+    follow(lag, state, newest_rad_s, rotor.speed_max_rad_s * drive_share, steps,
+           [&lag](double speed_rad_s, double target_rad_s) {
+               const double error_rad_s = speed_rad_s - target_rad_s;
+               return target_rad_s +
+                      error_rad_s * (error_rad_s < 0.0 ? lag.keep_up : lag.keep_down);
+           });
 }
 
 namespace {
