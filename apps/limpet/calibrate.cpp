@@ -116,19 +116,33 @@ CalibrateJson json_of(const identification::VehicleFit& fit, const std::vector<C
     return json;
 }
 
-/// In what steps a flight of ours went on, by the scenario in its recording; none where another
-/// program flew, or where the scenario is of a version that this one does not read.
-std::vector<int> strides_of(const identification::FlightData& data) {
+/// @param whose  the log's, or a vehicle's name
+void require_known_motion(const vehicle::Airframe& airframe, const std::string& whose) {
+    const char* const has = airframe.payload.mass_kg > 0.0        ? "a payload on a cable"
+                            : airframe.rotor.motor_kv_rpm_V > 0.0 ? "motors by motor_kv_rpm_V"
+                                                                  : nullptr;
+    if (has != nullptr) {
+        throw InputError(fmt::format("{} has {}, which calibrate does not know", whose, has));
+    }
+}
+
+/// The scenario in a recording of ours; none where another program flew, or where the scenario is
+/// of a version that this one does not read.
+std::optional<scenario::Scenario> flown_by(const identification::FlightData& data) {
     if (data.scenario_yaml.empty()) {
-        return {};
+        return std::nullopt;
     }
     try {
-        const auto model =
-            simulation::build_model(scenario::load_scenario_text(data.scenario_yaml, "recording"));
-        return {model->strides.begin(), model->strides.end()};
+        return scenario::load_scenario_text(data.scenario_yaml, "recording");
     } catch (const InputError&) {
-        return {};
+        return std::nullopt;
     }
+}
+
+/// In what steps a flight of ours went on.
+std::vector<int> strides_of(const scenario::Scenario& flown) {
+    const auto model = simulation::build_model(flown);
+    return {model->strides.begin(), model->strides.end()};
 }
 
 void calibrate(const CalibrateOptions& options) {
@@ -138,7 +152,11 @@ void calibrate(const CalibrateOptions& options) {
     identification::FlightData data;
     try {
         data = identification::read_flight(options.log, options.span);
-        data.strides = strides_of(data);
+        if (const auto flown = flown_by(data)) {
+            require_known_motion(flown->airframe, "the vehicle that flew");
+            data.strides = strides_of(*flown);
+        }
+        require_known_motion(scenario.airframe, options.vehicle);
         fit = identify_vehicle(data, scenario.airframe);
     } catch (const InputError& error) {
         const std::string why = error.what();

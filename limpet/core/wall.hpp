@@ -48,9 +48,9 @@ struct WallGeometry {
     double half_width_m = 2.0;   ///< along y_T
     double half_height_m = 2.0;  ///< along z_T
     double radius_m = 5.0;       ///< of a shape that bends
-    /// Of a spot that yields to a push into the wall, each spot by itself and without a mass; 0: it
+    /// By how much a spot yields to a push into the wall, each by itself and without a mass; 0: it
     /// is rigid.
-    double stiffness_N_m = 0.0;
+    double compliance_m_N = 0.0;
     const WallShape* shape = &kPlaneWall;
 
     friend bool operator==(const WallGeometry&, const WallGeometry&) = default;
@@ -58,10 +58,9 @@ struct WallGeometry {
 
 /// Springs in series: the share of a push's way that a spring before the wall takes, 1 before a
 /// rigid one; both together are as stiff as the spring times it.
-/// @param spring  stiffness, > 0
-/// @param wall    stiffness in the same direction, 0: rigid
-[[nodiscard]] constexpr double share_of_spring(double spring, double wall) {
-    return wall > 0.0 ? wall / (wall + spring) : 1.0;
+/// @param spring_N_m  > 0
+[[nodiscard]] inline double share_of_spring(double spring_N_m, const WallGeometry& wall) {
+    return 1.0 / (1.0 + spring_N_m * wall.compliance_m_N);
 }
 
 /// What a shape answers.

@@ -95,8 +95,8 @@ void write_wall(pugi::xml_node node, const GazeboWorld& world, const PlacedWall&
     auto collision = add(link, "collision", "name", "wall");
     sdf::write_geometry(collision, shape);
     sdf::ContactSurface surface = kRigid;
-    if (face.stiffness_N_m > 0.0) {
-        surface.stiffness_N_m = face.stiffness_N_m;
+    if (face.compliance_m_N > 0.0) {
+        surface.stiffness_N_m = 1.0 / face.compliance_m_N;
     }
     sdf::write_surface(collision, surface);
     auto visual = add(link, "visual", "name", "wall");

@@ -191,7 +191,9 @@ void write_payload(pugi::xml_node root, pugi::xml_node base,
     add(base, "site", "name", "hook", "pos",
         flu(Vector3(payload.hook_x_m, payload.hook_y_m, payload.hook_z_m)), "size", "0.004",
         "group", "3");
-    auto body = add(root.child("worldbody"), "body", "name", "payload", "mocap", "true");
+    auto body = add(root.child("worldbody"), "body", "name", "payload", "mocap", "true", "pos",
+                    flu(Vector3(payload.hook_x_m, payload.hook_y_m,
+                                payload.hook_z_m + payload.cable_length_m)));
     add(body, "geom", "name", "payload", "type", "sphere", "size", "0.05", "rgba",
         "0.55 0.40 0.25 1", "group", "1");
     add(body, "site", "name", "load", "size", "0.004", "group", "3");

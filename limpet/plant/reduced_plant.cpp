@@ -26,7 +26,7 @@ WallGeometry ground(double z_W_m) {
 }
 
 Face face(const WallGeometry& geometry, bool there) {
-    const double share = share_of_spring(vehicle::kTipStiffness_N_m, geometry.stiffness_N_m);
+    const double share = share_of_spring(vehicle::kTipStiffness_N_m, geometry);
     return {.there = there,
             .geometry = geometry,
             .tip_stiffness_N_m = share * vehicle::kTipStiffness_N_m,

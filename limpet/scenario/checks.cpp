@@ -8,6 +8,7 @@
 #include "limpet/core/time.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -52,18 +53,26 @@ void check_mission(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
-/// Softer, a wall is a sheet that swings.
-void check_stiffness(const Scenario& scenario, const YamlNode& root) {
-    constexpr double kSoftest_N_m = 1000.0;
-    const double stiffness_N_m = scenario.wall.stiffness_N_m;
-    if (stiffness_N_m > 0.0 && stiffness_N_m < kSoftest_N_m) {
-        fail_at(root, "wall.stiffness_N_m",
-                fmt::format("{:.6g} N/m is too soft, allowed is 0 for a rigid wall or from {:.6g}",
-                            stiffness_N_m, kSoftest_N_m));
-    }
-    if (stiffness_N_m > 0.0 && scenario.engine == &plant::kMujocoEngine) {
-        fail_at(root, "wall.stiffness_N_m",
+void check_compliance(const Scenario& scenario, const YamlNode& root) {
+    if (scenario.wall.compliance_m_N > 0.0 && scenario.engine == &plant::kMujocoEngine) {
+        fail_at(root, "wall.compliance_m_N",
                 "MuJoCo's contacts are no springs, allowed with simulation.engine reduced");
+    }
+}
+
+/// A motor that the battery cannot bring to where the vehicle hovers.
+void check_motor(const Scenario& scenario, const YamlNode& root) {
+    const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
+    if (rotor.motor_kv_rpm_V <= 0.0) {
+        return;
+    }
+    const double top_rad_s = top_speed_rad_s(rotor, rotor.nominal_voltage_V);
+    const double hover_rad_s = hover_speed_rad_s(scenario.airframe);
+    if (!(top_rad_s > hover_rad_s)) {
+        fail_at(root, "vehicle.rotor.motor_kv_rpm_V",
+                fmt::format("{:.6g} rpm/V turn the propeller by {:.6g} rad/s on {:.6g} V, allowed "
+                            "is more than the {:.6g} of a hover",
+                            rotor.motor_kv_rpm_V, top_rad_s, rotor.nominal_voltage_V, hover_rad_s));
     }
 }
 
@@ -230,7 +239,8 @@ void check(const Scenario& scenario, const YamlNode& root) {
     const std::vector<Section> sections = scenario_sections(bound);
     check_derived(scenario, sections, root);
     check_mission(scenario, root);
-    check_stiffness(scenario, root);
+    check_compliance(scenario, root);
+    check_motor(scenario, root);
     check_environment(scenario.environment, root);
     check_vacuum(scenario, root);
     check_ceiling(scenario, root);

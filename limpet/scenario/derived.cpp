@@ -6,6 +6,7 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/sensors/magnetometer.hpp"
+#include "limpet/vehicle/battery.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::scenario {
@@ -114,6 +115,8 @@ std::vector<suction::Surface> surfaces_met(const Scenario& scenario) {
 void take_air(Scenario& scenario) {
     const Air air = air_at(scenario.environment.air);
     scenario.airframe.rotor.density_ratio = air.density_ratio;
+    scenario.airframe.rotor.nominal_voltage_V =
+        vehicle::kRatedCellVoltage_V * scenario.airframe.battery.cells;
     scenario.cup.ambient_Pa = air.pressure_Pa;
 }
 

@@ -66,9 +66,8 @@ const ParameterTable<WallSetup>& wall_table() {
          "of the wall, half above and half below the start", "assumed: high enough"},
         {"radius_m", "m", 0.1, 1e4, [](W& w) -> double& { return w.radius_m; },
          "of a wall whose shape bends; a plane has none", "assumed: a tank of 10 m"},
-        {"stiffness_N_m", "N/m", 0.0, 1e9, &W::stiffness_N_m,
-         "of a spot that yields to a push, as cladding, glass and doors do; 0: rigid, else from "
-         "1000",
+        {"compliance_m_N", "m/N", 0.0, 1e-3, &W::compliance_m_N,
+         "by how much a spot yields to a push, as cladding, glass and doors do; 0: rigid",
          "paper: rigid walls; a plate's: Timoshenko and Woinowsky-Krieger, table 23"},
     };
     return table;
@@ -125,7 +124,7 @@ void lay_out(Scenario& scenario) {
                               .half_width_m = 0.5 * scenario.wall.width_m,
                               .half_height_m = 0.5 * scenario.wall.height_m,
                               .radius_m = scenario.wall.radius_m,
-                              .stiffness_N_m = scenario.wall.stiffness_N_m,
+                              .compliance_m_N = scenario.wall.compliance_m_N,
                               .shape = scenario.wall.geometry.shape};
     const auto yaw_rad = [&](double off_normal_deg) {
         return wrap_pi(radians(scenario.wall.heading_deg + off_normal_deg));

@@ -67,7 +67,7 @@ struct WallSetup {
     double width_m = 4.0;
     double height_m = 4.0;
     double radius_m = 5.0;                                            ///< of a shape that bends
-    double stiffness_N_m = 0.0;                                       ///< of a spot; 0: rigid
+    double compliance_m_N = 0.0;                                      ///< of a spot; 0: rigid
     const suction::SurfaceCondition* condition = &suction::kAsGiven;  ///< of all of it
     WallGeometry geometry;  ///< made of the above, see lay_out(); and the shape
     Surface surface;

@@ -11,14 +11,23 @@ namespace limpet::stability {
 
 Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
     scenario::Scenario waits = scenario::load_scenario(scenario, {.overrides = overrides});
-    const char* const lacks = !waits.airframe.has_cup               ? "a vehicle with a cup"
-                              : !waits.wall.present                 ? "a wall"
-                              : waits.mount != vehicle::Mount::free ? "a free vehicle"
+    const char* const lacks = !waits.airframe.has_cup                ? "a vehicle with a cup"
+                              : !waits.wall.present                  ? "a wall"
+                              : waits.mount != vehicle::Mount::free  ? "a free vehicle"
+                              : waits.airframe.payload.mass_kg > 0.0 ? "a vehicle without a payload"
                               : waits.autopilot_kind != &autopilot::kCascade
                                   ? "the autopilot 'cascade'"
                                   : nullptr;
     if (lacks != nullptr) {
         throw InputError(fmt::format("{}: the swing on the cup asks for {}", waits.name, lacks));
+    }
+    for (const std::string& change : overrides) {
+        if (waits.airframe.rotor.motor_kv_rpm_V > 0.0 &&
+            change.starts_with("vehicle.rotor.time_constant_")) {
+            throw InputError(fmt::format(
+                "{}: the vehicle's motors go by motor_kv_rpm_V, which leaves no time constants",
+                change));
+        }
     }
     waits.engine = &plant::kReducedEngine;  // whose bodies can be displaced
     // What pushes by chance, or to and fro, leaves no rest, and no slope: motors faster up than

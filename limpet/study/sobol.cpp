@@ -61,8 +61,9 @@ double dot(const std::vector<double>& x, const std::vector<double>& y) {
 /// Less what another correlation, whose truth is 0, happens to be: as much of it as both go
 /// together.
 Correlation beside(const Correlation& one, const Correlation& none) {
+    constexpr std::size_t kFewest = 128;  // of fewer the share itself is chance
     const double squares = dot(none.influence, none.influence);
-    if (!std::isfinite(one.value) || !(squares > 0.0)) {
+    if (!std::isfinite(one.value) || !(squares > 0.0) || one.influence.size() < kFewest) {
         return one;
     }
     const double share = dot(one.influence, none.influence) / squares;
@@ -71,7 +72,7 @@ Correlation beside(const Correlation& one, const Correlation& none) {
     for (std::size_t i = 0; i < less.influence.size(); ++i) {
         less.influence[i] -= share * none.influence[i];
     }
-    return less;
+    return std::abs(less.value) < 1.0 ? less : one;
 }
 
 struct Told {

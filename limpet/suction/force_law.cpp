@@ -220,14 +220,11 @@ double least_radius_m(const LipParameters& lip) {
 }
 
 LipParameters on_wall(const LipParameters& lip, const WallGeometry& wall) {
-    if (wall.stiffness_N_m <= 0.0) {
-        return lip;
-    }
     LipParameters both = lip;
     both.least_radius_m = least_radius_m(lip);
-    const double soft = share_of_spring(lip.stiffness_N_m, wall.stiffness_N_m);
+    const double soft = share_of_spring(lip.stiffness_N_m, wall);
     both.stiffness_N_m *= soft;
-    both.hard_stiffness_N_m *= share_of_spring(lip.hard_stiffness_N_m, wall.stiffness_N_m);
+    both.hard_stiffness_N_m *= share_of_spring(lip.hard_stiffness_N_m, wall);
     both.hard_depth_m /= soft;
     both.damping_N_s_m *= soft * soft;
     both.damping_depth_m /= soft;

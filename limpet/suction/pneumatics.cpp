@@ -198,7 +198,8 @@ const ParameterTable<PneumaticParameters>& Pneumatic::table() {
          "pneumatic: its length; 0: an orifice of that bore",
          "assumed: from the cup to the pump at the back"},
         {"graded_seal", "switch", 0.0, 1.0, &P::graded_seal,
-         "a moment on the lip presses one side more than the other, and the whole leaks more",
+         "pneumatic: a moment on the lip presses one side more than the other, and the whole leaks "
+         "more, where a surface's leak closes as it is pressed",
          "assumed: off, the leaks are fitted to Table II without it"},
         {"partial_seal_area_mm2", "mm^2", 0.0, 1e4, &P::partial_seal_area_mm2,
          "pneumatic: open area where the lip does not meet the wall", "assumed: a whole seal"},

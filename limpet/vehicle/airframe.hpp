@@ -32,6 +32,7 @@ struct RotorParameters {
     double motor_resistance_ohm = 0.15;  ///< winding, speed controller and leads, of one motor
     double spin_inertia_kg_m2 = 1e-4;    ///< propeller and bell
     bool motor_brakes = true;            ///< the speed controller slows it down as it speeds it up
+    double nominal_voltage_V = 22.2;     ///< of the battery, at 3.7 V a cell; no row
     /// Of the air around to that of the constants above, all of which go with it; the
     /// environment's, no row.
     double density_ratio = 1.0;

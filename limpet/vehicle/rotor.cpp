@@ -27,6 +27,15 @@ double driven_rad_s(const RotorParameters& rotor, double nominal_rad_s, double d
                                       : nominal_rad_s * drive_share;
 }
 
+/// That no command passes, with a full share of the battery.
+double limit_rad_s(const RotorParameters& rotor, double drive_share) {
+    const double nominal_rad_s =
+        rotor.motor_kv_rpm_V > 0.0
+            ? std::min(rotor.speed_max_rad_s, top_speed_rad_s(rotor, rotor.nominal_voltage_V))
+            : rotor.speed_max_rad_s;
+    return driven_rad_s(rotor, nominal_rad_s, drive_share);
+}
+
 /// So many rotors side by side.
 constexpr std::size_t kAbreast = 4;
 static_assert(kMaxRotors % kAbreast == 0);
@@ -79,19 +88,14 @@ RotorsState spinning(const RotorParameters& rotor, std::size_t count, double com
     for (auto& asked : state.asked_rad_s) {
         std::fill_n(asked.begin(), count, asked_rad_s);
     }
-    state.speed_rad_s.resize(
-        count, std::min(asked_rad_s, driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share)));
+    state.speed_rad_s.resize(count, std::min(asked_rad_s, limit_rad_s(rotor, drive_share)));
     return state;
 }
-
-namespace {
 
 double hover_speed_rad_s(const AirframeNumbers& airframe) {
     const double thrust_N = carried_mass_kg(airframe) * kGravity_m_s2 / lifting_rotors(airframe);
     return std::sqrt(thrust_N / airframe.rotor.thrust_per_speed_2_kg_m());
 }
-
-}  // namespace
 
 double hover_drive_share(const AirframeNumbers& airframe) {
     if (!airframe.rotor.speed_follows_voltage) {
@@ -151,7 +155,7 @@ template <class Next>
 [[gnu::noinline]] void follow_as_motors(const RotorParameters& rotor, const RotorLag& lag,
                                         RotorsState& state, const Speeds& newest_rad_s,
                                         double drive_share, int steps) {
-    follow(lag, state, newest_rad_s, driven_rad_s(rotor, rotor.speed_max_rad_s, drive_share), steps,
+    follow(lag, state, newest_rad_s, limit_rad_s(rotor, drive_share), steps,
            [&lag](double speed_rad_s, double target_rad_s) {
                return speed_after_rad_s(lag.motor, speed_rad_s, target_rad_s, lag.dt_s);
            });

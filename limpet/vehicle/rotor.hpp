@@ -73,6 +73,8 @@ struct RotorsState {
 [[nodiscard]] RotorsState spinning(const RotorParameters& rotor, std::size_t count, double command,
                                    double drive_share = 1.0);
 
+/// At which the rotors' thrust equals the weight in still air.
+[[nodiscard]] double hover_speed_rad_s(const AirframeNumbers& airframe);
 /// What the motors make of the battery's voltage in a hover at the start of its charge; 1 where
 /// speeds do not follow the voltage.
 [[nodiscard]] double hover_drive_share(const AirframeNumbers& airframe);

@@ -144,7 +144,7 @@ TEST(ReducedPlant, AWallThatYieldsGivesWayToTheLegs) {
         return sum_m / (kSteps - kFrom);
     };
     models::Scene scene = test::wall_ahead();
-    scene.wall.stiffness_N_m = 5e3;
+    scene.wall.compliance_m_N = 2e-4;
     const double given_m =
         mean_tip_m(LegsOnWall(kReducedEngine, scene)) - mean_tip_m(LegsOnWall(kReducedEngine));
     EXPECT_NEAR(given_m, 10.0 / 5e3, 4e-5);

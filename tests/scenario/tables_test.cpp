@@ -65,6 +65,7 @@ TEST(Tables, ForgetNoField) {
     test::expect_whole(suction::lip_table(), "lip");
     vehicle::RotorParameters rotor;
     auto rotor_rows = bind(vehicle::rotor_table(), rotor);
+    rotor_rows.push_back({"voltage", "V", 0.0, 1e3, &rotor.nominal_voltage_V, "the battery's", ""});
     rotor_rows.push_back({"density", "-", 0.0, 1.0, &rotor.density_ratio, "the environment's", ""});
     test::expect_whole(rotor, rotor_rows, "rotor");
     test::expect_whole(vehicle::slider_table(), "slider");

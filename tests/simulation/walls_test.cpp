@@ -68,7 +68,7 @@ TEST(Walls, CladdingTurnsTheRestByWhatItYields) {
     const double pull_N = cladding.state.cup.status.pull_N;
     const double legs_N =
         pull_N - cladding.state.truth.thrust_N * std::sin(radians(cladding.pitch_deg));
-    const double yields_m = (pull_N + 0.5 * legs_N) / 4600.0;
+    const double yields_m = (pull_N + 0.5 * legs_N) * 2.2e-4;
     EXPECT_GT(yields_m, 2e-3);
     EXPECT_NEAR(cladding.pitch_deg - rigid.pitch_deg, degrees(yields_m / lever_m), 0.03);
 }

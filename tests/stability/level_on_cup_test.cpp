@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/stability/level_on_cup.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <ostream>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/stability/map.hpp"
 
@@ -116,6 +118,23 @@ TEST(LevelOnCup, GustsDoNotTurnUpInIt) {
     EXPECT_EQ(at("environment.gust_sigma_m_s=2").growth_1_s, calm_1_s);
     EXPECT_EQ(at("environment.gust_wind_m_s=5").growth_1_s, calm_1_s);
     EXPECT_EQ(at("environment.swell_up_m=1").growth_1_s, calm_1_s);
+}
+
+TEST(LevelOnCup, KnowsWhatItDoesNotLinearise) {
+    const auto refused = [](const std::vector<std::string>& overrides) {
+        try {
+            (void)linear_swing("perch_metal", overrides);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(refused({"vehicle.payload.mass_kg=0.2"}),
+                testing::HasSubstr("a vehicle without a payload"));
+    EXPECT_THAT(
+        refused({"vehicle.rotor.motor_kv_rpm_V=380", "vehicle.rotor.time_constant_up_s=0.03"}),
+        testing::HasSubstr("leaves no time constants"));
+    EXPECT_EQ(refused({"vehicle.rotor.motor_kv_rpm_V=380"}), "");
 }
 
 /// The paper tells of pitch: nothing else may grow.

@@ -55,14 +55,14 @@ TEST(ForceLaw, AWallThatYieldsIsASpringInSeries) {
     const LipParameters lip;
     WallGeometry wall;
     EXPECT_EQ(on_wall(lip, wall).stiffness_N_m, lip.stiffness_N_m);
-    wall.stiffness_N_m = 5e3;
+    wall.compliance_m_N = 2e-4;
     const LipParameters both = on_wall(lip, wall);
     Anchor anchor;
     for (const double push_N : {40.0, 80.0, 180.0}) {
         const double soft_N = lip.stiffness_N_m * lip.hard_depth_m;
         const double lip_m = std::min(push_N, soft_N) / lip.stiffness_N_m +
                              std::max(0.0, push_N - soft_N) / lip.hard_stiffness_N_m;
-        const double way_m = lip_m + push_N / wall.stiffness_N_m;
+        const double way_m = lip_m + push_N * wall.compliance_m_N;
         EXPECT_NEAR(lip_load(both, at_gap(-way_m), anchor, kMu, 0.0, false).pull_N, -push_N, 1e-9);
     }
     // What a lip follows does not depend on it.

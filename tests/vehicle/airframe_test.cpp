@@ -138,6 +138,7 @@ TEST(Tables, RowsAreDistinctAndDefaultsAreAllowed) {
     // One row a field: nothing of these structs is out of a vehicle file's reach.
     RotorParameters rotor;
     auto rows = bind(rotor_table(), rotor);
+    rows.push_back({"voltage", "V", 0.0, 1e3, &rotor.nominal_voltage_V, "the battery's", ""});
     rows.push_back({"density", "-", 0.0, 1.0, &rotor.density_ratio, "the environment's", ""});
     test::expect_whole(rotor, rows, "rotor");
     test::expect_whole(slider_table(), "slider");

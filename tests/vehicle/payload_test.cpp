@@ -296,7 +296,7 @@ TEST(Payload, NoRowOfTheTableIsUnstable) {
                             payload.v_W_m_s = Vector3(0.0, 0.1, 0.2);
                             Kinematics base;
                             const double vehicle_kg = 1.0 / model.base_1_kg;
-                            double energy_J = 0.0;
+                            double energy_J = 0.0, first_J = 0.0, most_J = 0.0;
                             const double scale_J = mass_kg * kGravity_m_s2 * length_m;
                             for (int i = 0; i < 3000; ++i) {
                                 const Wrench wrench_W = step(model, payload, base, {}, step_s);
@@ -307,8 +307,10 @@ TEST(Payload, NoRowOfTheTableIsUnstable) {
                                 energy_J = 0.5 * mass_kg * payload.v_W_m_s.squaredNorm() +
                                            0.5 * vehicle_kg * base.v_WF_W_m_s.squaredNorm() -
                                            mass_kg * kGravity_m_s2 * payload.p_W_m.z();
+                                first_J = i == 0 ? energy_J : first_J;
+                                most_J = i == 0 ? energy_J : std::max(most_J, energy_J);
                             }
-                            EXPECT_LT(energy_J, 0.5 * scale_J);
+                            EXPECT_LT(most_J - first_J, 0.5 * scale_J);
                         }
                     }
                 }
