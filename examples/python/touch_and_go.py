@@ -21,6 +21,7 @@ import limpet
 LEANS_DEG = (2.0, 3.0, 4.0)
 FROM_TOUCH_S = 10.0
 RIGID_N_m = 1e5  # the stiffest slider there is
+HOVER_THRUST = 0.657  # of the shipped vehicle; what is off the integral finds
 
 
 def quaternion(roll, pitch):
@@ -50,7 +51,7 @@ def oscillation_deg(changes, lean_deg, seed):
     """Deviation of the pitch over ten seconds from the first touch, and how often the nose touched."""
     flown = limpet.fly("perch_metal", {"simulation.start_distance_m": 0.9, "simulation.start_offset_m": 0.0,
                                        "simulation.start_yaw_deg": 0.0, "simulation.time_limit_s": 20.0, **changes},
-                       seed=seed, guidance=Lean(0.657, math.radians(lean_deg)))
+                       seed=seed, guidance=Lean(HOVER_THRUST, math.radians(lean_deg)))
     time_s, touching = flown["time_s"], flown["cup_phase"] > 0
     first_s = time_s[np.argmax(touching)]
     seen = (time_s > first_s) & (time_s < first_s + FROM_TOUCH_S)

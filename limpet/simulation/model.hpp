@@ -36,7 +36,8 @@ struct FlightModel {
     vehicle::NearnessModel nearness;
     vehicle::SwellModel swell;
     vehicle::PayloadModel payload;
-    bool pushed_by_more = false;  ///< swell, payload or mount may push, not air and cup alone
+    /// Swell, payload or mount may push, not air and cup alone; kept, for each step asks.
+    bool pushed_by_more = false;
     faults::FaultsModel faults;
     scenario::Start start;
     std::uint64_t seed = 1;

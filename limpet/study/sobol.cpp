@@ -59,11 +59,10 @@ double dot(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 /// Less what another correlation, whose truth is 0, happens to be: as much of it as both go
-/// together.
+/// together; where that halves the error at least, for how much that is is an estimate, too.
 Correlation beside(const Correlation& one, const Correlation& none) {
-    constexpr std::size_t kFewest = 128;  // of fewer the share itself is chance
     const double squares = dot(none.influence, none.influence);
-    if (!std::isfinite(one.value) || !(squares > 0.0) || one.influence.size() < kFewest) {
+    if (!std::isfinite(one.value) || !(squares > 0.0)) {
         return one;
     }
     const double share = dot(one.influence, none.influence) / squares;
@@ -72,7 +71,9 @@ Correlation beside(const Correlation& one, const Correlation& none) {
     for (std::size_t i = 0; i < less.influence.size(); ++i) {
         less.influence[i] -= share * none.influence[i];
     }
-    return std::abs(less.value) < 1.0 ? less : one;
+    const bool pays =
+        dot(less.influence, less.influence) < 0.25 * dot(one.influence, one.influence);
+    return pays && std::abs(less.value) < 1.0 ? less : one;
 }
 
 struct Told {

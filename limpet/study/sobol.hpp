@@ -27,7 +27,7 @@ struct PickFreeze {
 /// and scale; the intervals by the correlation's own influence function, so that they hold for
 /// figures that are far from normal, an event's 0 and 1 too, in Fisher's z. Of S goes what of
 /// corr(a, b), whose truth is 0, goes along with it: of an input that does little, mixed is nearly
-/// a, and most of what chance there is.
+/// a, and most of what chance there is. Of fewer than 128 samples the intervals are a little short.
 /// @return one an input; NaN where the figure does not vary
 /// Source: Martinez, "Analyse de sensibilite globale par decomposition de la variance", GdR Ondes
 /// et MASCOT-NUM, 2011; Baudin et al., "Numerical stability of Sobol' indices estimation formula",

@@ -48,6 +48,25 @@ TEST(Identify, FindsTheNumbersOfALogAndDrawsThem) {
     EXPECT_THAT(bench.files(), Contains("out/identify/identify.svg"));
 }
 
+/// Its model of a flight has neither: numbers would come out, and be wrong.
+TEST(Calibrate, RefusesWhatItDoesNotKnow) {
+    const Bench bench;
+    for (const auto& [change, said] :
+         {std::pair("vehicle.payload.mass_kg=0.2", "a payload on a cable"),
+          std::pair("vehicle.rotor.motor_kv_rpm_V=380", "motors by motor_kv_rpm_V")}) {
+        ASSERT_EQ(bench
+                      .run({"fly", "hover", "--set", change, "--set", "simulation.hover_s=1",
+                            "--no-figures", "--out", "flown"})
+                      .exit_code,
+                  0);
+        const Finished finished = bench.run({"calibrate", "flown/flight.mcap"});
+        EXPECT_EQ(finished.exit_code, 2);
+        EXPECT_EQ(finished.out, "");
+        EXPECT_EQ(finished.err, "limpet: flown/flight.mcap: the vehicle that flew has " +
+                                    std::string(said) + ", which calibrate does not know\n");
+    }
+}
+
 TEST(Identify, JsonIsInSiAndHoldsTheTruth) {
     const Bench bench;
     (void)bench.write("log.csv", concrete_log());

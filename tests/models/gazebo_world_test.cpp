@@ -83,6 +83,21 @@ TEST(GazeboWorld, ARoundWallStandsARadiusBehindItsFace) {
     EXPECT_LT((pose_of(wall).translation() - Vector3(0.0, 5.2, 0.0)).norm(), 1e-12);
 }
 
+/// Gazebo takes the harmonic mean of two stiffnesses: springs in series.
+TEST(GazeboWorld, AWallThatYieldsHasItsStiffness) {
+    GazeboWorld soft = flight();
+    const auto stiffness_N_m = [&] {
+        const Written world(soft);
+        return world.model("wall")
+            .first_element_by_path("link/collision/surface/contact/ode/kp")
+            .text()
+            .as_double();
+    };
+    EXPECT_GT(stiffness_N_m(), 1e9);
+    soft.walls[0].face.compliance_m_N = 2e-4;
+    EXPECT_NEAR(stiffness_N_m(), 5e3, 1e-9);
+}
+
 TEST(GazeboWorld, AWallToTheEastIsOnTheRightOfNorth) {
     GazeboWorld east = flight();
     east.walls[0].face.p_WT_m = {0.0, 2.2, -0.3};

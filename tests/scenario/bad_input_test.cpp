@@ -47,6 +47,26 @@ TEST_F(BadInput, NamesOfRegistries) {
               "cylinder");
 }
 
+TEST_F(BadInput, AWallThatYieldsOnMujoco) {
+    const std::string wall = "wall: {surface: stone, compliance_m_N: 1e-4}\n";
+    EXPECT_EQ(hover_error(wall + "simulation: {engine: mujoco}\n"),
+              "x.yaml:3: wall.compliance_m_N: MuJoCo's contacts are no springs, allowed with "
+              "simulation.engine reduced");
+    EXPECT_EQ(hover_error("wall: {surface: stone, compliance_m_N: 0.1}\n"),
+              "x.yaml:3: wall.compliance_m_N: 0.1 is out of range, allowed 0..0.001 m/N");
+}
+
+TEST_F(BadInput, AMotorThatCannotHover) {
+    const std::string error = error_of([&] {
+        return data_.load_text(
+            "vehicle: {base: small, rotor: {motor_kv_rpm_V: 20}}\nmission: hover\n");
+    });
+    EXPECT_TRUE(
+        error.starts_with("x.yaml:1: vehicle.rotor.motor_kv_rpm_V: 20 rpm/V turn the "
+                          "propeller by "))
+        << error;
+}
+
 TEST_F(BadInput, NotFinite) {
     for (const std::string value : {".nan", ".NaN", "nan", ".inf", "-.inf", "+inf", "Infinity"}) {
         EXPECT_EQ(hover_error("simulation: {hover_s: " + value + "}\n"),

@@ -64,11 +64,12 @@ TEST(Walls, CladdingTurnsTheRestByWhatItYields) {
     const vehicle::LegParameters legs;
     const vehicle::CupMountParameters mount;
     const double lever_m = std::hypot(mount.joint_x_m - legs.tip_x_m, legs.tip_z_m);
+    const double compliance_m_N = scenario::load_scenario("perch_cladding").wall.compliance_m_N;
     const Rested rigid = rested("perch_metal_valve"), cladding = rested("perch_cladding");
     const double pull_N = cladding.state.cup.status.pull_N;
     const double legs_N =
         pull_N - cladding.state.truth.thrust_N * std::sin(radians(cladding.pitch_deg));
-    const double yields_m = (pull_N + 0.5 * legs_N) * 2.2e-4;
+    const double yields_m = (pull_N + 0.5 * legs_N) * compliance_m_N;
     EXPECT_GT(yields_m, 2e-3);
     EXPECT_NEAR(cladding.pitch_deg - rigid.pitch_deg, degrees(yields_m / lever_m), 0.03);
 }

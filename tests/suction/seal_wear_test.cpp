@@ -119,5 +119,20 @@ TEST(SealWear, ANewTouchBeginsFreshAndByDefaultNoneWears) {
     EXPECT_EQ(fresh.state.leak_growth, 0.0);
 }
 
+/// The moment of the lip's load comes to the leak, where that is asked for.
+TEST(GradedSeal, OfAWholeCupLeaksByItsMoment) {
+    const auto held_Pa = [](bool graded, double peel_N_m) {
+        CupParameters parameters;
+        parameters.pressure_model = 1;
+        parameters.pressure.graded_seal = graded;
+        Sealed cup(parameters);
+        cup.contact.peel_N_m = peel_N_m;
+        cup.run(5.0);
+        return cup.state.mean_pressure_Pa;
+    };
+    EXPECT_GT(held_Pa(true, 2.0), held_Pa(true, 0.0) + 100.0);
+    EXPECT_EQ(held_Pa(false, 2.0), held_Pa(false, 0.0));
+}
+
 }  // namespace
 }  // namespace limpet::suction
