@@ -1,7 +1,7 @@
 # The pages in web/, bundled by Node into one file each; empty where there is no npm, and the program
 # says so when it is asked for one.
 set(LIMPET_VIEW_PAGE ${CMAKE_BINARY_DIR}/web/view.html)
-file(GLOB_RECURSE web_sources CONFIGURE_DEPENDS ${LIMPET_ROOT}/web/src/*)
+limpet_files(web_sources ${LIMPET_ROOT}/web/src/*)
 add_custom_command(
   OUTPUT ${LIMPET_VIEW_PAGE}
   COMMAND ${LIMPET_ROOT}/web/build ${CMAKE_BINARY_DIR}/web

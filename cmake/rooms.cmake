@@ -66,6 +66,17 @@ function(limpet_room name)
   limpet_unity(limpet_${name})
 endfunction()
 
+# limpet_files(VARIABLE PATTERN...): files there and in folders below. One more or less changes its folder, which configures
+# anew; with CONFIGURE_DEPENDS a dry run of ninja always had something to do, and ./run said so each time.
+function(limpet_files variable)
+  file(GLOB_RECURSE found ${ARGN})
+  foreach(file ${ARGN} ${found})
+    get_filename_component(folder ${file} DIRECTORY)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder})
+  endforeach()
+  set(${variable} ${found} PARENT_SCOPE)
+endfunction()
+
 # limpet_text(VARIABLE FILE): what the file holds, for configure_file() to put into a source; changed, it
 # configures anew.
 function(limpet_text variable file)
