@@ -94,9 +94,9 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
     terminal.line("", "limpet summary " + database + "      figure, JSON");
     if (summary.likeliest) {
         const std::filesystem::path likeliest = folder / kLikeliest;
-        write_file(likeliest, scenario_of(results.campaign(), summary.likeliest->sample,
-                                          rare::rare_noise(results, summary.likeliest->run))
-                                  .yaml);
+        write_file(likeliest,
+                   to_yaml(scenario_of(results.campaign(), summary.likeliest->sample,
+                                       rare::rare_noise(results, summary.likeliest->run))));
         terminal.line("", fmt::format("limpet fly {}      the most likely {}", likeliest.string(),
                                       summary.event.text));
         terminal.line("", fmt::format("limpet replay {} {}      the same; any run", database,

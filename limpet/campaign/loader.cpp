@@ -82,7 +82,8 @@ void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
                 options.overrides.push_back(key.key + "=" + value_text(value));
             }
         }
-        campaign.scenarios.emplace_back(load_scenario(path, options).yaml, campaign.scenario_name);
+        campaign.scenarios.emplace_back(to_yaml(load_scenario(path, options)),
+                                        campaign.scenario_name);
     }
 }
 

@@ -18,6 +18,7 @@ using HouseRecording = record::Recording;
 
 struct Scenario::Inside {
     HouseScenario scenario;
+    std::string yaml;
     std::string wanted;
     std::vector<std::string> changes;
 };

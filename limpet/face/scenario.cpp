@@ -26,7 +26,7 @@ std::uint64_t Scenario::seed() const {
     return inside_->scenario.seed;
 }
 const std::string& Scenario::yaml() const {
-    return inside_->scenario.yaml;
+    return inside_->yaml;
 }
 
 Scenario Scenario::with(const std::vector<std::string>& changes) const {
@@ -36,10 +36,13 @@ Scenario Scenario::with(const std::vector<std::string>& changes) const {
 }
 
 Scenario load(const std::string& wanted, const std::vector<std::string>& changes) {
-    return Scenario(std::make_shared<const Scenario::Inside>(
-        Scenario::Inside{.scenario = scenario::load_scenario(wanted, {.overrides = changes}),
-                         .wanted = wanted,
-                         .changes = changes}));
+    HouseScenario loaded = scenario::load_scenario(wanted, {.overrides = changes});
+    std::string yaml = to_yaml(loaded);
+    return Scenario(
+        std::make_shared<const Scenario::Inside>(Scenario::Inside{.scenario = std::move(loaded),
+                                                                  .yaml = std::move(yaml),
+                                                                  .wanted = wanted,
+                                                                  .changes = changes}));
 }
 
 std::vector<std::string> scenario_names() {

@@ -114,7 +114,7 @@ std::string Lab::fly(std::string_view request) {
 }
 
 std::string Lab::yaml(std::string_view request) const {
-    return load(asked_in(object_in(request), first_)).yaml;
+    return to_yaml(load(asked_in(object_in(request), first_)));
 }
 
 void Lab::serve_on(serve::Server& server) {

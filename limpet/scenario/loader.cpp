@@ -127,7 +127,6 @@ Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
     read_scenario(root, data_of(options), scenario);
     scenario.seed = options.seed.value_or(scenario.seed);
     check(scenario, root);
-    scenario.yaml = to_yaml(scenario);
     return scenario;
 }
 

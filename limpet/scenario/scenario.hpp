@@ -100,7 +100,6 @@ struct Scenario {
     std::string name;
     std::string description;
     std::filesystem::path path;
-    std::string yaml;  ///< the text with every override applied: flies the same again
     std::uint64_t seed = 1;
     NoiseBlend noise;  ///< in the seed's place; empty: the seed alone
     Mission mission = Mission::perch_and_take_off;

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <locale.h>
+
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <locale>
 #include <optional>
-#include <sstream>
 
 #include "limpet/scenario/suggestion.hpp"
 
@@ -53,15 +53,10 @@ std::optional<double> number_of(const std::string& text) {
     if (text.find_first_not_of("0123456789+-.eE") != std::string::npos) {
         return std::nullopt;
     }
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    double value = 0.0;
-    stream >> value;
-    const bool overflow = stream.fail() && std::abs(value) > 1.0;
-    if (overflow || (!stream.fail() && stream.peek() == std::istringstream::traits_type::eof())) {
-        return value;
-    }
-    return std::nullopt;
+    static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", nullptr);
+    char* end = nullptr;
+    const double value = strtod_l(text.c_str(), &end, kClassic);
+    return !text.empty() && end == text.c_str() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace

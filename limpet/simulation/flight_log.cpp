@@ -76,7 +76,7 @@ record::RecordingInfo describe(const FlightModel& model, const FlightLog::Option
             fmt::format("{}", scenario.guidance.detach_pressure_Pa);
     }
     info.attachments.push_back(
-        {.name = "scenario.yaml", .media_type = "application/yaml", .text = scenario.yaml});
+        {.name = "scenario.yaml", .media_type = "application/yaml", .text = to_yaml(scenario)});
     for_each_type(sensors::Sensors{}, [&](auto type) {
         using Sensor = typename decltype(type)::type;
         if constexpr (!sensors::kIsRead<Sensor>) {

@@ -140,7 +140,7 @@ TEST(VehicleFit, ARecordingTellsWhatItsFlightTold) {
     (void)simulation::fly(model, path);
     FlightData recorded = read_flight(path);
     std::filesystem::remove(path);
-    EXPECT_EQ(recorded.scenario_yaml, scenario.yaml);
+    EXPECT_EQ(recorded.scenario_yaml, to_yaml(scenario));
     recorded.strides.assign(model->strides.begin(), model->strides.end());
     const VehicleFit fit = identify_vehicle(recorded, scenario.airframe);
     const VehicleFit there = identify_vehicle(flown(scenario, 0, 6.0), scenario.airframe);

@@ -146,7 +146,7 @@ TEST(RareCampaign, ARunIsTheFlightOfItsSampleAndNoise) {
     const campaign::RunRow row = results.row(100);  // the first of the second level
     const NoiseBlend noise = rare_noise(results, row.run);
     EXPECT_GT(noise.size(), 1U);  // a proposal beside another run
-    const std::string yaml = campaign::scenario_of(campaign, row.sample, noise).yaml;
+    const std::string yaml = to_yaml(campaign::scenario_of(campaign, row.sample, noise));
     const auto model = simulation::build_model(scenario::load_scenario_text(
         yaml, "again", {.overrides = {}, .seed = {}, .data_root = "."}));
     EXPECT_EQ(campaign::hash_text(simulation::fly(model).state_hash), row.state_hash);

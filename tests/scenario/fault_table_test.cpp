@@ -48,10 +48,10 @@ TEST_F(FaultTable, EveryKindIsWrittenAsItIsRead) {
     for (const CatalogueEntry& kind : list_faults()) {
         for (const char* when : {"at_s: 0.1", "phase: resting, after_s: 0.3, for_s: 0.7"}) {
             const Scenario first = loaded("[{fault: " + kind.name + ", " + when + "}]");
-            const Scenario again = data_.load_text(first.yaml);
+            const Scenario again = data_.load_text(to_yaml(first));
             ASSERT_EQ(again.faults.size(), 1U) << kind.name;
             EXPECT_EQ(fault_text(again.faults[0]), fault_text(first.faults[0]));
-            EXPECT_EQ(again.yaml, first.yaml);
+            EXPECT_EQ(to_yaml(again), to_yaml(first));
         }
     }
 }

@@ -28,7 +28,7 @@ TEST_F(Overrides, ReachEveryRoom) {
     EXPECT_EQ(s.sensors.lidar_noise_m, 0.0);
     EXPECT_EQ(s.cup.valve_fitted, true);
     EXPECT_EQ(suction::model_of(s.cup).name, "pneumatic");
-    EXPECT_EQ(data_.load_text(s.yaml).cup.pressure_model, s.cup.pressure_model);
+    EXPECT_EQ(data_.load_text(to_yaml(s)).cup.pressure_model, s.cup.pressure_model);
     EXPECT_EQ(s.cup.lip.tilt_stiffness_N_m_rad, 30.0);
     EXPECT_EQ(s.simulation.hover_s, 7.0);
     EXPECT_EQ(s.wall.heading_deg, 90.0);
