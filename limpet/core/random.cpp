@@ -95,8 +95,7 @@ using Words = __m256i;
 /// @param words  of 53 bits
 [[gnu::target("avx2")]] inline __m256d unit_interval(Words words) {
     // Each half becomes a number by what stands above it: 2^84 and 2^52 more than it is worth.
-    const Words high =
-        _mm256_or_si256(_mm256_srli_epi64(words, 32), all_of(0x4530000000000000ULL));
+    const Words high = _mm256_or_si256(_mm256_srli_epi64(words, 32), all_of(0x4530000000000000ULL));
     const Words low =
         _mm256_blend_epi32(all_of(0x4330000000000000ULL), words, 0b01010101);  // of each the lower
     const __m256d number =
@@ -113,9 +112,8 @@ using Words = __m256i;
 
 /// As draw_anywhere(), four blocks side by side: compilers do not find the machine's
 /// multiplication of 32 by 32 bits for it. Source of the rounds: as Philox'.
-[[gnu::target("avx2")]] void draw_avx2(std::uint64_t seed, std::uint64_t counter,
-                                       std::uint32_t run, std::uint32_t stream,
-                                       double (&uniforms)[2 * kBlocks]) {
+[[gnu::target("avx2")]] void draw_avx2(std::uint64_t seed, std::uint64_t counter, std::uint32_t run,
+                                       std::uint32_t stream, double (&uniforms)[2 * kBlocks]) {
     constexpr int kRounds = 10;
     const Words multiplier0 = all_of(PHILOX_M4x32_0);
     const Words multiplier1 = all_of(PHILOX_M4x32_1);

@@ -2,10 +2,9 @@
 #include "limpet/scenario/yaml_reader.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 #include <locale.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>

@@ -114,7 +114,8 @@ AirLoad load_of_air(const FlightModel& model, const FlightState& state,
         const Vector3 shift_B_kg_m(acting.payload_ahead_kg_m, acting.payload_to_right_kg_m, 0.0);
         air.wrench_W.moment_N_m += (R_WB * shift_B_kg_m).cross(kGravity_m_s2 * Vector3::UnitZ());
     }
-    if (vehicle::acts(model.wall_air) && model.has_wall) {
+    if (vehicle::acts(model.wall_air) && model.has_wall &&
+        before_wall_m(model.cup.wall, base.p_WF_m) - model.hubs_reach_m < model.wall_air.reach_m) {
         const Wrench wall_W = vehicle::wall_air_wrench_W(
             model.wall_air, state.wall_air, airframe, state.rotors, air.thrust_N, base.q_WF,
             closest_hub_m(model, base), tangent_frame(model.cup.wall, base.p_WF_m).into_W());

@@ -23,8 +23,9 @@ double closest_hub_m(const FlightModel& model, const Kinematics& base) {
     double closest_m = std::numeric_limits<double>::infinity();
     for (const vehicle::Rotor& rotor : model.airframe.rotors) {
         const Vector3 p_WR_m = base.p_WF_m + base.q_WF * rotor.p_B_m;
-        if (tangent_frame(model.cup.wall, p_WR_m).on_wall) {
-            closest_m = std::min(closest_m, before_wall_m(model.cup.wall, p_WR_m));
+        const double before_m = before_wall_m(model.cup.wall, p_WR_m);
+        if (before_m < closest_m && tangent_frame(model.cup.wall, p_WR_m).on_wall) {
+            closest_m = before_m;
         }
     }
     return closest_m;

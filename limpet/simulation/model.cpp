@@ -101,7 +101,8 @@ std::shared_ptr<const FlightModel> build_model(const scenario::Scenario& scenari
     model->rotor_lag = make_lag(model->airframe.rotor, kTick_s);
     model->wind = make_wind(scenario.environment.wind, kTick_s);
     model->nearness = make_nearness(scenario.environment.nearness, scenario.start.ground_z_W_m);
-    model->wall_air = make_wall_air(scenario.environment.wall_air, kTick_s);
+    model->wall_air =
+        make_wall_air(scenario.environment.wall_air, scenario.airframe.rotor.radius_m, kTick_s);
     model->swell = make_swell(scenario.environment.swell, model->ahead_W, scenario.airframe);
     model->payload =
         make_payload(scenario.airframe, scenario.start.ground_z_W_m,

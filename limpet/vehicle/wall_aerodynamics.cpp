@@ -85,10 +85,15 @@ WallCoefficients wall_coefficients(double radii) {
     return {};
 }
 
-WallAirModel make_wall_air(const WallAirParameters& parameters, double dt_s) {
+WallAirModel make_wall_air(const WallAirParameters& parameters, double rotor_radius_m,
+                           double dt_s) {
     const double r = dt_s / parameters.recirculation_correlation_s;
-    return {
-        .parameters = parameters, .keep = std::exp(-r), .kick = std::sqrt(-std::expm1(-2.0 * r))};
+    return {.parameters = parameters,
+            .keep = std::exp(-r),
+            .kick = std::sqrt(-std::expm1(-2.0 * r)),
+            .reach_m = rotor_radius_m *
+                       std::max(kPublished.back().radii, parameters.recirculation_none_radii),
+            .diameter_4_m4 = std::pow(2.0 * rotor_radius_m, 4)};
 }
 
 WallAirState start(const WallAirModel& model, const RandomStream& random) {
@@ -125,7 +130,7 @@ Wrench wall_air_wrench_W(const WallAirModel& model, const WallAirState& state,
         const WallCoefficients c = wall_coefficients(radii);
         const double diameter_m = 2.0 * airframe.rotor.radius_m;
         const double unit_N = level * kAirDensity_kg_m3 * airframe.rotor.density_ratio *
-                              mean_square_rev_s(rotors) * std::pow(diameter_m, 4);
+                              mean_square_rev_s(rotors) * model.diameter_4_m4;
         wrench.force_N = parameters.wall_force_scale * c.force * unit_N * x_T_W;
         // Turning from the axis that points down towards the wall's normal lifts the wall's side.
         wrench.moment_N_m = -parameters.wall_moment_scale * c.moment * unit_N * diameter_m *

@@ -48,9 +48,13 @@ struct WallAirModel {
     WallAirParameters parameters;
     double keep = 1.0;  ///< of the Gauss-Markov process, a step
     double kick = 0.0;
+    double reach_m = 0.0;        ///< from which distance on there is nothing
+    double diameter_4_m4 = 0.0;  ///< a rotor's, to the fourth power
 };
-/// @param dt_s  > 0, of every step
-[[nodiscard]] WallAirModel make_wall_air(const WallAirParameters& parameters, double dt_s);
+/// @param rotor_radius_m  > 0
+/// @param dt_s            > 0, of every step
+[[nodiscard]] WallAirModel make_wall_air(const WallAirParameters& parameters, double rotor_radius_m,
+                                         double dt_s);
 
 struct WallAirState {
     double swirl = 0.0;  ///< of unit variance

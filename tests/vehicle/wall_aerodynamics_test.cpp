@@ -11,6 +11,7 @@ namespace {
 
 const Vector3 kIntoWall = Vector3::UnitX();
 constexpr double kHoverSpeed_rad_s = 560.0;
+const double kRadius_m = Airframe().rotor.radius_m;
 constexpr double kHover_N = 3.2 * kGravity_m_s2;
 
 RotorsState spinning_at(double speed_rad_s) {
@@ -35,7 +36,7 @@ Wrench at(const WallAirModel& model, const WallAirState& state, double radii,
 }
 
 TEST(WallAir, NothingByDefault) {
-    const WallAirModel model = make_wall_air({}, 1e-3);
+    const WallAirModel model = make_wall_air({}, kRadius_m, 1e-3);
     WallAirState state = start(model, RandomStream(1, 0, Stream::wall_air));
     step(model, state);
     EXPECT_FALSE(acts(model));
@@ -47,7 +48,7 @@ TEST(WallAir, NothingByDefault) {
 /// facts.md section 5: rho n^2 D^4 = 84 N and D^5: 25.6 N m at hover; F ~ 0.2 N and M 0.04 to
 /// 0.12 N m where the vehicle is attached, d/R = 1.7.
 TEST(WallAir, SteadyPartIsThatOfTheFactsWhereAttached) {
-    const Wrench wrench = at(make_wall_air(steady(), 1e-3), {}, 1.7);
+    const Wrench wrench = at(make_wall_air(steady(), kRadius_m, 1e-3), {}, 1.7);
     EXPECT_NEAR(wrench.force_N.x(), 84.0 * (0.0025 - 0.4 * 0.0005), 0.002);
     EXPECT_NEAR(wrench.moment_N_m.y(), -25.6 * (0.00325 - 0.4 * (0.00325 - 0.0007)), 0.001);
     EXPECT_NEAR(wrench.force_N.x(), 0.2, 0.05);
@@ -56,7 +57,7 @@ TEST(WallAir, SteadyPartIsThatOfTheFactsWhereAttached) {
 }
 
 TEST(WallAir, GoesWithTheSquareOfTheSpeedAndEndsAtFourRadii) {
-    const WallAirModel model = make_wall_air(steady(), 1e-3);
+    const WallAirModel model = make_wall_air(steady(), kRadius_m, 1e-3);
     EXPECT_NEAR(at(model, {}, 1.5, 2.0 * kHoverSpeed_rad_s).force_N.x(),
                 4.0 * at(model, {}, 1.5).force_N.x(), 1e-12);
     EXPECT_EQ(at(model, {}, 1.5, 0.0).force_N, Vector3::Zero());
@@ -76,15 +77,15 @@ TEST(WallAir, ScalesTurnTheSigns) {
     WallAirParameters turned = steady();
     turned.wall_force_scale = -1.0;
     turned.wall_moment_scale = -2.0;
-    const Wrench plain = at(make_wall_air(steady(), 1e-3), {}, 1.5);
-    const Wrench other = at(make_wall_air(turned, 1e-3), {}, 1.5);
+    const Wrench plain = at(make_wall_air(steady(), kRadius_m, 1e-3), {}, 1.5);
+    const Wrench other = at(make_wall_air(turned, kRadius_m, 1e-3), {}, 1.5);
     EXPECT_NEAR((other.force_N + plain.force_N).norm(), 0.0, 1e-15);
     EXPECT_NEAR((other.moment_N_m + 2.0 * plain.moment_N_m).norm(), 0.0, 1e-15);
 }
 
 /// A vehicle that stands with another side to the wall still dips that side.
 TEST(WallAir, TheSideAtTheWallGoesDownWhateverTheHeading) {
-    const WallAirModel model = make_wall_air(steady(), 1e-3);
+    const WallAirModel model = make_wall_air(steady(), kRadius_m, 1e-3);
     const Wrench ahead = at(model, {}, 1.5);
     const Wrench turned =
         at(model, {}, 1.5, kHoverSpeed_rad_s, quaternion_from_euler({.yaw_rad = radians(90.0)}));
@@ -101,7 +102,8 @@ WallAirParameters unsteady() {
 TEST(Recirculation, IsGaussMarkovOfItsVarianceAndCorrelationTime) {
     constexpr std::uint32_t kRuns = 40000;
     constexpr int kSteps = 5;
-    const WallAirModel model = make_wall_air(unsteady(), 0.05);  // 0.25 s: half a time constant
+    const WallAirModel model =
+        make_wall_air(unsteady(), kRadius_m, 0.05);  // 0.25 s: half a time constant
     double square_before = 0.0;
     double square_after = 0.0;
     double product = 0.0;
@@ -122,7 +124,7 @@ TEST(Recirculation, IsGaussMarkovOfItsVarianceAndCorrelationTime) {
 }
 
 TEST(Recirculation, FadesWithDistanceThrustAndTilt) {
-    const WallAirModel model = make_wall_air(unsteady(), 1e-3);
+    const WallAirModel model = make_wall_air(unsteady(), kRadius_m, 1e-3);
     const WallAirState state{.swirl = 1.0, .random = {}};
     const auto moment = [&](double radii, double speed, double pitch_deg = 0.0) {
         return at(model, state, radii, speed,
