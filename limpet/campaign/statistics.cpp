@@ -98,6 +98,20 @@ double LogisticFit::probability(double x) const {
     return logistic(intercept + slope * x);
 }
 
+void TrialsAlong::add(const Trials& trials) {
+    const double cell = std::floor((trials.x - low_) / width_);
+    if (width_ == 0.0 || trials_.empty() || cell != last_cell_) {
+        trials_.push_back(trials);
+        last_cell_ = cell;
+        return;
+    }
+    Trials& last = trials_.back();
+    Proportion& sum = last.proportion;
+    sum.runs += trials.proportion.runs;
+    sum.successes += trials.proportion.successes;
+    last.x += (trials.x - last.x) * trials.proportion.runs / sum.runs;
+}
+
 std::optional<LogisticFit> fit_logistic(const std::vector<Trials>& trials) {
     if (!can_be_fitted(trials)) {
         return std::nullopt;

@@ -46,6 +46,28 @@ struct Trials {
     Proportion proportion;
 };
 
+/// Trials along ascending x. Of many runs those of neighbouring values are taken together, at their
+/// mean, so that memory does not follow the number of runs: x to a 5000th of its range.
+class TrialsAlong {
+public:
+    /// A multiple of all numbers of groups that a summary draws.
+    static constexpr std::uint32_t kMost = 5000;
+
+    /// @param low, high  of all x
+    /// @param runs       in all; with kMost at most every value stays as it is
+    TrialsAlong(double low, double high, std::uint32_t runs)
+        : low_(low), width_(runs > kMost ? (high - low) / kMost : 0.0) {}
+    /// @param trials  x not below that of the last ones
+    void add(const Trials& trials);
+    [[nodiscard]] const std::vector<Trials>& all() const { return trials_; }
+
+private:
+    double low_;
+    double width_;  ///< of what is taken together; 0: nothing is
+    std::vector<Trials> trials_;
+    double last_cell_ = 0.0;
+};
+
 /// Maximum likelihood by Newton's method.
 /// @return nullopt where no finite fit exists or none makes sense: fewer than three values of x,
 ///         only successes or only failures, or a threshold that parts them cleanly

@@ -41,10 +41,22 @@ void for_each_value(SQLite::Database& database, const std::string& key, const st
     }
 }
 
-std::vector<Group> groups_by_bin(const std::vector<Trials>& trials) {
+struct Range {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+Range range_of(SQLite::Database& database, const std::string& key) {
+    SQLite::Statement select(database,
+                             fmt::format("SELECT min({0}), max({0}) FROM runs", sql_name(key)));
+    select.executeStep();
+    return {select.getColumn(0).getDouble(), select.getColumn(1).getDouble()};
+}
+
+std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Range& range) {
     const std::size_t bins = std::clamp<std::size_t>(trials.size() / kRunsABin, 1, kMostBins);
-    const double low = trials.front().x;
-    const double width = (trials.back().x - low) / static_cast<double>(bins);
+    const double low = range.low;
+    const double width = (range.high - low) / static_cast<double>(bins);
     std::vector<Group> groups;
     for (std::size_t i = 0; i < bins; ++i) {
         const double from = low + static_cast<double>(i) * width;
@@ -69,17 +81,18 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
         });
         return summary;
     }
-    std::vector<Trials> trials;  // all that a summary keeps of each run: 16 bytes, a key at a time
-    trials.reserve(key.values.empty() ? finished : key.values.size());
+    const Range range = range_of(database, key.key);
+    TrialsAlong along(range.low, range.high, key.values.empty() ? finished : 0);
     for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
-        const double x = value.getDouble();
-        trials.push_back({x, p});
-        if (trials.size() <= kMostValues) {
-            summary.groups.push_back({scenario::number_text(x), x, x, p});
-        }
+        along.add({value.getDouble(), p});
     });
+    const std::vector<Trials>& trials = along.all();
     if (key.values.empty() || trials.size() > kMostValues) {
-        summary.groups = groups_by_bin(trials);
+        summary.groups = groups_by_bin(trials, range);
+    } else {
+        for (const Trials& t : trials) {
+            summary.groups.push_back({scenario::number_text(t.x), t.x, t.x, t.proportion});
+        }
     }
     summary.fit = fit_logistic(trials);
     if (summary.fit && std::abs(summary.fit->slope) < kNormal95 * summary.fit->slope_error) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "limpet/core/random.hpp"
@@ -82,6 +83,45 @@ TEST(Logistic, RecoversWhatMadeTheData) {
         covered += std::abs(fit->half - kHalf) < kNormal95 * fit->half_error ? 1 : 0;
     }
     EXPECT_GE(covered, 180);  // 90 %
+}
+
+TEST(TrialsAlong, ManyAreTakenTogetherAndFittedAsEachByItself) {
+    constexpr std::uint32_t kRuns = 40'000;
+    RandomStream random(3, 0, Stream::test);
+    std::vector<Trials> each;
+    for (std::uint32_t i = 0; i < kRuns; ++i) {
+        const double x = -3.0 + 7.0 * std::pow(random.uniform(), 3);
+        const double p = 1.0 / (1.0 + std::exp(-1.3 * (x - 0.2)));
+        each.push_back({x, {random.uniform() < p ? 1U : 0U, 1}});
+    }
+    std::sort(each.begin(), each.end(), [](const Trials& a, const Trials& b) { return a.x < b.x; });
+    TrialsAlong along(each.front().x, each.back().x, kRuns);
+    Proportion sum;
+    for (const Trials& trials : each) {
+        along.add(trials);
+        sum.successes += trials.proportion.successes;
+    }
+    EXPECT_LE(along.all().size(), TrialsAlong::kMost + 1);
+    for (const Trials& trials : along.all()) {
+        sum.runs += trials.proportion.runs;
+        sum.successes -= trials.proportion.successes;
+    }
+    EXPECT_EQ(sum.runs, kRuns);
+    EXPECT_EQ(sum.successes, 0U);
+    const auto exact = fit_logistic(each);
+    const auto together = fit_logistic(along.all());
+    ASSERT_TRUE(exact && together);
+    EXPECT_NEAR(together->slope, exact->slope, 1e-3 * exact->slope_error);
+    EXPECT_NEAR(together->half, exact->half, 1e-3 * exact->half_error);
+}
+
+TEST(TrialsAlong, FewStayAsTheyAre) {
+    TrialsAlong along(0.0, 1.0, TrialsAlong::kMost);
+    for (const double x : {0.0, 1e-9, 2e-9, 1.0}) {
+        along.add({x, {1, 1}});
+    }
+    EXPECT_EQ(along.all().size(), 4U);
+    EXPECT_EQ(along.all()[1].x, 1e-9);
 }
 
 TEST(Logistic, SaysNothingWhereNothingCanBeSaid) {
