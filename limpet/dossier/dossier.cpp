@@ -290,11 +290,12 @@ std::optional<double> tolerance_bound(const std::vector<double>& sorted, bool le
     // that fewer than k of n lie there; the largest k for which that is small enough.
     const double rest = 1.0 - share;
     double below = 0.0;
-    double term = std::pow(share, static_cast<double>(n));
+    double log_term = static_cast<double>(n) * std::log(share);  // itself too small from 15,000 on
     std::size_t k = 0;
-    while (k < n && below + term <= 1.0 - confidence) {
-        below += term;
-        term *= static_cast<double>(n - k) / static_cast<double>(k + 1) * rest / share;
+    while (k < n && below + std::exp(log_term) <= 1.0 - confidence) {
+        below += std::exp(log_term);
+        log_term +=
+            std::log(static_cast<double>(n - k) / static_cast<double>(k + 1) * rest / share);
         ++k;
     }
     if (k == 0) {

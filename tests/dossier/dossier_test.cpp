@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
@@ -62,6 +64,17 @@ TEST(ToleranceBound, HoldsAsOftenAsItSays) {
         held += *tolerance_bound(sorted, false, 0.95, 0.95) >= 0.95 ? 1 : 0;
     }
     EXPECT_NEAR(held / static_cast<double>(kTrials), 0.95, 0.015);  // 93 flights: exactly 95.0 %
+}
+
+/// By the normal approximation, which is within 1 of the rank there.
+TEST(ToleranceBound, OfVeryManyFlights) {
+    for (const double n : {14'000.0, 20'000.0, 1e6}) {
+        std::vector<double> ranks(static_cast<std::size_t>(n));
+        std::iota(ranks.begin(), ranks.end(), 1.0);
+        const double rank = 0.05 * n - 1.6448536 * std::sqrt(0.05 * 0.95 * n);
+        EXPECT_NEAR(*tolerance_bound(ranks, true, 0.95, 0.95), rank, 2.0) << n;
+        EXPECT_NEAR(*tolerance_bound(ranks, false, 0.95, 0.95), n + 1.0 - rank, 2.0) << n;
+    }
 }
 
 TEST(Dossier, EveryNumberLinksToItsRun) {
