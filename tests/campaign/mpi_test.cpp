@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 constexpr int kRankRuns = 400;
-constexpr int kManyRankRuns = 4000;  ///< where mpirun takes its time to pass a signal on
+constexpr int kManyRankRuns = 10'000;  ///< where mpirun takes its time to pass a signal on
 /// Runs that a rank of one thread may hold, in the air and ahead, and some.
 constexpr int kHeldRuns = 40;
 
