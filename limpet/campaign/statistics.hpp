@@ -50,13 +50,13 @@ struct Trials {
 /// mean, so that memory does not follow the number of runs: x to a 5000th of its range.
 class TrialsAlong {
 public:
-    /// A multiple of all numbers of groups that a summary draws.
+    /// A multiple of the ten groups of a summary: none of them parts what is together.
     static constexpr std::uint32_t kMost = 5000;
 
-    /// @param low, high  of all x
-    /// @param runs       in all; with kMost at most every value stays as it is
-    TrialsAlong(double low, double high, std::uint32_t runs)
-        : low_(low), width_(runs > kMost ? (high - low) / kMost : 0.0) {}
+    /// @param range  of all x
+    /// @param runs   in all; with kMost at most every value stays as it is
+    TrialsAlong(const Interval& range, std::uint32_t runs)
+        : low_(range.low), width_(runs > kMost ? (range.high - range.low) / kMost : 0.0) {}
     /// @param trials  x not below that of the last ones
     void add(const Trials& trials);
     [[nodiscard]] const std::vector<Trials>& all() const { return trials_; }

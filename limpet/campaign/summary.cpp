@@ -41,20 +41,17 @@ void for_each_value(SQLite::Database& database, const std::string& key, const st
     }
 }
 
-struct Range {
-    double low = 0.0;
-    double high = 0.0;
-};
-
-Range range_of(SQLite::Database& database, const std::string& key) {
+Interval range_of(SQLite::Database& database, const std::string& key) {
     SQLite::Statement select(database,
                              fmt::format("SELECT min({0}), max({0}) FROM runs", sql_name(key)));
     select.executeStep();
     return {select.getColumn(0).getDouble(), select.getColumn(1).getDouble()};
 }
 
-std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Range& range) {
-    const std::size_t bins = std::clamp<std::size_t>(trials.size() / kRunsABin, 1, kMostBins);
+/// @param values  so many were drawn or listed
+std::vector<Group> groups_by_bin(const std::vector<Trials>& trials, const Interval& range,
+                                 std::size_t values) {
+    const std::size_t bins = std::clamp<std::size_t>(values / kRunsABin, 1, kMostBins);
     const double low = range.low;
     const double width = (range.high - low) / static_cast<double>(bins);
     std::vector<Group> groups;
@@ -81,14 +78,15 @@ KeySummary summarise_key(SQLite::Database& database, const VariedKey& key,
         });
         return summary;
     }
-    const Range range = range_of(database, key.key);
-    TrialsAlong along(range.low, range.high, key.values.empty() ? finished : 0);
+    const bool drawn = key.values.empty();
+    const Interval range = range_of(database, key.key);
+    TrialsAlong along(range, drawn ? finished : 0);
     for_each_value(database, key.key, success, [&](const auto& value, const Proportion& p) {
         along.add({value.getDouble(), p});
     });
     const std::vector<Trials>& trials = along.all();
-    if (key.values.empty() || trials.size() > kMostValues) {
-        summary.groups = groups_by_bin(trials, range);
+    if (drawn || trials.size() > kMostValues) {
+        summary.groups = groups_by_bin(trials, range, drawn ? finished : trials.size());
     } else {
         for (const Trials& t : trials) {
             summary.groups.push_back({scenario::number_text(t.x), t.x, t.x, t.proportion});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "limpet/core/frames.hpp"
+#include "limpet/core/philox.hpp"
 
 namespace limpet {
 
@@ -81,7 +82,7 @@ public:
     /// What follows from the rest and is not visited: numbers are made several at once, ahead of
     /// need, in the machine's vectors.
     struct Ahead {
-        static constexpr std::size_t kCount = 16;
+        static constexpr std::size_t kCount = kDrawn;
         bool there = false;
         bool normal = false;     ///< normals too
         std::uint64_t from = 0;  ///< numbers before these

@@ -292,11 +292,13 @@ std::optional<double> tolerance_bound(const std::vector<double>& sorted, bool le
     double below = 0.0;
     double log_term = static_cast<double>(n) * std::log(share);  // itself too small from 15,000 on
     std::size_t k = 0;
-    while (k < n && below + std::exp(log_term) <= 1.0 - confidence) {
+    for (; k < n; ++k) {
         below += std::exp(log_term);
+        if (below > 1.0 - confidence) {
+            break;
+        }
         log_term +=
             std::log(static_cast<double>(n - k) / static_cast<double>(k + 1) * rest / share);
-        ++k;
     }
     if (k == 0) {
         return std::nullopt;

@@ -95,7 +95,7 @@ TEST(TrialsAlong, ManyAreTakenTogetherAndFittedAsEachByItself) {
         each.push_back({x, {random.uniform() < p ? 1U : 0U, 1}});
     }
     std::sort(each.begin(), each.end(), [](const Trials& a, const Trials& b) { return a.x < b.x; });
-    TrialsAlong along(each.front().x, each.back().x, kRuns);
+    TrialsAlong along({each.front().x, each.back().x}, kRuns);
     Proportion sum;
     for (const Trials& trials : each) {
         along.add(trials);
@@ -116,7 +116,7 @@ TEST(TrialsAlong, ManyAreTakenTogetherAndFittedAsEachByItself) {
 }
 
 TEST(TrialsAlong, FewStayAsTheyAre) {
-    TrialsAlong along(0.0, 1.0, TrialsAlong::kMost);
+    TrialsAlong along({0.0, 1.0}, TrialsAlong::kMost);
     for (const double x : {0.0, 1e-9, 2e-9, 1.0}) {
         along.add({x, {1, 1}});
     }

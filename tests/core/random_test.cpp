@@ -40,6 +40,22 @@ TEST(Random, TheNumbersAreThoseOfCountersInTurn) {
     }
 }
 
+/// Whatever the machine: counters over the edge of 32 and of 64 bits among them.
+TEST(Random, EveryKindOfMachineDrawsTheSame) {
+    for (const std::uint64_t counter : {0ULL, 12ULL, 0xfffffffdULL, 0xfffffffffffffffdULL}) {
+        for (std::uint32_t run = 0; run < 50; ++run) {
+            const std::uint64_t seed = 0x9e3779b97f4a7c15ULL * run;
+            double here[kDrawn];
+            double anywhere[kDrawn];
+            draw_uniforms(seed, counter, run, 1000 - run, here);
+            draw_uniforms_anywhere(seed, counter, run, 1000 - run, anywhere);
+            for (std::size_t i = 0; i < kDrawn; ++i) {
+                EXPECT_EQ(here[i], anywhere[i]) << counter << ' ' << run << ' ' << i;
+            }
+        }
+    }
+}
+
 /// Normals are found several at once; in what order the two kinds are asked for is all the same.
 TEST(Random, EveryNormalIsTheQuantileOfItsUniform) {
     RandomStream uniform(7, 3, Stream::test);

@@ -73,6 +73,21 @@ TEST(WallAir, GoesWithTheSquareOfTheSpeedAndEndsAtFourRadii) {
     EXPECT_EQ(wall_coefficients(0.3).force, wall_coefficients(1.0).force);
 }
 
+/// The loop asks within reach_m alone.
+TEST(WallAir, ThereIsNoneFromItsReachOnAndSomeBeforeIt) {
+    for (const double none_radii : {3.0, 6.0}) {
+        WallAirParameters both = steady();
+        both.recirculation_moment_rms_N_m = 0.1;
+        both.recirculation_none_radii = none_radii;
+        const WallAirModel model = make_wall_air(both, kRadius_m, 1e-3);
+        const double radii = model.reach_m / kRadius_m;
+        const WallAirState swirls{.swirl = 1.0, .random = {}};
+        EXPECT_EQ(at(model, swirls, radii).force_N, Vector3::Zero()) << none_radii;
+        EXPECT_EQ(at(model, swirls, radii).moment_N_m, Vector3::Zero());
+        EXPECT_GT(at(model, swirls, 0.99 * radii).moment_N_m.norm(), 0.0);
+    }
+}
+
 TEST(WallAir, ScalesTurnTheSigns) {
     WallAirParameters turned = steady();
     turned.wall_force_scale = -1.0;
