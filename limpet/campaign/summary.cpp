@@ -134,6 +134,10 @@ std::vector<std::string> autopilots_of(Results& results) {
 
 }  // namespace
 
+std::string headline(const std::string& name, const std::string& description) {
+    return description.empty() ? name : name + ": " + description;
+}
+
 CampaignSummary summarise(Results& results) {
     return asking(results.database(), [&results] {
         const Campaign& campaign = results.campaign();

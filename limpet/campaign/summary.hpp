@@ -63,6 +63,9 @@ struct CampaignSummary {
 
 [[nodiscard]] CampaignSummary summarise(Results& results);
 
+/// "NAME: DESCRIPTION", the name alone where nothing is described.
+[[nodiscard]] std::string headline(const std::string& name, const std::string& description);
+
 /// For people: lines of at most a screen's width.
 [[nodiscard]] std::string summary_text(const CampaignSummary& summary);
 /// One JSON object.

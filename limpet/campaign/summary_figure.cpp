@@ -115,7 +115,7 @@ std::vector<std::filesystem::path> draw_summary(const CampaignSummary& summary,
         return {};
     }
     draw::Chart chart{
-        .title = summary.name + ": " + summary.description,
+        .title = headline(summary.name, summary.description),
         .subtitle =
             fmt::format("{} of {} runs of {}, seed {}; points and bars with 95 % Wilson intervals",
                         summary.finished, summary.runs, summary.scenario, summary.seed),

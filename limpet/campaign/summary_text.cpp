@@ -134,7 +134,7 @@ Json json_of(const KeySummary& key) {
 
 std::string summary_text(const CampaignSummary& summary) {
     Text text;
-    text.line("{}: {}", summary.name, summary.description);
+    text.line("{}", headline(summary.name, summary.description));
     text.line("{} of {} runs of {}, seed {}, limpet {}", summary.finished, summary.runs,
               summary.scenario, summary.seed, summary.version);
     for (const std::string& autopilot : summary.autopilots) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "limpet/campaign/summary.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 
@@ -151,10 +152,10 @@ RareSummary summarise_rare(campaign::Results& results, const RareSearch& search)
 }
 
 std::string rare_text(const RareSummary& summary) {
-    std::string text =
-        fmt::format("{}: {}\nrare event {} of {}, {} runs a level, seed {}, limpet {}\n\n{}\n",
-                    summary.name, summary.description, summary.event.text, summary.scenario,
-                    summary.level_runs, summary.seed, summary.version, found_text(summary));
+    std::string text = fmt::format(
+        "{}\nrare event {} of {}, {} runs a level, seed {}, limpet {}\n\n{}\n",
+        campaign::headline(summary.name, summary.description), summary.event.text, summary.scenario,
+        summary.level_runs, summary.seed, summary.version, found_text(summary));
     if (!summary.result.levels.empty()) {
         add_levels(text, summary);
     }

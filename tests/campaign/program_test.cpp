@@ -146,6 +146,16 @@ TEST_F(Flown, SummaryForPeopleAndForPrograms) {
     EXPECT_EQ(json["outcomes"][0]["outcome"], "released");
 }
 
+TEST(Summary, OfACampaignWithoutADescriptionIsHeadedByItsName) {
+    const Bench bench;
+    (void)bench.write("x.yaml",
+                      "scenario: hover\noverrides: [simulation.hover_s=0.1]\nruns: 2\n"
+                      "parameters: {sensors.lidar_noise_m: {uniform: [0.002, 0.02]}}\n");
+    const Finished flown = bench.run({"campaign", "x.yaml"});
+    EXPECT_EQ(flown.exit_code, 0) << flown.err;
+    EXPECT_THAT(flown.out, HasSubstr("x\n2 of 2 runs of hover"));
+}
+
 TEST(CellsPage, SaysHowEachCellOfTwoGridsEndedAndWhichRunItWas) {
     const Bench bench;
     (void)bench.write("cells.yaml",
