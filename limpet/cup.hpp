@@ -11,7 +11,7 @@ namespace limpet {
 /// A sealed cup at the beginning of a step.
 struct CupPressureInput {
     double pressure_Pa = kAtmosphere_Pa;  ///< absolute
-    bool pump_running = false;
+    bool pump_running = false;            ///< switched on, fed and not broken
     bool valve_open = false;
     double press_N = 0.0;                    ///< on the wall, < 0 pulled off
     double radius_m = 0.0;                   ///< of the sealed area
@@ -20,6 +20,9 @@ struct CupPressureInput {
     double unsealing_time_constant_s = 0.0;  ///< tau_2, towards the atmosphere
     double dt_s = 0.0;                       ///< length of the step
     double ambient_Pa = kAtmosphere_Pa;      ///< of the air around
+    double peel_N_m = 0.0;     ///< moment that presses one side of the lip more than the other
+    double hole_mm2 = 0.0;     ///< to the atmosphere, beyond the lip's own leak: a torn lip or hose
+    double leak_growth = 0.0;  ///< what the seal leaks more than when it was fresh, over that
 };
 
 /// How the pressure in a sealed cup goes on, in place of the built-in models; when it is sealed,

@@ -41,9 +41,12 @@ suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupSta
     suction::CupOutput output = suction::step(model, state, surface, cup, input, dt_s);
     const CupPhase phase = state.status.phase;
     if (phase == CupPhase::sealing || phase == CupPhase::attached || phase == CupPhase::unsealing) {
-        air.pump_running = input.pump_on;
+        air.pump_running = input.pump_on && input.pump_draws;
         air.valve_open = input.valve_open;
         air.press_N = -state.status.pull_N;
+        air.peel_N_m = state.status.peel_N_m;
+        air.hole_mm2 = input.hole_mm2;
+        air.leak_growth = state.leak_growth;
         state.mean_pressure_Pa = std::clamp(pressure_->next_Pa(air, memory), 0.0, air.ambient_Pa);
         state.status.pressure_Pa = state.mean_pressure_Pa;
         state.status.pump_running = air.pump_running;

@@ -179,7 +179,13 @@ void add_stations(py::module_& module) {
         .def_readonly("unsealing_time_constant_s", &CupPressureInput::unsealing_time_constant_s,
                       "[s]")
         .def_readonly("dt_s", &CupPressureInput::dt_s, "length of the step [s]")
-        .def_readonly("ambient_Pa", &CupPressureInput::ambient_Pa, "of the air around [Pa]");
+        .def_readonly("ambient_Pa", &CupPressureInput::ambient_Pa, "of the air around [Pa]")
+        .def_readonly("peel_N_m", &CupPressureInput::peel_N_m,
+                      "moment that presses one side of the lip more than the other [N m]")
+        .def_readonly("hole_mm2", &CupPressureInput::hole_mm2,
+                      "to the atmosphere, beyond the lip's own leak [mm^2]")
+        .def_readonly("leak_growth", &CupPressureInput::leak_growth,
+                      "what the seal leaks more than when it was fresh, over that");
 }
 
 }  // namespace limpet::python

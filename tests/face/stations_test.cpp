@@ -53,6 +53,23 @@ public:
     }
 };
 
+/// Goes by the paper's law and keeps what it was told last.
+class Told final : public limpet::CupPressure {
+public:
+    explicit Told(limpet::CupPressureInput& last) : last_(last) {}
+    [[nodiscard]] double next_Pa(const limpet::CupPressureInput& air,
+                                 std::span<double>) const override {
+        last_ = air;
+        const bool sucks = air.pump_running && !air.valve_open;
+        const double end_Pa = sucks ? air.vacuum_pressure_Pa : air.ambient_Pa;
+        const double tau_s = sucks ? air.sealing_time_constant_s : air.unsealing_time_constant_s;
+        return end_Pa + (air.pressure_Pa - end_Pa) * std::exp(-air.dt_s / tau_s);
+    }
+
+private:
+    limpet::CupPressureInput& last_;
+};
+
 /// A rigid ball of the vehicle's mass, without walls.
 class Ball final : public limpet::Plant {
 public:
@@ -138,6 +155,34 @@ TEST(OwnCup, DecidesThePressureAndNothingElse) {
         branched("perch_concrete", {.cup = std::make_shared<Weak>()}, 5.3);
     EXPECT_EQ(result.outcome, limpet::Outcome::failed_to_seal);
     EXPECT_DOUBLE_EQ(result.metric("pressure_min_Pa"), 95000.0);
+}
+
+/// What the cup is told last of a seal that holds or, with a fault, until it lets go.
+limpet::CupPressureInput told_at_rest(const std::vector<std::string>& changes) {
+    limpet::CupPressureInput last;
+    const limpet::Scenario scenario = limpet::load("perch_concrete", changes);
+    limpet::Flight flight(scenario, {.cup = std::make_shared<Told>(last)});
+    while (flight.time_s() < 15.0 && flight.tick()) {
+    }
+    return last;
+}
+
+TEST(OwnCup, IsToldWhatHasWornAndWhatHasBroken) {
+    const limpet::CupPressureInput sound = told_at_rest({});
+    EXPECT_TRUE(sound.pump_running);
+    EXPECT_EQ(sound.hole_mm2, 0.0);
+    EXPECT_EQ(sound.leak_growth, 0.0);
+    EXPECT_GT(std::abs(sound.peel_N_m), 0.1);
+
+    const limpet::CupPressureInput creeping = told_at_rest({"suction.seal_creep_1_s=0.01"});
+    EXPECT_NEAR(creeping.leak_growth, 0.01 * 9.8, 0.01 * 0.3);  // sealed from 5.2 s on
+
+    const limpet::CupPressureInput leaking =
+        told_at_rest({"faults.fault=hose_leaks", "faults.phase=resting", "faults.size=0.4"});
+    EXPECT_DOUBLE_EQ(leaking.hole_mm2, 0.4);
+    EXPECT_TRUE(leaking.pump_running);
+
+    EXPECT_FALSE(told_at_rest({"faults.fault=pump_lost", "faults.phase=resting"}).pump_running);
 }
 
 TEST(OwnPlant, MovesWhatTheLoopAsks) {
