@@ -76,6 +76,14 @@ void check_motor(const Scenario& scenario, const YamlNode& root) {
     }
 }
 
+/// An empty pack has no voltage for rotors whose speed follows it.
+void check_battery(const Scenario& scenario, const YamlNode& root) {
+    if (!(vehicle::hover_drive_share(scenario.airframe) > 0.0)) {
+        fail_at(root, "vehicle.battery.initial_charge",
+                "0 leaves rotors whose speed follows the voltage without any, allowed above 0");
+    }
+}
+
 /// What the estimator can only run with.
 void check_aiding(const Scenario& scenario, const YamlNode& root) {
     if (scenario.autopilot.EKF2_EV_CTRL == 0 && scenario.autopilot.EKF2_GPS_CTRL == 0) {
@@ -237,6 +245,7 @@ void check(const Scenario& scenario, const YamlNode& root) {
     check_aiding(scenario, root);
     Scenario bound = scenario;  // sections bind to what may be written
     const std::vector<Section> sections = scenario_sections(bound);
+    check_battery(scenario, root);
     check_derived(scenario, sections, root);
     check_mission(scenario, root);
     check_compliance(scenario, root);

@@ -67,6 +67,16 @@ TEST_F(BadInput, AMotorThatCannotHover) {
         << error;
 }
 
+TEST_F(BadInput, AnEmptyPackForRotorsThatFollowItsVoltage) {
+    EXPECT_EQ(error_of([&] {
+                  return data_.load_text(
+                      "vehicle: {base: small, battery: {initial_charge: 0}, rotor: "
+                      "{speed_follows_voltage: true}}\nmission: hover\n");
+              }),
+              "x.yaml:1: vehicle.battery.initial_charge: 0 leaves rotors whose speed follows the "
+              "voltage without any, allowed above 0");
+}
+
 TEST_F(BadInput, NotFinite) {
     for (const std::string value : {".nan", ".NaN", "nan", ".inf", "-.inf", "+inf", "Infinity"}) {
         EXPECT_EQ(hover_error("simulation: {hover_s: " + value + "}\n"),
