@@ -15,6 +15,7 @@
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/rare/rare_campaign.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
@@ -118,12 +119,12 @@ campaign::CampaignWatch campaign_watch(Terminal& terminal) {
 ExitCode conclude(const campaign::Progress& progress, campaign::Results& results,
                   const CampaignOptions& options, const fs::path& folder, Terminal& terminal) {
     if (progress.finished < progress.runs) {
-        complain(
-            fmt::format("stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
-                        "--out {}{}{} --resume",
-                        progress.finished, progress.runs, options.file, folder.string(),
-                        options.shard.empty() ? "" : " --shard " + options.shard,
-                        options.on_px4() ? " --autopilot px4" : ""));
+        complain(fmt::format(
+            "stopped after {} of {} runs, all kept; go on with: limpet campaign {} "
+            "--out {}{}{} --resume",
+            progress.finished, progress.runs, for_shell(options.file), for_shell(folder.string()),
+            options.shard.empty() ? "" : " --shard " + options.shard,
+            options.on_px4() ? " --autopilot px4" : ""));
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,
@@ -136,9 +137,9 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
     terminal.line(summary_text(summarise(results)));
     const std::string file = (folder / campaign::Results::kFileName).string();
     terminal.line("written", file);
-    terminal.line("", "limpet summary " + file + "      figures, JSON");
+    terminal.line("", "limpet summary " + for_shell(file) + "      figures, JSON");
     if (!options.on_px4()) {
-        terminal.line("", "limpet replay " + file + " 0     one run, recorded");
+        terminal.line("", "limpet replay " + for_shell(file) + " 0     one run, recorded");
     }
     if (const auto faults = progress.outcomes.find(campaign::kFault);
         faults != progress.outcomes.end()) {
@@ -151,11 +152,11 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
 
 std::string crew_text(const CampaignOptions& options, int jobs, int ranks) {
     const auto threads = fmt::format("{} thread{}", jobs, jobs == 1 ? "" : "s");
-    return options.on_px4()         ? fmt::format("on {} PX4{}", options.px4.instances,
-                                          options.px4.instances == 1 ? "" : "s")
-           : ranks > 1              ? fmt::format("on {} ranks, {} on the first", ranks, threads)
-           : !options.shard.empty() ? fmt::format("shard {}, on {}", options.shard, threads)
-                                    : "on " + threads;
+    const auto part = options.shard.empty() ? "" : fmt::format("shard {}, ", options.shard);
+    return part + (options.on_px4() ? fmt::format("on {} PX4{}", options.px4.instances,
+                                                  options.px4.instances == 1 ? "" : "s")
+                   : ranks > 1      ? fmt::format("on {} ranks, {} on the first", ranks, threads)
+                                    : "on " + threads);
 }
 
 /// Where the results are, nobody else's meanwhile.
@@ -168,6 +169,12 @@ struct Place {
           lock(folder),
           results(begin_results(campaign, folder, options.resume, shard)) {}
 
+    /// @throws InputError when it holds what only looks like the campaign's runs
+    void require_plain() {
+        rare::require_plain(results);
+        study::require_no_study(results);
+    }
+
     fs::path folder;
     FolderLock lock;
     campaign::Results results;
@@ -178,13 +185,11 @@ struct Place {
 ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                      campaign::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
-    rare::require_plain(place.results);
-    study::require_no_study(place.results);
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
                                         : Terminal::Voice::normal);
     const std::uint32_t there = place.results.finished();
-    terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
+    terminal.line(campaign::headline(terminal.bold(campaign.name), campaign.description));
     terminal.line(fmt::format("{} runs of {}, seed {}, {}{}", campaign.runs, campaign.scenario_name,
                               campaign.seed,
                               crew_text(options, jobs, link != nullptr ? link->ranks() : 1),
@@ -215,7 +220,8 @@ ExitCode fly_as_rank(const CampaignOptions& options, int jobs, campaign::RankLin
     try {
         muster_ranks(link, loaded, why_not);
         place.emplace(*campaign, options, campaign::Shard{});
-    } catch (const InputError&) {
+        place->require_plain();
+    } catch (...) {
         dismiss_ranks(link);
         throw;
     }
@@ -227,25 +233,19 @@ ExitCode search(const CampaignOptions& options) {
     if (!options.shard.empty()) {
         throw InputError("--rare: a search is not parted, leave --shard out");
     }
-    if (ranks_started()) {
-        throw InputError("--rare: a search flies in one process, start it without mpirun or srun");
+    if (sent_home("--rare: a search flies in one process, start it without mpirun or srun")) {
+        return ExitCode::ok;
     }
     const campaign::Campaign campaign = campaign::load_campaign(options.file);
     rare::require_searchable(campaign);
     Place place(campaign, options, {}, "_rare");
     Terminal terminal(options.quiet ? Terminal::Voice::quiet : Terminal::Voice::normal);
-    terminal.line(terminal.bold(campaign.name) + ": " + campaign.description);
     return fly_rare_campaign(options.rare, place.results, options.jobs, place.folder, options.file,
                              terminal);
 }
 
 /// What a campaign on PX4s cannot be.
 campaign::Campaign for_px4(campaign::Campaign campaign) {
-    if (ranks_started()) {
-        throw InputError(
-            "--autopilot px4: flies in one process, start it without mpirun or srun; --shard "
-            "shares it out");
-    }
     for (const scenario::ScenarioText& text : campaign.scenarios) {
         check(Px4LinkOptions{}, text.load({}));
     }
@@ -259,8 +259,13 @@ ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
     if (given("--rare")) {
         return search(options);
     }
-    if (options.shard.empty() && !options.on_px4()) {
-        if (const auto link = ranks_started()) {
+    if (options.on_px4()) {
+        if (sent_home("--autopilot px4: flies in one process, start it without mpirun or srun; "
+                      "--shard shares it out")) {
+            return ExitCode::ok;
+        }
+    } else if (options.shard.empty()) {  // who gives each its shard has them fly by themselves
+        if (campaign::RankLink* link = ranks_started()) {
             return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
         }
     }
@@ -269,6 +274,7 @@ ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
     campaign::Campaign campaign = campaign::load_campaign(options.file);
     Place place(options.on_px4() ? for_px4(std::move(campaign)) : std::move(campaign), options,
                 shard, options.on_px4() ? "_px4" : "");
+    place.require_plain();
     return fly_missing(place, options, options.jobs, nullptr);
 }
 

@@ -33,7 +33,16 @@ CLI::Validator between(double least, double most) {
             const bool number = CLI::detail::lexical_cast(text, value);
             return number && value >= least && value <= most  // false for NaN
                        ? std::string()
-                       : fmt::format("must be {:g} to {:g}, not '{}'", least, most, text);
+                       : fmt::format("must be {:.9g} to {:.9g}, not '{}'", least, most, text);
+        },
+        "");
+}
+
+/// An unset variable of a script's would otherwise mean that the option was not given.
+CLI::Validator not_empty() {
+    return CLI::Validator(
+        [](std::string& text) {
+            return text.empty() ? std::string("must not be empty") : std::string();
         },
         "");
 }
@@ -47,7 +56,11 @@ void add(CLI::App& verb, const Option& option) {
             if constexpr (std::is_same_v<Target, bool*>) {
                 return verb.add_flag(name, *target, option.about);
             } else if constexpr (std::is_pointer_v<Target>) {
-                return verb.add_option(name, *target, option.about);
+                CLI::Option* made = verb.add_option(name, *target, option.about);
+                if constexpr (std::is_same_v<Target, std::string*>) {
+                    made->check(not_empty());
+                }
+                return made;
             } else {
                 return verb.add_option_function<std::string>(name, target, option.about);
             }

@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
+#include <memory>
 
 #include "limpet/core/errors.hpp"
 
@@ -50,12 +51,12 @@ campaign::OpenRankLink* module_of_mpi(const Launch& launch) {
 
 }  // namespace
 
-std::unique_ptr<campaign::RankLink> ranks_started() {
+campaign::RankLink* ranks_started() {
     const Launch started = launch();
     if (started.ranks < 2) {
         return nullptr;
     }
-    std::unique_ptr<campaign::RankLink> link(module_of_mpi(started)());
+    static const std::unique_ptr<campaign::RankLink> link(module_of_mpi(started)());
     if (link->ranks() < 2) {
         link->leave();
         throw InputError(fmt::format(
@@ -63,7 +64,19 @@ std::unique_ptr<campaign::RankLink> ranks_started() {
             "--mpi=pmix, or fly a --shard each",
             started.by, started.ranks));
     }
-    return link;
+    return link.get();
+}
+
+bool sent_home(const std::string& why) {
+    campaign::RankLink* link = ranks_started();
+    if (link == nullptr) {
+        return false;
+    }
+    link->leave();
+    if (link->rank() == 0) {
+        throw InputError(why);
+    }
+    return true;
 }
 
 }  // namespace limpet::app

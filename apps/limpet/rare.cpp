@@ -5,6 +5,8 @@
 
 #include <chrono>
 
+#include "limpet/campaign/summary.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/rare/rare_campaign.hpp"
 #include "limpet/rare/rare_summary.hpp"
 #include "output.hpp"
@@ -75,14 +77,16 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
     const rare::RareSearch search{.event = rare::parse_rare_event(options.event, options.guide),
                                   .level_runs = static_cast<std::uint32_t>(options.level_runs)};
     begin_rare(results, search, options.guide);
+    const campaign::Campaign& campaign = results.campaign();
+    terminal.line(campaign::headline(terminal.bold(campaign.name), campaign.description));
     const rare::RareFlown flown =
         fly_rare(results, search, jobs, rare_watch(terminal, search.level_runs));
     if (flown.result.ending == rare::RareEnding::stopped) {
         fmt::print(stderr,
                    "limpet: stopped after {} flights, all kept; go on with: limpet campaign {} "
                    "--rare '{}'{} --level-runs {} --out {} --resume\n",
-                   results.finished(), file, search.event.text, guide_text(options.guide),
-                   options.level_runs, folder.string());
+                   results.finished(), for_shell(file), search.event.text,
+                   guide_text(options.guide), options.level_runs, for_shell(folder.string()));
         return ExitCode::interrupted;
     }
     const rare::RareSummary summary = summarise_rare(results, search, flown.result);
@@ -91,16 +95,16 @@ ExitCode fly_rare_campaign(const RareOptions& options, campaign::Results& result
     terminal.line(rare::rare_text(summary));
     const std::string database = (folder / campaign::Results::kFileName).string();
     terminal.line("written", database);
-    terminal.line("", "limpet summary " + database + "      figure, JSON");
+    terminal.line("", "limpet summary " + for_shell(database) + "      figure, JSON");
     if (summary.likeliest) {
         const std::filesystem::path likeliest = folder / kLikeliest;
         write_file(likeliest,
                    to_yaml(scenario_of(results.campaign(), summary.likeliest->sample,
                                        rare::rare_noise(results, summary.likeliest->run))));
-        terminal.line("", fmt::format("limpet fly {}      the most likely {}", likeliest.string(),
-                                      summary.event.text));
-        terminal.line("", fmt::format("limpet replay {} {}      the same; any run", database,
-                                      summary.likeliest->run));
+        terminal.line("", fmt::format("limpet fly {}      the most likely {}",
+                                      for_shell(likeliest.string()), summary.event.text));
+        terminal.line("", fmt::format("limpet replay {} {}      the same; any run",
+                                      for_shell(database), summary.likeliest->run));
     }
     if (flown.faults > 0) {
         fmt::print(stderr, "limpet: {} runs broke off by a fault of ours: limpet summary {}\n",

@@ -64,8 +64,9 @@ void replay(const ReplayOptions& options) {
 }
 
 OptionList options_of(ReplayOptions& options) {
+    constexpr double kMostRuns = 999'999'999;
     return {{"database DB", &options.database, "results.sqlite, or the folder that holds it"},
-            {"run RUN", &options.run, "number of the run, from 0"},
+            {"run RUN", &options.run, "number of the run, from 0", range(0, kMostRuns, false)},
             {"--out DIR", &options.out, "folder (default: run_RUN beside the database)"}};
 }
 

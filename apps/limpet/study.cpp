@@ -59,16 +59,28 @@ std::string spread_of(const std::string& text) {
         text));
 }
 
+/// A text as YAML holds any.
+std::string in_yaml(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '\n'               ? "\\n"
+                  : c == '"' || c == '\\' ? fmt::format("\\{}", c)
+                                          : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
 /// A campaign's file of what --vary and --set say.
 std::string file_of(const StudyOptions& options) {
     std::string text = fmt::format(
-        "name: {}\nscenario: {}\nruns: {}\n", fs::path(options.wanted).stem().string(),
-        scenario::is_path(options.wanted) ? fs::absolute(options.wanted).string() : options.wanted,
+        "scenario: {}\nruns: {}\n",
+        in_yaml(scenario::is_path(options.wanted) ? fs::absolute(options.wanted).string()
+                                                  : options.wanted),
         options.samples);
     if (!options.overrides.empty()) {
         text += "overrides:\n";
         for (const std::string& one : options.overrides) {
-            text += fmt::format("  - \"{}\"\n", one);
+            text += fmt::format("  - {}\n", in_yaml(one));
         }
     }
     text += "parameters:\n";
@@ -85,6 +97,17 @@ std::string file_of(const StudyOptions& options) {
     return text;
 }
 
+/// A message with "--vary" for each "FILE:LINE".
+std::string without_places(std::string message, const std::string& file) {
+    for (std::size_t at = message.find(file); at != std::string::npos;
+         at = message.find(file, at)) {
+        const std::size_t end = message.find_first_not_of("0123456789:", at + file.size());
+        const std::size_t colon = end != std::string::npos && message[end] == ' ' ? 1 : 0;
+        message.replace(at, std::min(end, message.size()) - at - colon, "--vary");
+    }
+    return message;
+}
+
 campaign::Campaign campaign_of(const StudyOptions& options) {
     if (options.vary.empty()) {
         const auto is_one_of = [&](const char* folder) {
@@ -98,16 +121,17 @@ campaign::Campaign campaign_of(const StudyOptions& options) {
         return campaign::load_campaign(options.wanted);
     }
     const draw::gnuplot::TemporaryFolder scratch;
-    const fs::path file = scratch.path() / "study.yaml";
+    const fs::path file =
+        scratch.path() / (fs::path(options.wanted).stem().string() + ".yaml");  // names the study
     write_file(file, file_of(options));
     try {
-        return campaign::load_campaign(file.string());
+        campaign::Campaign campaign = campaign::load_campaign(file.string());
+        for (campaign::VariedKey& key : campaign.keys) {
+            key.place = "--vary";
+        }
+        return campaign;
     } catch (const InputError& error) {  // who asked knows no line of that file
-        const std::string message = error.what();
-        const std::size_t end = message.find(": ");
-        throw InputError(message.starts_with(file.string()) && end != std::string::npos
-                             ? "--vary: " + message.substr(end + 2)
-                             : message);
+        throw InputError(without_places(error.what(), file.string()));
     }
 }
 
@@ -141,8 +165,8 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     const study::StudyPlan plan = study::plan_of(campaign, options.samples);
     terminal.line(terminal.bold(campaign.name) +
-                  fmt::format(": {} flights, {} samples by {} inputs and noise", plan.runs(),
-                              plan.samples, plan.inputs));
+                  fmt::format(": {} flights, {} samples by {} input{} and noise", plan.runs(),
+                              plan.samples, plan.inputs, plan.inputs == 1 ? "" : "s"));
     const study::StudyProgress progress =
         study::fly_study(results, options.jobs, study_watch(terminal));
     if (progress.finished < progress.runs) {

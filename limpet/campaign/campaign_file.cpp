@@ -27,14 +27,6 @@ double number(const YamlNode& node, double minimum = -kHuge, double maximum = kH
     return read_number(node, {{}, "-", minimum, maximum, &value, {}, {}});
 }
 
-std::uint64_t count(const YamlNode& node, std::uint64_t minimum, std::uint64_t maximum) {
-    const std::uint64_t value = read_count(node);
-    if (value < minimum || value > maximum) {
-        fail(node, fmt::format("{} is out of range, allowed {}..{}", value, minimum, maximum));
-    }
-    return value;
-}
-
 const YamlNode& needed(const YamlNode& map, std::string_view key) {
     const YamlNode* node = map.find(key);
     if (node == nullptr) {
@@ -84,7 +76,7 @@ void read_range(const YamlNode& node, VariedKey& key) {
     check_keys(section(node, "{from: 0.2, to: 1.6, count: 15}"), {"from", "to", "count"});
     const double from = number(needed(node, "from"));
     const double to = number(needed(node, "to"), from);
-    const auto points = count(needed(node, "count"), 1, kMostPoints);
+    const auto points = read_count_within(needed(node, "count"), 1, kMostPoints);
     if ((points > 1) != (to > from)) {
         fail(node, "a single point needs from = to, several need from < to");
     }
@@ -170,10 +162,11 @@ std::uint32_t read_runs(const YamlNode& root, std::uint64_t points) {
         fail(*repeats, "runs is given already; give one of them");
     }
     if (runs != nullptr) {
-        return static_cast<std::uint32_t>(count(*runs, 1, kMostRuns));
+        return static_cast<std::uint32_t>(read_count_within(*runs, 1, kMostRuns));
     }
     if (repeats != nullptr) {
-        return static_cast<std::uint32_t>(points * count(*repeats, 1, kMostRuns / points));
+        return static_cast<std::uint32_t>(points *
+                                          read_count_within(*repeats, 1, kMostRuns / points));
     }
     if (points == 1) {
         fail(root, "runs: is missing, as in `runs: 100`");
@@ -239,7 +232,7 @@ CampaignFile parse_campaign(const std::string& text, const std::string& place,
     file.overrides = read_overrides(overrides);
     file.overrides_place = overrides != nullptr ? overrides->place : place;
     if (const YamlNode* seed = root.find("seed")) {
-        campaign.seed = count(*seed, 0, kLargestSeed);
+        campaign.seed = read_count_within(*seed, 0, kLargestSeed);
     }
     campaign.success = read_success(root.find("success"));
     campaign.keys = read_keys(root.find("parameters"));

@@ -40,10 +40,15 @@ SQLite::Database open_database(const std::filesystem::path& path, Access access)
         throw InputError(path.string() + ": is a directory, not a database of results");
     }
     try {
-        return SQLite::Database(path.string(), static_cast<int>(access), kPatience_ms);
+        return SQLite::Database(sqlite_path(path), static_cast<int>(access), kPatience_ms);
     } catch (const SQLite::Exception& error) {
         fail_as(error, path.string());
     }
+}
+
+std::string sqlite_path(const std::filesystem::path& path) {
+    const bool as_uri = path.string().starts_with("file:");
+    return (as_uri ? "." / path : path).string();
 }
 
 std::string sql_name(std::string_view name) {

@@ -34,6 +34,9 @@ auto asking(const SQLite::Database& database, const Work& work) {
     }
 }
 
+/// @return the path as SQLite takes it, which would read "file:..." as an address
+[[nodiscard]] std::string sqlite_path(const std::filesystem::path& path);
+
 /// @return the name as SQL takes it, whatever it holds: "guidance.dock_speed_m_s"
 [[nodiscard]] std::string sql_name(std::string_view name);
 

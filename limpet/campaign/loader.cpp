@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/campaign/campaign_file.hpp"
@@ -122,14 +123,48 @@ std::vector<std::pair<SampledValue, SampledValue>> extremes(const Campaign& camp
     return ends;
 }
 
+/// Of a key that is set and varies nobody knows which was meant.
+void require_apart(const CampaignFile& file) {
+    for (const std::string& one : file.overrides) {
+        for (const VariedKey& key : file.campaign.keys) {
+            if (one.substr(0, one.find('=')) == key.key) {
+                throw InputError(fmt::format("{}: overrides: {} sets what varies, parameters.{}",
+                                             file.overrides_place, scenario::shown(one), key.key));
+            }
+        }
+    }
+}
+
+/// Loads the scenario with some more overrides, from where its data are.
+using LoadAsWritten = std::function<void(const std::vector<std::string>& overrides)>;
+
+/// Of what does not fit in the middle of everything: an end by itself that does not either, which
+/// somebody wrote.
+void look_for_end(const Campaign& campaign,
+                  const std::vector<std::pair<SampledValue, SampledValue>>& ends,
+                  const LoadAsWritten& load) {
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (const SampledValue& end : {ends[i].first, ends[i].second}) {
+            load({campaign.keys[i].key + "=" + value_text(end)});
+        }
+    }
+}
+
 /// Loads the scenario in the middle of everything, then at the ends of each key.
-void check_extremes(const Campaign& campaign) {
+void check_extremes(const Campaign& campaign, const LoadAsWritten& load) {
     Sample centre;
+    std::vector<std::string> overrides;
     for (const VariedKey& key : campaign.keys) {
         centre.push_back(middle(key));
+        overrides.push_back(key.key + "=" + value_text(centre.back()));
     }
-    (void)scenario_of(campaign, centre);
     const auto ends = extremes(campaign);
+    try {
+        load(overrides);
+    } catch (const InputError&) {
+        look_for_end(campaign, ends, load);
+        throw;
+    }
     for (std::size_t i = 0; i < ends.size(); ++i) {
         for (const SampledValue& end : {ends[i].first, ends[i].second}) {
             Sample sample = centre;
@@ -147,8 +182,14 @@ Campaign load_campaign(const std::string& wanted, const fs::path& data) {
     CampaignFile file = parse_campaign(scenario::read_yaml_text(path), scenario::shown_path(path),
                                        path.stem().string());
     try {
+        require_apart(file);
         resolve(file, path.parent_path(), root);
-        check_extremes(file.campaign);
+        check_extremes(file.campaign, [&](const std::vector<std::string>& overrides) {
+            scenario::LoadOptions options{
+                .overrides = file.overrides, .seed = file.campaign.seed, .data_root = root};
+            options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
+            (void)load_scenario(scenario_file(file, path.parent_path(), root), options);
+        });
     } catch (const InputError& error) {
         throw InputError(told_of_campaign(file, error.what()));
     }

@@ -22,6 +22,10 @@ struct Part {
 
 Part looked_at(const fs::path& path, Campaign& campaign) {
     Results results(path, Access::read);
+    if (const char* held = results.of_its_own_length()) {
+        throw InputError(
+            fmt::format("{}: holds {}, which has no parts to be merged", path.string(), held));
+    }
     campaign = results.campaign();
     return {.path = path,
             .identity = results.identity(),
@@ -112,7 +116,7 @@ std::uint32_t copy_all(SQLite::Database& merged, const std::vector<Part>& parts,
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF");  // a copy, made anew if cut short
     for (auto part = parts.begin(); part != parts.end(); ++part) {
         SQLite::Statement attach(merged, "ATTACH ? AS part");
-        attach.bind(1, part->path.string());
+        attach.bind(1, sqlite_path(part->path));
         attach.exec();
         require_no_overlap(merged, {parts.begin(), part}, *part);
         merged.exec("INSERT INTO main.runs SELECT * FROM part.runs ORDER BY run");

@@ -158,12 +158,30 @@ void require_tables(SQLite::Database& database) {
 void require_values(SQLite::Database& database, const Campaign& campaign) {
     for (const VariedKey& key : campaign.keys) {
         const std::string column = sql_name(key.key);
-        const std::string good =
-            is_named(key) ? fmt::format("typeof({}) = 'text'", column)
-                          : fmt::format("typeof({0}) = 'real' AND abs({0}) < 1e300", column);
-        if (integer(database, fmt::format("SELECT count(*) FROM runs WHERE NOT ({})", good)) > 0) {
+        std::string wrong = fmt::format("typeof({0}) <> 'real' OR abs({0}) >= 1e300", column);
+        if (is_named(key)) {
+            std::vector<std::string> marks(key.values.size(), "?");
+            wrong = fmt::format("typeof({0}) <> 'text' OR {0} NOT IN ({1})", column,
+                                fmt::join(marks, ", "));
+        }
+        SQLite::Statement count(database, "SELECT count(*) FROM runs WHERE " + wrong);
+        for (std::size_t i = 0; is_named(key) && i < key.values.size(); ++i) {
+            count.bind(static_cast<int>(i) + 1, std::get<std::string>(key.values[i]));
+        }
+        (void)count.executeStep();
+        if (count.getColumn(0).getInt64() > 0) {
             refuse(database, "is damaged: column {} holds what no run was given", column);
         }
+    }
+}
+
+/// Reads what was the user's text once: what is wrong with it now is wrong with the file.
+template <class Read>
+auto written(const SQLite::Database& database, const char* what, const Read& read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        refuse(database, "is damaged: {}: {}", what, error.what());
     }
 }
 
@@ -171,13 +189,20 @@ Shard read_shard(SQLite::Database& database) {
     if (!database.tableExists("shard")) {
         return {};
     }
-    return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
+    return written(database, "table shard", [&] {
+        return parse_shard(text(database, "SELECT part || '/' || parts FROM shard"));
+    });
 }
 
-/// Runs of another campaign, or of another part of this. A search and a study fly as many as
-/// they need.
+const char* own_length(const SQLite::Database& database) {
+    return database.tableExists("rare")    ? "a search for a rare event"
+           : database.tableExists("study") ? "a study"
+                                           : nullptr;
+}
+
+/// Runs of another campaign, or of another part of this.
 void require_runs(SQLite::Database& database, const Campaign& campaign, const Shard& shard) {
-    const std::uint32_t end = database.tableExists("rare") || database.tableExists("study")
+    const std::uint32_t end = own_length(database) != nullptr
                                   ? std::numeric_limits<std::uint32_t>::max()
                                   : shard.end(campaign.runs);
     if (integer(database,
@@ -193,8 +218,10 @@ Campaign read_campaign(SQLite::Database& database) {
     while (scenario.executeStep()) {
         scenarios.push_back(scenario.getColumn(0).getString());
     }
-    return restore_campaign(text(database, "SELECT yaml FROM campaign"),
-                            text(database, "SELECT name FROM campaign"), std::move(scenarios));
+    return written(database, "table campaign", [&] {
+        return restore_campaign(text(database, "SELECT yaml FROM campaign"),
+                                text(database, "SELECT name FROM campaign"), std::move(scenarios));
+    });
 }
 
 }  // namespace
@@ -227,9 +254,12 @@ void Results::create(const fs::path& path, const Campaign& campaign, const Shard
     const fs::path part = path.string() + ".part";
     std::error_code error;
     fs::remove(part, error);
-    {
+    try {
         SQLite::Database database = open_database(part, Access::create);
         asking(database, [&] { write_campaign(database, campaign, shard); });
+    } catch (...) {
+        fs::remove(part, error);
+        throw;
     }
     fs::rename(part, path, error);
     if (error) {
@@ -258,6 +288,10 @@ Results::Results(const fs::path& path, Access access) : database_(open_database(
         require_runs(database_, campaign_, shard_);
         require_values(database_, campaign_);
     });
+}
+
+const char* Results::of_its_own_length() const {
+    return own_length(database_);
 }
 
 void Results::require_same(const Campaign& campaign, const Shard& shard) const {
@@ -345,8 +379,10 @@ RunRow Results::row(std::uint32_t run) {
         SQLite::Statement select(database_, "SELECT * FROM runs WHERE run = ?");
         select.bind(1, std::int64_t{run});
         if (!select.executeStep()) {
-            refuse(database_, "there is no run {}; {} of {} are finished, counted from 0", run,
-                   finished(), campaign_.runs);
+            const std::string all =
+                of_its_own_length() != nullptr ? "" : fmt::format(" of {}", campaign_.runs);
+            refuse(database_, "there is no run {}; {}{} are finished, counted from 0", run,
+                   finished(), all);
         }
         RunRow found = empty_row(campaign_);
         int at = 0;

@@ -77,6 +77,9 @@ public:
     [[nodiscard]] Identity identity() const;
     /// What these results are to hold in the end.
     [[nodiscard]] const Shard& shard() const { return shard_; }
+    /// What flies as many runs as it needs, not as many as the campaign says: "a search for a rare
+    /// event", "a study"; null: neither.
+    [[nodiscard]] const char* of_its_own_length() const;
     /// @throws InputError when `campaign` would not fly what was begun here, or not this part of it
     void require_same(const Campaign& campaign, const Shard& shard = {}) const;
 

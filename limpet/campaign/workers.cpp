@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <exception>
 #include <system_error>
+#include <type_traits>
 
+#include "limpet/campaign/columns.hpp"
 #include "limpet/campaign/dealer.hpp"
 #include "limpet/campaign/ledger.hpp"
 #include "limpet/core/errors.hpp"
@@ -27,6 +29,38 @@ void fly_lane(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>*
         }
     } catch (...) {
         dealer.fail(std::current_exception());
+    }
+}
+
+/// A row's columns as text, numbers to the last bit.
+std::vector<std::pair<std::string, std::string>> columns_of(const Campaign& campaign,
+                                                            const RunRow& row) {
+    std::vector<std::pair<std::string, std::string>> columns;
+    for_each_column(campaign, row, [&](std::string_view name, const char*, const auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, SampledValue>) {
+            columns.emplace_back(name, value_text(value));
+        } else {
+            columns.emplace_back(name, fmt::format("{}", value));
+        }
+    });
+    return columns;
+}
+
+void require_same(const Results& results, const RunRow& told, const RunRow& flown) {
+    if (told.state_hash != flown.state_hash) {
+        throw InternalError(fmt::format(
+            "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "
+            "flew the campaign ({}), or a flight depends on more than its seed",
+            told.run, flown.state_hash, told.state_hash, kVersion, results.version()));
+    }
+    const auto was = columns_of(results.campaign(), told);
+    const auto is = columns_of(results.campaign(), flown);
+    for (std::size_t i = 0; i < is.size(); ++i) {
+        if (is[i] != was[i]) {
+            throw InternalError(
+                fmt::format("run {} flew to the row's hash with {} = {}, its row says {}", told.run,
+                            is[i].first, is[i].second, was[i].second));
+        }
     }
 }
 
@@ -168,11 +202,10 @@ simulation::FlightResult replay_run(Results& results, std::uint32_t run,
     }
     const auto model = model_of(results.campaign(), row, noise);
     const simulation::FlightResult result = fly(model, recording, watch, noise.empty() ? run : 0);
-    if (row.outcome != kFault && hash_text(result.state_hash) != row.state_hash) {
-        throw InternalError(fmt::format(
-            "run {} flew to the hash {}, its row says {}: this Limpet ({}) is not the one that "
-            "flew the campaign ({}), or a flight depends on more than its seed",
-            run, hash_text(result.state_hash), row.state_hash, kVersion, results.version()));
+    if (row.outcome != kFault) {
+        RunRow flown = row;
+        fill(flown, result);
+        require_same(results, row, flown);
     }
     return result;
 }

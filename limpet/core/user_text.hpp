@@ -56,4 +56,18 @@ namespace limpet {
     return out + (text.size() > kLongest ? "...\"" : "\"");
 }
 
+/// The text as one word of a command that a shell is given.
+[[nodiscard]] inline std::string for_shell(std::string_view text) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=@%+,";
+    if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string word = "'";
+    for (const char c : text) {
+        word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return word + "'";
+}
+
 }  // namespace limpet

@@ -76,6 +76,9 @@ void begin_rare(campaign::Results& results, const RareSearch& search, const Rare
         }
         return;
     }
+    if (const char* held = results.of_its_own_length()) {
+        refuse_rare(results, "holds {}, not a search; give another --out", held);
+    }
     if (results.finished() > 0) {
         refuse_rare(results, "holds a campaign without --rare; give another --out");
     }

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "limpet/scenario/suggestion.hpp"
@@ -123,11 +124,18 @@ bool read_flag(const YamlNode& node) {
 }
 
 std::uint64_t read_count(const YamlNode& node) {
+    return read_count_within(node, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::uint64_t read_count_within(const YamlNode& node, std::uint64_t from, std::uint64_t to) {
     std::uint64_t value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto result = std::from_chars(node.text.data(), end, value);
     if (!is_plain(node) || result.ec != std::errc{} || result.ptr != end) {
-        fail_type(node, "a whole number 0..18446744073709551615");
+        fail_type(node, fmt::format("a whole number {}..{}", from, to));
+    }
+    if (value < from || value > to) {
+        fail(node, fmt::format("{} is out of range, allowed {}..{}", value, from, to));
     }
     return value;
 }

@@ -35,6 +35,9 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
 [[nodiscard]] bool read_flag(const YamlNode& node);
 /// A whole number 0..2^64-1.
 [[nodiscard]] std::uint64_t read_count(const YamlNode& node);
+/// A whole number from..to.
+[[nodiscard]] std::uint64_t read_count_within(const YamlNode& node, std::uint64_t from,
+                                              std::uint64_t to);
 /// One of a few words.
 /// @return its index
 [[nodiscard]] std::size_t read_one_of(const YamlNode& node,

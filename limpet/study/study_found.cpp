@@ -69,9 +69,12 @@ std::string events_text(const StudyFound& found) {
                     found.events.runs);
     if (found.events.successes < kSeldom) {
         text += fmt::format(
-            "seldom met: limpet campaign FILE --rare '{}' tells a small probability with fewer "
+            "seldom met: limpet campaign FILE --rare '{}'{} tells a small probability with fewer "
             "flights\n",
-            found.figure);
+            found.figure,
+            found.figure.find_first_of("<>") != std::string::npos
+                ? ""
+                : " --falling METRIC (that leads there)");
     }
     return text;
 }

@@ -26,6 +26,17 @@ inline std::string short_hovers(int runs, const std::string& more = {}) {
            more;
 }
 
+/// Presses of a cup by a pendulum, a few milliseconds a run, with all that varies drawn.
+inline std::string pendulums(int runs) {
+    return "scenario: pendulum_concrete\n"
+           "seed: 1\n"
+           "runs: " +
+           std::to_string(runs) +
+           "\n"
+           "parameters:\n"
+           "  pendulum.impact_speed_m_s: {uniform: [0.8, 1.2]}\n";
+}
+
 inline Campaign campaign_of(const Bench& bench, const std::string& text) {
     return load_campaign(bench.write("x.yaml", text).string(), LIMPET_SOURCE_DIR);
 }

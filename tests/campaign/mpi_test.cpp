@@ -212,6 +212,29 @@ TEST_F(Mpi, RanksThatCannotFlyTheSameRefuseInOneLine) {
     EXPECT_FALSE(fs::exists(bench_.folder() / "out"));
 }
 
+TEST_F(Mpi, WhatRanksDoNotFlyTheFirstRefusesInOneLine) {
+    (void)bench_.write("x.yaml", pendulums(80));
+    const auto expect_told = [this](const std::vector<std::string>& arguments,
+                                    const std::string& why) {
+        EXPECT_EQ(Running(bench_.folder(), arguments, mpirun(3)).wait(), 2) << log();
+        const std::string told = log();
+        EXPECT_THAT(told, HasSubstr("limpet: "));
+        EXPECT_THAT(told, HasSubstr(why));
+        EXPECT_EQ(told.find("limpet: ", told.find("limpet: ") + 1), std::string::npos) << told;
+    };
+    expect_told({"campaign", "x.yaml", "--rare", "cup_press_max_N<80"},
+                "--rare: a search flies in one process, start it without mpirun");
+    expect_told({"campaign", "x.yaml", "--autopilot", "px4", "--px4", "/nowhere"},
+                "--autopilot px4: flies in one process");
+    EXPECT_FALSE(fs::exists(bench_.folder() / "out"));
+    EXPECT_EQ(bench_
+                  .run({"study", "x.yaml", "--of", "cup_press_max_N", "--samples", "16", "--out",
+                        "study"})
+                  .exit_code,
+              0);
+    expect_told({"campaign", "x.yaml", "--out", "study", "--resume"}, "holds a study of cup_press");
+}
+
 /// Where nothing ties them together, each would fly all of it.
 TEST_F(Mpi, TasksWithoutMpiAreRefused) {
     (void)bench_.write("x.yaml", short_hovers(6));

@@ -120,7 +120,7 @@ TEST_F(Flown, ReplaysARowToItsHash) {
     EXPECT_THAT(replay.out, HasSubstr(hash));
     EXPECT_THAT(bench_.files(), testing::IsSupersetOf({"again/flight.mcap", "again/overview.png"}));
     expect_refused({"replay", "results.sqlite", "6"}, "no run 6");
-    expect_refused({"replay", "results.sqlite", "-1"}, "-1");
+    expect_refused({"replay", "results.sqlite", "-1"}, "must be 0 to 999999999, not '-1'");
 }
 
 TEST_F(Flown, AnotherHashIsAFaultOfOurs) {
@@ -129,6 +129,20 @@ TEST_F(Flown, AnotherHashIsAFaultOfOurs) {
     EXPECT_EQ(replay.exit_code, 70);
     EXPECT_TRUE(replay.one_line_of_error()) << replay.err;
     EXPECT_THAT(replay.err, HasSubstr("00000000000000ff"));
+}
+
+TEST_F(Flown, AnotherRowToTheSameHashIsAFaultOfOurs) {
+    tamper(
+        "UPDATE runs SET outcome = 'crashed' WHERE run = 2; UPDATE runs SET simulated_s = "
+        "simulated_s + 1e-9 WHERE run = 3");
+    const std::pair<std::string, std::string> changed[] = {
+        {"2", "with outcome = released, its row says crashed"}, {"3", "with simulated_s = "}};
+    for (const auto& [run, message] : changed) {
+        const Finished replay = bench_.run({"replay", "results.sqlite", run});
+        EXPECT_EQ(replay.exit_code, 70);
+        EXPECT_TRUE(replay.one_line_of_error()) << replay.err;
+        EXPECT_THAT(replay.err, HasSubstr("run " + run + " flew to the row's hash " + message));
+    }
 }
 
 TEST_F(Flown, SummaryForPeopleAndForPrograms) {
@@ -153,6 +167,7 @@ TEST(Summary, OfACampaignWithoutADescriptionIsHeadedByItsName) {
                       "parameters: {sensors.lidar_noise_m: {uniform: [0.002, 0.02]}}\n");
     const Finished flown = bench.run({"campaign", "x.yaml"});
     EXPECT_EQ(flown.exit_code, 0) << flown.err;
+    EXPECT_TRUE(flown.out.starts_with("x\n2 runs of hover")) << flown.out;
     EXPECT_THAT(flown.out, HasSubstr("x\n2 of 2 runs of hover"));
 }
 
@@ -194,6 +209,8 @@ TEST_F(Flown, ADatabaseThatSomebodyElseChangedIsRefused) {
         {"DELETE FROM campaign", "table campaign does not have one row"},
         {"UPDATE runs SET \"sensors.lidar_noise_m\" = NULL WHERE run = 0", "no run was given"},
         {"UPDATE runs SET \"sensors.lidar_noise_m\" = 9e999 WHERE run = 0", "no run was given"},
+        {"UPDATE runs SET vehicle = 'a balloon' WHERE run = 0", "no run was given"},
+        {"UPDATE runs SET vehicle = NULL WHERE run = 0", "no run was given"},
     };
     for (const auto& [sql, message] : changes) {
         (void)bench_.write("results.sqlite", whole);
@@ -323,6 +340,15 @@ TEST(CampaignProgram, RefusesWhatItCannotFly) {
         {head + "  simulation.hover_s: {uniform: [1, 4000]}\n",
          "x.yaml:4: parameters.simulation.hover_s: 4000 is out of range"},
         {head + "  simulation.hover_s: {normal: {mean: 1, sigma: 30}}\n", "is out of range"},
+        {head + "  simulation.hover_s: {uniform: [-5, 10000]}\n",  // not what is between them
+         "x.yaml:4: parameters.simulation.hover_s: -5 is out of range"},
+        {head + "  wall.surface: {uniform: [0, 1]}\n",
+         "x.yaml:4: parameters.wall.surface: \"0\": no such surface; there are porous_concrete"},
+        {head + "  vehicle: {grid: [1, 2]}\n",
+         "x.yaml:4: parameters.vehicle: \"1\": no such vehicle; there are iris"},
+        {"scenario: hover\nruns: 2\noverrides: [simulation.hover_s=2]\nparameters:\n"
+         "  simulation.hover_s: {uniform: [1, 2]}\n",
+         "x.yaml:3: overrides: simulation.hover_s=2 sets what varies, parameters.simulation"},
         {head + "  simulation.hover_s: {normal: {mean: 1, sigma: -1}}\n", "sigma"},
         {head + "  simulation.hover_s: {normal: {mean: 1, sigma: 1, from: 90}}\n", "hardly ever"},
         {head + "  simulation.hover_s: {uniform: [2, 1]}\n", "x.yaml:4"},
@@ -340,7 +366,7 @@ TEST(CampaignProgram, RefusesWhatItCannotFly) {
         {"scenario: hover\nruns: 0\n", "x.yaml:2: runs: 0 is out of range"},
         {"scenario: hover\nrepeats: 0\nparameters:\n  simulation.hover_s: {grid: [1, 2]}\n",
          "repeats: 0"},
-        {"scenario: hover\nruns: -3\n", "runs"},
+        {"scenario: hover\nruns: -3\n", "runs: must be a whole number 1..1000000000, is"},
         {"scenario: hover\n", "runs: is missing"},
         {"scenario: hover\nruns: 1\nrepeats: 1\n", "one of them"},
         {"runs: 3\n", "scenario: is missing"},
@@ -371,6 +397,60 @@ TEST(CampaignProgram, RefusesJobsThatAreNone) {
         EXPECT_THAT(finished.err, HasSubstr("--jobs"));
     }
     EXPECT_TRUE(bench.files().empty());
+}
+
+/// An unset variable of a job array's script is not no shard.
+TEST(CampaignProgram, RefusesOptionsThatSayNothing) {
+    const Bench bench;
+    (void)bench.write("x.yaml", short_hovers(6));
+    for (const char* option : {"--shard", "--out", "--rare"}) {
+        const Finished finished = bench.run({"campaign", "x.yaml", option, ""});
+        EXPECT_EQ(finished.exit_code, 2) << option;
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr(std::string(option) + ": must not be empty"));
+    }
+    EXPECT_EQ(bench.files(), std::vector<std::string>{"x.yaml"});
+}
+
+/// What it says to type goes into a shell as it stands.
+TEST(CampaignProgram, NamesWithBlanksStayOneWord) {
+    const Bench bench;
+    (void)bench.write("my hovers.yaml", short_hovers(2));
+    const Finished flown = bench.run({"campaign", "my hovers.yaml", "--out", "file:a b"});
+    EXPECT_EQ(flown.exit_code, 0) << flown.err;
+    EXPECT_THAT(flown.out, HasSubstr("limpet summary 'file:a b/results.sqlite' "));
+    EXPECT_EQ(bench.run({"summary", "file:a b"}).exit_code, 0);
+    EXPECT_EQ(bench.run({"merge", "file:a b", "--out", "file:c"}).exit_code, 0);
+}
+
+TEST(StudyProgram, ASayingOfTheCommandLineIsAnsweredInItsTerms) {
+    const Bench bench;
+    const auto study = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"study", "./p q.yaml", "--of", "crashed", "--samples", "16",
+                                   "--out", "study"});
+        return bench.run(more);
+    };
+    (void)bench.write("p q.yaml", text_of(LIMPET_SOURCE_DIR "/scenarios/pendulum_concrete.yaml"));
+    const std::string speed = "pendulum.impact_speed_m_s=0.9..1.2";
+    const std::pair<std::vector<std::string>, std::string> bad[] = {
+        {{"--vary", speed, "--vary", speed},
+         "--vary: parameters.pendulum.impact_speed_m_s: is given twice, first at --vary"},
+        {{"--vary", "pendulum.impact_speed_m_s={grid: [0.9, 1]}"},
+         "--vary: parameters.pendulum.impact_speed_m_s: a grid has no probabilities"},
+        {{"--vary", speed, "--set", "pendulum.impact_speed_m_s=1"},
+         "--vary: overrides: pendulum.impact_speed_m_s=1 sets what varies"},
+    };
+    for (const auto& [arguments, message] : bad) {
+        const Finished finished = study(arguments);
+        EXPECT_EQ(finished.exit_code, 2);
+        EXPECT_TRUE(finished.one_line_of_error()) << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("limpet: " + message));
+        EXPECT_EQ(bench.files(), std::vector<std::string>{"p q.yaml"});
+    }
+    const Finished flown = study({"--vary", speed, "--set", "description=a \"quoted\" \\ thing"});
+    EXPECT_EQ(flown.exit_code, 0) << flown.err;
+    EXPECT_THAT(flown.out, HasSubstr("p q: 64 flights, 16 samples by 1 input and noise"));
+    EXPECT_THAT(flown.out, HasSubstr("--rare 'crashed' --falling METRIC"));
 }
 
 TEST(CampaignProgram, ShippedCampaignsLoad) {

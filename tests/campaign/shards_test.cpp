@@ -109,6 +109,37 @@ TEST_F(Sharded, ForeignOnesAreRefused) {
     expect_refused({"merge", "1", "nowhere", "--out", "merged"}, "nowhere: there is no such file");
 }
 
+/// As many runs as the campaign says, by chance, are not its runs.
+TEST_F(Sharded, SearchesAndStudiesHaveNoParts) {
+    (void)bench_.write("p.yaml", pendulums(80));
+    EXPECT_EQ(bench_
+                  .run({"study", "p.yaml", "--of", "cup_press_max_N", "--samples", "20", "--out",
+                        "study"})
+                  .exit_code,
+              0);
+    expect_refused({"merge", "study", "--out", "merged"},
+                   "study/results.sqlite: holds a study, which has no parts to be merged");
+    expect_refused({"replay", "study", "80"}, "there is no run 80; 80 are finished");
+    (void)bench_.run({"campaign", "p.yaml", "--rare", "cup_press_max_N<80", "--level-runs", "100",
+                      "--out", "search", "-q"});
+    expect_refused({"merge", "search", "--out", "merged"}, "holds a search for a rare event");
+    // A study that was killed before its first flight.
+    open_database(file("study"), Access::write).exec("DELETE FROM runs");
+    expect_refused(
+        {"campaign", "p.yaml", "--rare", "cup_press_max_N<80", "--out", "study", "--resume"},
+        "holds a study, not a search");
+}
+
+TEST_F(Sharded, ADamagedPartIsNamed) {
+    open_database(file("2"), Access::write).exec("UPDATE shard SET part = 9");
+    expect_refused({"merge", "1", "2", "3", "--out", "merged"},
+                   "2/results.sqlite: is damaged: table shard: --shard '9/3'");
+    open_database(file("2"), Access::write).exec("UPDATE shard SET part = 2");
+    open_database(file("2"), Access::write).exec("UPDATE campaign SET yaml = 'a: ['");
+    expect_refused({"merge", "1", "2", "3", "--out", "merged"},
+                   "2/results.sqlite: is damaged: table campaign: ");
+}
+
 TEST_F(Sharded, AShardIsResumedAsThatShardAlone) {
     expect_refused({"campaign", "x.yaml", "--out", "2", "--resume"},
                    "shard 2/3 was begun here: go on with --shard 2/3");
