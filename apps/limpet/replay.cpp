@@ -75,8 +75,9 @@ OptionList options_of(ReplayOptions& options) {
 Verb replay_verb() {
     return verb<ReplayOptions>(
         "replay", "Fly a run of a campaign again, with recording and figures", options_of, replay,
-        "Needs the database alone. Exits with 70 when the flight does not end at the row's "
-        "state hash.\n");
+        "Needs the database alone. Exits with 70 when the flight is not that of the row: state "
+        "hash,\n"
+        "outcome, metrics.\n");
 }
 
 }  // namespace limpet::app
