@@ -66,6 +66,8 @@ public:
     explicit Flight(const Scenario& scenario, const Stations& stations = {}, std::uint32_t run = 0);
     /// A branch: goes on from `from`, with another scenario or other stations if you like. The
     /// vehicle must be the same.
+    /// @throws InputError for another number of rotors, mission, mount or engine, or a moment of no
+    ///         flight
     Flight(const Scenario& scenario, const Moment& from, const Stations& stations = {});
     ~Flight();
     Flight(Flight&&) noexcept;

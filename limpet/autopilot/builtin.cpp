@@ -44,6 +44,23 @@ double interval(AutopilotState& state, double time_s) {
     return dt_s;
 }
 
+/// Of somebody else's autopilot.
+void require_flyable(const AutopilotOutput& output, std::size_t rotors) {
+    bool finite = output.torque.allFinite() && std::isfinite(output.thrust);
+    if (output.rotors) {
+        if (output.rotors->size() != rotors) {
+            throw InputError("an autopilot of your own: commands " +
+                             std::to_string(output.rotors->size()) + " rotors of " +
+                             std::to_string(rotors));
+        }
+        finite = finite && std::all_of(output.rotors->begin(), output.rotors->end(),
+                                       [](double command) { return std::isfinite(command); });
+    }
+    if (!finite) {
+        throw InputError("an autopilot of your own: a command that is not finite");
+    }
+}
+
 RotorCommand fly_own(const AutopilotModel& model, AutopilotState& state, const Setpoint& setpoint,
                      double time_s, double dt_s) {
     const AutopilotOutput output = model.own->control({.vehicle = model.vehicle,
@@ -52,13 +69,12 @@ RotorCommand fly_own(const AutopilotModel& model, AutopilotState& state, const S
                                                        .time_s = time_s,
                                                        .dt_s = dt_s},
                                                       state.memory);
+    require_flyable(output, model.mixer.rotors());
     state.torque = output.torque;
     state.attitude_target.thrust = output.thrust;
     const Allocation allocation = allocate(model.mixer, output.torque, output.thrust);
     state.saturation = allocation.saturation;
     if (output.rotors) {
-        require(output.rotors->size() == allocation.command.size(),
-                "an autopilot commands every rotor");
         return {.command = *output.rotors, .armed = true};
     }
     return {.command = allocation.command, .armed = true};

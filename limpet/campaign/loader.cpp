@@ -126,6 +126,11 @@ std::vector<std::pair<SampledValue, SampledValue>> extremes(const Campaign& camp
 /// Of a key that is set and varies nobody knows which was meant.
 void require_apart(const CampaignFile& file) {
     for (const std::string& one : file.overrides) {
+        if (one.starts_with("seed=")) {
+            throw InputError(fmt::format("{}: overrides: {} is the campaign's own, seed: {}",
+                                         file.overrides_place, scenario::shown(one),
+                                         one.substr(5)));
+        }
         for (const VariedKey& key : file.campaign.keys) {
             if (one.substr(0, one.find('=')) == key.key) {
                 throw InputError(fmt::format("{}: overrides: {} sets what varies, parameters.{}",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/flight.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <utility>
 
@@ -19,9 +21,33 @@ struct Moment::Inside {
     std::vector<Event> events;
     std::vector<double> guidance_memory;
     std::vector<double> cup_memory;
+    std::shared_ptr<const simulation::FlightModel> model;
 };
 
 namespace {
+
+/// What a state of the one can be a state of.
+void require_same_vehicle(const simulation::FlightModel& ours,
+                          const simulation::FlightModel& theirs) {
+    const auto rotors = [](const simulation::FlightModel& model) {
+        return model.airframe.rotors.size();
+    };
+    if (rotors(ours) != rotors(theirs) || ours.airframe.has_cup != theirs.airframe.has_cup) {
+        throw InputError(fmt::format(
+            "a branch of another vehicle: {} rotors {} cup, the flight that was saved has {} {}",
+            rotors(ours), ours.airframe.has_cup ? "with a" : "without a", rotors(theirs),
+            theirs.airframe.has_cup ? "with a" : "without a"));
+    }
+    if (ours.mount != theirs.mount || ours.scenario->mission != theirs.scenario->mission ||
+        ours.scenario->engine != theirs.scenario->engine) {
+        throw InputError(
+            fmt::format("a branch of another kind: mission {} on mount {} and engine {}, the "
+                        "flight that was saved has {}, {} and {}",
+                        to_string(ours.scenario->mission), to_string(ours.mount),
+                        ours.scenario->engine->name, to_string(theirs.scenario->mission),
+                        to_string(theirs.mount), theirs.scenario->engine->name));
+    }
+}
 
 std::shared_ptr<const simulation::FlightModel> model_of(const HouseScenario& scenario,
                                                         const Stations& stations) {
@@ -101,7 +127,11 @@ Flight::Flight(const Scenario& scenario, const Stations& stations, std::uint32_t
 
 Flight::Flight(const Scenario& scenario, const Moment& from, const Stations& stations)
     : inside_(std::make_unique<Inside>(model_of(scenario.inside_->scenario, stations), stations)) {
+    if (from.inside_ == nullptr) {
+        throw InputError("a branch from a moment that no flight has saved");
+    }
     const Moment::Inside& then = *from.inside_;
+    require_same_vehicle(*inside_->model, *then.model);
     simulation::Snapshot snapshot = then.snapshot;
     if (stations.autopilot != then.stations.autopilot) {
         start_memory(inside_->model->autopilot, snapshot.state.autopilot);
@@ -188,7 +218,8 @@ Moment Flight::save() const {
         .stations = inside_->stations,
         .events = inside_->events,
         .guidance_memory = inside_->guidance ? inside_->guidance->memory : std::vector<double>{},
-        .cup_memory = inside_->cup ? inside_->cup->memory : std::vector<double>{}});
+        .cup_memory = inside_->cup ? inside_->cup->memory : std::vector<double>{},
+        .model = inside_->model});
     return moment;
 }
 

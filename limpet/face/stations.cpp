@@ -3,11 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/core/time.hpp"
 
 namespace limpet {
+namespace {
+
+bool is_finite(const Setpoint& setpoint) {
+    return std::visit(
+        [](const auto& motion) {
+            using Motion = std::decay_t<decltype(motion)>;
+            if constexpr (std::is_same_v<Motion, PositionSetpoint>) {
+                return motion.p_W_m.allFinite() && std::isfinite(motion.yaw_rad) &&
+                       motion.feedforward_v_W_m_s.allFinite();
+            } else if constexpr (std::is_same_v<Motion, VelocitySetpoint>) {
+                return motion.v_W_m_s.allFinite() && std::isfinite(motion.yaw_rad) &&
+                       motion.feedforward_a_W_m_s2.allFinite();
+            } else if constexpr (std::is_same_v<Motion, AttitudeSetpoint>) {
+                return motion.q_WB.coeffs().allFinite() && std::isfinite(motion.thrust);
+            } else {
+                return true;
+            }
+        },
+        setpoint.motion);
+}
+
+}  // namespace
 
 GuidanceSeat::GuidanceSeat(std::shared_ptr<const Guidance> guidance, int rate_Hz)
     : memory(guidance->memory_size()), guidance_(std::move(guidance)), rate_Hz_(rate_Hz) {}
@@ -19,6 +44,9 @@ void GuidanceSeat::exchange(const Readings& readings, const Estimate& estimate, 
     }
     said_ =
         guidance_->update({.readings = readings, .estimate = estimate, .time_s = time_s}, memory);
+    if (!is_finite(said_.setpoint)) {
+        throw InputError("guidance of your own: a set-point that is not finite");
+    }
     guidance.setpoint = said_.setpoint;
     if (said_.event) {
         events.add(make_event(time_s, "guidance", *said_.event, said_.reason));
@@ -47,7 +75,11 @@ suction::CupOutput CupSeat::step(const suction::CupModel& model, suction::CupSta
         air.peel_N_m = state.status.peel_N_m;
         air.hole_mm2 = input.hole_mm2;
         air.leak_growth = state.leak_growth;
-        state.mean_pressure_Pa = std::clamp(pressure_->next_Pa(air, memory), 0.0, air.ambient_Pa);
+        const double next_Pa = pressure_->next_Pa(air, memory);
+        if (std::isnan(next_Pa)) {
+            throw InputError("a cup pressure of your own: next_Pa() is not a number");
+        }
+        state.mean_pressure_Pa = std::clamp(next_Pa, 0.0, air.ambient_Pa);
         state.status.pressure_Pa = state.mean_pressure_Pa;
         state.status.pump_running = air.pump_running;
         state.pump_resting = false;

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sqlite3
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Mapping, Optional, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -58,27 +59,23 @@ def read_results(file: Union[str, os.PathLike]) -> CampaignResult:
         with sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True) as database:
             columns = [(row[1], row[2]) for row in database.execute("PRAGMA table_info(runs)")]
             rows = database.execute("SELECT * FROM runs ORDER BY run").fetchall()
-            yaml = database.execute("SELECT yaml FROM campaign").fetchone()[0]
+            campaigns = database.execute("SELECT yaml FROM campaign").fetchall()
     except sqlite3.DatabaseError as error:
         raise _core.InputError(f"{path}: {error}") from None
+    if len(campaigns) != 1:
+        raise _core.InputError(f"{path}: is damaged: table campaign does not have one row")
     types = [(name, TYPES.get(kind) or f"U{max([1] + [len(str(row[i])) for row in rows])}")
              for i, (name, kind) in enumerate(columns)]
     # what did not come to pass is NaN
     filled = [tuple(np.nan if value is None else value for value in row) for row in rows]
-    return CampaignResult(np.array(filled, dtype=types), path, _success_of(yaml))
+    return CampaignResult(np.array(filled, dtype=types), path, _core._success_of(campaigns[0][0]))
 
 
-def _success_of(yaml: str) -> list[str]:
-    for line in yaml.splitlines():
-        if line.startswith("success:"):
-            return [name.strip() for name in line.split("#")[0].split(":", 1)[1].strip(" []").split(",")]
-    return ["perched", "released"]
-
-
-def campaign(wanted: Union[str, os.PathLike, None] = None, *, scenario: Optional[str] = None,
+def campaign(wanted: Union[str, os.PathLike, None] = None, *,
+             scenario: Union[str, os.PathLike, _core.Scenario, None] = None,
              vary: Optional[Mapping[str, Any]] = None, changes: Optional[Mapping[str, Any]] = None,
-             runs: Optional[int] = None, seed: int = 1, success: tuple[str, ...] = ("perched", "released"),
-             jobs: Optional[int] = None, out: Union[str, os.PathLike, None] = None, resume: bool = False,
+             runs: Optional[int] = None, seed: Optional[int] = None,
+             success: Optional[Sequence[str]] = None, jobs: Optional[int] = None, out: Union[str, os.PathLike, None] = None, resume: bool = False,
              on_progress: Optional[Callable[[int, int], None]] = None) -> CampaignResult:
     """Flies a campaign: one of the campaigns' names or files, or one made here of
 
@@ -86,31 +83,49 @@ def campaign(wanted: Union[str, os.PathLike, None] = None, *, scenario: Optional
     vary      {key: [values] | (from, to) uniform | {"normal": {"mean": .., "sigma": ..}}}; grids of
               lists multiply
     changes   {key: value}, the same in every run
-    runs      of each point of the grids; drawn values differ from run to run
-    success   outcomes that count as one
+    runs      of each point of the grids (1); drawn values differ from run to run
+    seed      of all random numbers (1)
+    success   outcomes that count as one (perched, released)
 
-    The same seed gives the same rows, whatever the jobs. Without `out` the results are in memory
-    alone. Ctrl-C ends it; with `out` and `resume` it goes on."""
-    jobs = jobs or os.cpu_count() or 1
+    The same seed gives the same rows, whatever the jobs (1..1024; left out: one a processor). Without
+    `out` the results are in memory alone. on_progress(finished, runs) is called some twenty times a
+    second and at the end. Ctrl-C ends it, and what on_progress raises; with `out` and `resume` it goes
+    on.
+
+    Raises InputError: one line with key, value and what is allowed."""
+    made = {"scenario": scenario, "vary": vary, "changes": changes, "runs": runs, "seed": seed, "success": success}
+    given = [name for name, value in made.items() if value is not None]
+    if wanted is not None and given:
+        raise _core.InputError(f"campaign(): {os.fspath(wanted)} says {', '.join(given)} itself; give its name alone")
     with tempfile.TemporaryDirectory() as scratch:
         file = os.fspath(wanted) if wanted is not None else _write_campaign(
-            Path(scratch), scenario, vary or {}, changes or {}, runs or 1, seed, success)
+            Path(scratch), scenario, vary or {}, changes or {}, 1 if runs is None else runs,
+            1 if seed is None else seed, ("perched", "released") if success is None else success)
         folder = Path(out) if out is not None else Path(scratch) / "results"
-        result = read_results(_core._run_campaign(file, folder, jobs, resume, on_progress))
+        try:
+            results = _core._run_campaign(file, folder, (os.cpu_count() or 1) if jobs is None else jobs, resume,
+                                          on_progress)
+        except _core.InputError as error:  # whoever called has written no such file
+            raise _core.InputError(re.sub(re.escape(file) + r"(:\d+)?", "campaign()", str(error))
+                                   if wanted is None else str(error)) from None
+        result = read_results(results)
         if out is None:
             result.file = None
         return result
 
 
-def _write_campaign(folder: Path, scenario: Optional[str], vary: Mapping[str, Any],
-                    changes: Mapping[str, Any], runs: int, seed: int,
-                    success: tuple[str, ...]) -> str:
+def _write_campaign(folder: Path, scenario: Union[str, os.PathLike, _core.Scenario, None],
+                    vary: Mapping[str, Any], changes: Mapping[str, Any], runs: int, seed: int,
+                    success: Sequence[str]) -> str:
     if scenario is None:
         raise _core.InputError("campaign(): a campaign's name, or scenario=")
+    if isinstance(scenario, _core.Scenario):
+        text, scenario = scenario.yaml, folder / f"{scenario.name}.yaml"
+        scenario.write_text(text, encoding="utf-8")
     if Path(scenario).suffix in (".yaml", ".yml"):
-        scenario = os.fspath(Path(scenario).resolve())
-    lines = [f"scenario: {scenario}", f"seed: {seed}", f"repeats: {runs}",
-             f"success: [{', '.join(success)}]"]
+        scenario = Path(scenario).resolve()
+    lines = [f"scenario: {json.dumps(os.fspath(scenario))}", f"seed: {seed}", f"repeats: {runs}",
+             f"success: {json.dumps(list(success))}"]
     if changes:
         lines.append("overrides:")
         lines += [f"  - {json.dumps(text)}" for text in change_texts(changes)]
@@ -121,6 +136,8 @@ def _write_campaign(folder: Path, scenario: Optional[str], vary: Mapping[str, An
             if len(spread) != 2:
                 raise _core.InputError(f"vary: {key}: (from, to), a list of values, or a dict")
             spread = {"uniform": [spread[0], spread[1]]}
+        elif isinstance(spread, str) or not isinstance(spread, Iterable):
+            raise _core.InputError(f"vary: {key}: (from, to), a list of values, or a dict")
         elif not isinstance(spread, Mapping):
             spread = {"grid": [value for value in spread]}
         lines.append(f"  {key}: {json.dumps(spread, default=lambda v: v.item())}")

@@ -39,6 +39,22 @@ except ImportError:  # as much of it as is used here
             if seed is not None or not hasattr(self, "np_random"):
                 self.np_random = np.random.default_rng(seed)
 
+        @property
+        def unwrapped(self) -> Any:
+            return self
+
+        def render(self) -> None:
+            pass
+
+        def close(self) -> None:
+            pass
+
+        def __enter__(self) -> Any:
+            return self
+
+        def __exit__(self, *_: Any) -> None:
+            self.close()
+
     class _VectorEnv(_Env):  # type: ignore[no-redef]
         pass
 
@@ -52,7 +68,9 @@ except ImportError:  # as much of it as is used here
             self._random = np.random.default_rng(seed)
 
         def sample(self) -> np.ndarray:
-            return self._random.uniform(self.low, self.high).astype(self.dtype)
+            bounded = np.isfinite(self.low) & np.isfinite(self.high)
+            even = self._random.uniform(np.where(bounded, self.low, 0.0), np.where(bounded, self.high, 1.0))
+            return np.where(bounded, even, self._random.normal(size=self.shape)).astype(self.dtype)
 
         def contains(self, x: Any) -> bool:
             return bool(np.all(x >= self.low) and np.all(x <= self.high))
@@ -161,7 +179,7 @@ class Swing(Task):
 
 class VectorFlights(_VectorEnv):
     """n environments of one task that step together; one that is over begins anew in the same step,
-    which then says where it ended in info["final_obs"]. reset(seed): environment i draws from
+    which then says where it ended in info["final_obs"], of those in info["_final_obs"]. reset(seed): environment i draws from
     (seed, i)."""
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": SAME_STEP}
@@ -231,7 +249,7 @@ class VectorFlights(_VectorEnv):
         info: dict[str, Any] = {"success": success}
         observation, done = self._observation(), terminated | truncated
         if done.any():
-            info["final_obs"] = observation
+            info.update(final_obs=observation, _final_obs=done, final_info={"success": success}, _final_info=done)
             self._begin(done)
             observation = self._observation()
         return observation, reward, terminated, truncated, info

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/campaign.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/functional.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
 #include <future>
 
+#include "limpet/campaign/campaign_file.hpp"
 #include "limpet/campaign/workers.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "module.hpp"
 
@@ -16,12 +20,45 @@ namespace {
 
 using OnProgress = std::function<void(std::uint32_t finished, std::uint32_t runs)>;
 
+/// Whoever leaves early, by Ctrl-C or what a callback raised, waits for those in the air, and lets
+/// Python go on meanwhile.
+struct LandsFirst {
+    ~LandsFirst() {
+        if (flown.valid()) {
+            stop = true;
+            const py::gil_scoped_release land;
+            flown.wait();
+        }
+    }
+    std::atomic<bool>& stop;
+    std::future<void>& flown;
+};
+
+/// What a campaign's file counts as success.
+std::vector<std::string> success_of(const std::string& yaml) {
+    std::vector<std::string> names;
+    for (const Outcome outcome : campaign::parse_campaign(yaml, "campaign", "").campaign.success) {
+        names.emplace_back(to_string(outcome));
+    }
+    return names;
+}
+
 /// Flies the runs that are missing, on other threads, while this one listens to Ctrl-C.
 /// @return the file of results
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
                                    int jobs, bool resume, const OnProgress& on_progress) {
+    constexpr int kMostJobs = 1024;  // as the program's
+    if (jobs < 1 || jobs > kMostJobs) {
+        throw InputError(
+            fmt::format("campaign(): jobs = {} is out of range, allowed 1..{}", jobs, kMostJobs));
+    }
     const campaign::Campaign asked = campaign::load_campaign(wanted);
-    std::filesystem::create_directories(folder);
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw InputError(fmt::format("campaign(): out = {}: cannot make this folder: {}",
+                                     folder.string(), error.message()));
+    }
     const FolderLock lock(folder);
     campaign::Results results = campaign::begin_results(asked, folder, resume);
     std::atomic<bool> stop = false;
@@ -30,23 +67,23 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
         const auto count = [&](const campaign::Progress& p) { finished = p.finished; };
         campaign::run_campaign(results, jobs, {.on_progress = count, .stop = &stop});
     });
+    const LandsFirst lands{stop, flown};
     const auto wait = [&] {
         const py::gil_scoped_release fly_freely;
         return flown.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
     };
     while (!wait()) {
-        if (on_progress && !stop) {
+        if (on_progress) {
             on_progress(finished, asked.runs);
         }
         if (PyErr_CheckSignals() != 0) {
-            const py::error_already_set interrupted;
-            stop = true;
-            const py::gil_scoped_release land;
-            flown.wait();
-            throw interrupted;
+            throw py::error_already_set();
         }
     }
     flown.get();
+    if (on_progress) {
+        on_progress(finished, asked.runs);
+    }
     return folder / campaign::Results::kFileName;
 }
 
@@ -55,6 +92,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
 void add_campaign(py::module_& module) {
     module.def("_run_campaign", &run_campaign, py::arg("wanted"), py::arg("folder"),
                py::arg("jobs"), py::arg("resume"), py::arg("on_progress"));
+    module.def("_success_of", &success_of, py::arg("yaml"));
 }
 
 }  // namespace limpet::python

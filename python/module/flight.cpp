@@ -87,16 +87,34 @@ std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
     return flown;
 }
 
-bool ticks(Flight& flight, long long count) {
-    const py::gil_scoped_release fly_freely;
-    Patience patience;
-    bool goes_on = !flight.ended();
-    for (const Tick end = tick_of(flight) + count; goes_on && tick_of(flight) < end;) {
-        goes_on = flight.tick();
-        patience.wait();
+/// A flight as Python steps it: several looks of the loop at once.
+class Stepped final : public Flight {
+public:
+    using Flight::Flight;
+
+    bool ticks(long long count) {
+        constexpr long long kMost = 1'000'000'000;  // longer than any flight
+        if (count < 0) {
+            throw py::value_error("tick(): 0 milliseconds or more");
+        }
+        const py::gil_scoped_release fly_freely;
+        Patience patience;
+        happened_.clear();
+        bool goes_on = !ended();
+        for (const Tick end = tick_of(*this) + std::min(count, kMost);
+             goes_on && tick_of(*this) < end;) {
+            goes_on = tick();
+            happened_.insert(happened_.end(), events().begin(), events().end());
+            patience.wait();
+        }
+        return goes_on;
     }
-    return goes_on;
-}
+    /// Of the last ticks().
+    [[nodiscard]] const std::vector<Event>& happened() const { return happened_; }
+
+private:
+    std::vector<Event> happened_;
+};
 
 void add_scenario(py::module_& module) {
     py::class_<Scenario>(module, "Scenario",
@@ -163,42 +181,44 @@ void add_result(py::module_& module) {
 
 void add_flight_class(py::module_& module) {
     py::class_<Moment>(module, "Moment", "A flight at one instant, to branch from.");
-    const auto inside = py::return_value_policy::reference_internal;
-    py::class_<Flight>(module, "Flight",
-                       "One flight, to be flown to its end or stepped. Same scenario, run and "
-                       "stations: the same bits. It belongs to one thread at a time.")
+    const auto copy = py::return_value_policy::copy;
+    py::class_<Stepped>(module, "Flight",
+                        "One flight, to be flown to its end or stepped. Same scenario, run and "
+                        "stations: the same bits. It belongs to one thread at a time.")
         .def(py::init([](const Scenario& scenario, std::uint32_t run, const Moment* start,
                          const py::object& guidance, const py::object& autopilot,
                          const py::object& cup) {
+                 if (start != nullptr && run != 0) {
+                     throw py::value_error("a branch has the random numbers of its start, no run");
+                 }
                  const Stations stations = stations_of(guidance, autopilot, cup);
-                 return start != nullptr ? Flight(scenario, *start, stations)
-                                         : Flight(scenario, stations, run);
+                 return start != nullptr ? Stepped(scenario, *start, stations)
+                                         : Stepped(scenario, stations, run);
              }),
              py::arg("scenario"), py::arg("run") = 0, py::kw_only(), py::arg("start") = nullptr,
              py::arg("guidance") = py::none(), py::arg("autopilot") = py::none(),
              py::arg("cup") = py::none())
         .def("record", &Flight::record, py::arg("file"),
              "Writes all signals from here on into an MCAP file.")
-        .def("tick", &ticks, py::arg("count") = 1,
+        .def("tick", &Stepped::ticks, py::arg("count") = 1,
              "So many milliseconds of the loop, to the next instant at which it looks at the "
              "bodies. "
              "Returns whether the flight goes on.")
-        .def("fly", &fly, py::arg("rate_Hz") = 100, "To the end; channels at this rate.")
+        .def(
+            "fly", [](Stepped& flight, int rate_Hz) { return fly(flight, rate_Hz); },
+            py::arg("rate_Hz") = 100, "To the end; channels at this rate.")
         .def_property_readonly("ended", &Flight::ended)
         .def_property_readonly("time_s", &Flight::time_s, "[s]")
-        .def_property_readonly("truth", &Flight::truth, inside)
-        .def_property_readonly("readings", &Flight::readings, inside)
-        .def_property_readonly("estimate", &Flight::estimate, inside)
-        .def_property_readonly("setpoint", &Flight::setpoint, inside)
+        .def_property_readonly("truth", &Flight::truth, copy)
+        .def_property_readonly("readings", &Flight::readings, copy)
+        .def_property_readonly("estimate", &Flight::estimate, copy)
+        .def_property_readonly("setpoint", &Flight::setpoint, copy)
         .def_property_readonly("rotor_commands",
-                               [](const Flight& f) { return array_of(f.rotors().command); })
-        .def_property_readonly("phase", [](const Flight& f) { return std::string(f.phase()); })
+                               [](const Stepped& f) { return array_of(f.rotors().command); })
+        .def_property_readonly("phase", [](const Stepped& f) { return std::string(f.phase()); })
         .def_property_readonly(
-            "events",
-            [](const Flight& f) {
-                return std::vector<Event>(f.events().begin(), f.events().end());
-            },
-            "of the last tick")
+            "events", [](const Stepped& f) { return f.happened(); },
+            "of the last tick(), all of it")
         .def("save", &Flight::save,
              "To go on from here later, on other walls or with other stations.");
 }
@@ -224,11 +244,7 @@ void add_recording(py::module_& module) {
             "series",
             [](const py::object& self, const std::string& topic, const std::string& column) {
                 const Series series = self.cast<const Recording&>().series(topic, column);
-                const auto view = [&](std::span<const double> numbers) {
-                    return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()),
-                                               numbers.data(), self);
-                };
-                return py::make_tuple(view(series.time_s), view(series.values));
+                return py::make_tuple(view_of(series.time_s, self), view_of(series.values, self));
             },
             py::arg("topic"), py::arg("column"), "(time_s, values), not copied")
         .def_property_readonly("events", &Recording::events)

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ template <std::size_t kCount>
     return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 /// An array over numbers that `owner` keeps alive: nothing is copied.
-[[nodiscard]] inline py::array_t<double> view_of(const std::vector<double>& numbers,
+[[nodiscard]] inline py::array_t<double> view_of(std::span<const double> numbers,
                                                  py::handle owner) {
     py::array_t<double> view(static_cast<py::ssize_t>(numbers.size()), numbers.data(), owner);
     py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;

@@ -37,6 +37,13 @@ std::vector<double> numbers_from(const py::handle& given, std::size_t count, con
     return numbers;
 }
 
+double finite(double number, const char* what) {
+    if (!std::isfinite(number)) {
+        throw py::value_error(std::string(what) + ": a finite number");
+    }
+    return number;
+}
+
 void add_truth(py::module_& module) {
     py::class_<Kinematics>(module, "Kinematics",
                            "Where a body's frame F is and how it moves, seen from the world W "
@@ -159,8 +166,9 @@ void add_setpoints(py::module_& module) {
             [](const py::object& p_W_m, double yaw_rad, const py::object& v_W_m_s, bool pump_on,
                bool valve_open) {
                 return Setpoint{
-                    .motion = PositionSetpoint{vector_from(p_W_m, "p_W_m"), yaw_rad,
-                                               vector_from(v_W_m_s, "feedforward_v_W_m_s")},
+                    .motion =
+                        PositionSetpoint{vector_from(p_W_m, "p_W_m"), finite(yaw_rad, "yaw_rad"),
+                                         vector_from(v_W_m_s, "feedforward_v_W_m_s")},
                     .armed = true,
                     .pump_on = pump_on,
                     .valve_open = valve_open};
@@ -172,18 +180,20 @@ void add_setpoints(py::module_& module) {
         .def_static(
             "velocity",
             [](const py::object& v_W_m_s, double yaw_rad, bool pump_on, bool valve_open) {
-                return Setpoint{.motion = VelocitySetpoint{vector_from(v_W_m_s, "v_W_m_s"), yaw_rad,
-                                                           Vector3::Zero()},
-                                .armed = true,
-                                .pump_on = pump_on,
-                                .valve_open = valve_open};
+                return Setpoint{
+                    .motion = VelocitySetpoint{vector_from(v_W_m_s, "v_W_m_s"),
+                                               finite(yaw_rad, "yaw_rad"), Vector3::Zero()},
+                    .armed = true,
+                    .pump_on = pump_on,
+                    .valve_open = valve_open};
             },
             py::arg("v_W_m_s"), py::arg("yaw_rad") = 0.0, py::arg("pump_on") = false,
             py::arg("valve_open") = false, "Fly with this velocity [m/s] and heading [rad].")
         .def_static(
             "attitude",
             [](const py::object& q_WB, double thrust, bool pump_on, bool valve_open) {
-                return Setpoint{.motion = AttitudeSetpoint{quaternion_from(q_WB, "q_WB"), thrust},
+                return Setpoint{.motion = AttitudeSetpoint{quaternion_from(q_WB, "q_WB"),
+                                                           finite(thrust, "thrust")},
                                 .armed = true,
                                 .pump_on = pump_on,
                                 .valve_open = valve_open};

@@ -3,12 +3,70 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <set>
+#include <type_traits>
 
 namespace limpet::python {
 namespace {
+
+/// A class's own attribute that fails is told; one that is not there means none.
+std::size_t memory_size_of(const py::object& object) {
+    constexpr const char* kName = "memory_size";
+    if (!py::hasattr(py::type::of(object), kName) && !py::hasattr(object, kName)) {
+        return 0;
+    }
+    const py::object size = object.attr(kName);
+    try {
+        if (py::isinstance<py::bool_>(size) || PyIndex_Check(size.ptr()) == 0) {
+            throw py::cast_error();
+        }
+        return size.cast<std::size_t>();
+    } catch (const py::cast_error&) {
+        throw py::type_error("memory_size: a whole number from 0 on, not " +
+                             std::string(py::repr(size)));
+    }
+}
+
+/// What a station has returned.
+/// @throws py::type_error saying who returned what in whose place
+template <class T>
+T taken(const py::object& said, const char* method, const char* wanted) {
+    const auto refuse = [&]() -> T {
+        throw py::type_error(std::string(method) + "() returned " +
+                             std::string(py::str(py::type::of(said).attr("__name__"))) + ", not " +
+                             wanted);
+    };
+    try {
+        return std::is_same_v<T, py::tuple> && PySequence_Check(said.ptr()) == 0 ? refuse()
+                                                                                 : said.cast<T>();
+    } catch (const py::cast_error&) {
+        return refuse();
+    } catch (const py::reference_cast_error&) {  // of None
+        return refuse();
+    }
+}
+
+/// The flight's own numbers while a station may write them: an array of its own, which whoever
+/// keeps it may keep.
+class Lent {
+public:
+    explicit Lent(std::span<double> memory)
+        : memory_(memory), array_(static_cast<py::ssize_t>(memory.size()), memory.data()) {}
+    [[nodiscard]] const py::array_t<double>& array() const { return array_; }
+    void take_back() const {
+        if (static_cast<std::size_t>(array_.size()) != memory_.size()) {
+            throw py::value_error("memory: another size than it was lent with");
+        }
+        std::copy_n(array_.data(), memory_.size(), memory_.begin());
+    }
+
+private:
+    std::span<double> memory_;
+    py::array_t<double> array_;
+};
 
 /// A Python object that flights hold. They may let go of it on any thread.
 class Held {
@@ -18,7 +76,11 @@ public:
             throw py::type_error(std::string(py::str(py::type::of(object_))) + " has no method " +
                                  method + "()");
         }
-        memory_size_ = py::getattr(object_, "memory_size", py::int_(0)).cast<std::size_t>();
+        if (PyType_Check(object_.ptr()) != 0) {
+            throw py::type_error(std::string(py::str(object_)) +
+                                 ": a class, not an object of it that could " + method + "()");
+        }
+        memory_size_ = memory_size_of(object_);
     }
     Held(const Held&) = delete;
     Held& operator=(const Held&) = delete;
@@ -38,11 +100,6 @@ private:
     std::size_t memory_size_ = 0;
 };
 
-/// The flight's own numbers, which the station may write.
-py::array_t<double> lent(std::span<double> memory) {
-    return py::array_t<double>(static_cast<py::ssize_t>(memory.size()), memory.data(), py::none());
-}
-
 /// Reasons are literals elsewhere: those of Python live as long as the program.
 std::string_view kept(const std::string& text) {
     static std::mutex mutex;
@@ -58,19 +115,23 @@ public:
     [[nodiscard]] GuidanceOutput update(const GuidanceInput& input,
                                         std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
+        const Lent lent(memory);
         const py::object said = held_.call(
             "update", py::cast(input.readings, py::return_value_policy::copy),
-            py::cast(input.estimate, py::return_value_policy::copy), input.time_s, lent(memory));
+            py::cast(input.estimate, py::return_value_policy::copy), input.time_s, lent.array());
+        lent.take_back();
+        constexpr const char* kWanted = "a Setpoint, or (Setpoint, outcome, reason)";
         if (!py::isinstance<py::tuple>(said)) {
-            return {.setpoint = said.cast<Setpoint>()};
+            return {.setpoint = taken<Setpoint>(said, "update", kWanted)};
         }
         const auto all = said.cast<py::tuple>();
         if (all.size() != 3) {
-            throw py::value_error("update() returns a Setpoint, or (Setpoint, outcome, reason)");
+            throw py::value_error(std::string("update() returns ") + kWanted);
         }
-        return {.setpoint = all[0].cast<Setpoint>(),
-                .outcome = outcome_named(all[1].cast<std::string>()),
-                .reason = kept(all[2].cast<std::string>())};
+        const auto part = [&](std::size_t k) { return py::object(all[k]); };
+        return {.setpoint = taken<Setpoint>(part(0), "update", kWanted),
+                .outcome = outcome_named(taken<std::string>(part(1), "update", kWanted)),
+                .reason = kept(taken<std::string>(part(2), "update", kWanted))};
     }
 
 private:
@@ -84,25 +145,32 @@ public:
     [[nodiscard]] AutopilotOutput control(const AutopilotInput& input,
                                           std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const auto said =
-            held_
-                .call("control", py::cast(input.estimate, py::return_value_policy::copy),
-                      py::cast(input.setpoint, py::return_value_policy::copy),
-                      py::cast(input.vehicle, py::return_value_policy::copy), input.time_s,
-                      input.dt_s, lent(memory))
-                .cast<py::tuple>();
-        if (said.size() == 2) {
-            return {.thrust = said[0].cast<double>(), .torque = vector_from(said[1], "torque")};
-        }
+        const Lent lent(memory);
+        const py::object answer =
+            held_.call("control", py::cast(input.estimate, py::return_value_policy::copy),
+                       py::cast(input.setpoint, py::return_value_policy::copy),
+                       py::cast(input.vehicle, py::return_value_policy::copy), input.time_s,
+                       input.dt_s, lent.array());
+        lent.take_back();
         const std::size_t rotors = input.vehicle.rotor_p_B_m.size();
+        const std::string wanted =
+            "(thrust, torque) or a command for each of " + std::to_string(rotors) + " rotors";
+        const py::tuple said = py::isinstance<py::str>(answer)
+                                   ? py::make_tuple(answer)  // whose letters are no commands
+                                   : taken<py::tuple>(answer, "control", wanted.c_str());
+        const auto number = [&](std::size_t k) {
+            return taken<double>(py::object(said[k]), "control", wanted.c_str());
+        };
+        if (said.size() == 2) {
+            return {.thrust = number(0), .torque = vector_from(said[1], "torque")};
+        }
         if (said.size() != rotors) {
-            throw py::value_error("control() returns (thrust, torque) or a command for each of " +
-                                  std::to_string(rotors) + " rotors");
+            throw py::value_error("control() returns " + wanted);
         }
         AutopilotOutput output;
         output.rotors.emplace(rotors);
         for (std::size_t i = 0; i < rotors; ++i) {
-            (*output.rotors)[i] = said[i].cast<double>();
+            (*output.rotors)[i] = number(i);
         }
         return output;
     }
@@ -118,8 +186,11 @@ public:
     [[nodiscard]] double next_Pa(const CupPressureInput& air,
                                  std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        return held_.call("next_Pa", py::cast(air, py::return_value_policy::copy), lent(memory))
-            .cast<double>();
+        const Lent lent(memory);
+        const py::object said =
+            held_.call("next_Pa", py::cast(air, py::return_value_policy::copy), lent.array());
+        lent.take_back();
+        return taken<double>(said, "next_Pa", "a pressure in Pa");
     }
 
 private:

@@ -366,6 +366,8 @@ TEST(CampaignProgram, RefusesWhatItCannotFly) {
         {"scenario: hover\nruns: 0\n", "x.yaml:2: runs: 0 is out of range"},
         {"scenario: hover\nrepeats: 0\nparameters:\n  simulation.hover_s: {grid: [1, 2]}\n",
          "repeats: 0"},
+        {"scenario: hover\nruns: 2\noverrides: [seed=4]\n",
+         "x.yaml:3: overrides: seed=4 is the campaign's own, seed: 4"},
         {"scenario: hover\nruns: -3\n", "runs: must be a whole number 1..1000000000, is"},
         {"scenario: hover\n", "runs: is missing"},
         {"scenario: hover\nruns: 1\nrepeats: 1\n", "one of them"},

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
+import os
+import signal
 import subprocess
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -47,3 +50,52 @@ def test_spreads_and_changes(tmp_path):
         limpet.campaign(vary={})
     with pytest.raises(limpet.InputError, match="no such results"):
         limpet.read_results(tmp_path)
+
+
+def test_ctrl_c_and_what_a_callback_raises_end_it_soon():
+    long = dict(scenario="perch_concrete", runs=20000, jobs=2)
+
+    def raises(finished, runs):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        limpet.campaign(**long, on_progress=raises)
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        limpet.campaign(**long, on_progress=lambda finished, runs: None)
+
+
+def test_progress_comes_to_the_end():
+    seen = []
+    limpet.campaign(scenario="hover", changes={"simulation.hover_s": 0.2}, runs=3,
+                    on_progress=lambda *told: seen.append(told))
+    assert seen[-1] == (3, 3)
+
+
+@pytest.mark.parametrize("told", ["success:\n  - perched", 'success: ["perched"]', '"success": [perched]',
+                                  "success:\n  [perched,\n   perched]"])
+def test_success_is_read_as_the_program_does(tmp_path, told):
+    (tmp_path / "c.yaml").write_text(f"scenario: pendulum_concrete\nruns: 3\n{told}\n")
+    assert set(limpet.campaign(tmp_path / "c.yaml").success_means) == {"perched"}
+
+
+@pytest.mark.parametrize("asked, told", [
+    (dict(wanted="smoke", runs=1, seed=9), "smoke says runs, seed itself"),
+    (dict(scenario="hover", jobs=-1), "jobs = -1 is out of range, allowed 1..1024"),
+    (dict(scenario="hover", runs=0), "0 is out of range"),
+    (dict(scenario="hover", changes={"seed": 4}), "seed=4 is the campaign's own"),
+    (dict(scenario="hover", vary={"simulation.hover_s": 3.0}), "hover_s: \\(from, to\\), a list"),
+    (dict(scenario="hover", vary={"simulation.hovers_s": [3.0]}), "^campaign\\(\\): parameters.simulation.hovers_s"),
+    (dict(scenario="hover", out="/etc/passwd"), "cannot make this folder")])
+def test_what_cannot_be_flown_is_told_in_a_line(asked, told):
+    with pytest.raises(limpet.InputError, match=told):
+        limpet.campaign(**asked)
+
+
+def test_scenarios_of_any_name_and_loaded_ones_fly(tmp_path):
+    scenario = limpet.load("hover", {"simulation.hover_s": 0.3})
+    file = tmp_path / "dir #1: x" / "a b.yaml"
+    file.parent.mkdir()
+    file.write_text(scenario.yaml)
+    one, other = limpet.campaign(scenario=scenario, runs=2), limpet.campaign(scenario=file, runs=2)
+    assert one.runs["state_hash"].tolist() == other.runs["state_hash"].tolist()

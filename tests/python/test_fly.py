@@ -119,3 +119,36 @@ except KeyboardInterrupt:
     assert child.stdout.readline() == "flies\n"
     child.send_signal(signal.SIGINT)
     assert child.communicate(timeout=60)[0] == "ended\n"
+
+
+def test_a_branch_is_of_the_same_vehicle():
+    scenario = limpet.load("perch_concrete")
+    moment = limpet.Flight(scenario).save()
+    for changes, told in (({"vehicle": "perching_hexa"}, "another vehicle: 6 rotors"),
+                          ({"mission": "perch"}, "another kind: mission perch "),
+                          ({"simulation.engine": "mujoco"}, "engine mujoco")):
+        with pytest.raises(limpet.InputError, match=told):
+            limpet.Flight(limpet.load("perch_concrete", changes), start=moment)
+    with pytest.raises(ValueError, match="no run"):
+        limpet.Flight(scenario, 7, start=moment)
+
+
+def test_what_a_flight_shows_is_not_the_flight():
+    scenario = limpet.load("perch_concrete")
+    flight = limpet.Flight(scenario)
+    flight.tick(2000)
+    estimate, then = flight.estimate, flight.estimate.time_s
+    flight.setpoint.armed = False
+    whole = limpet.fly(scenario)
+    assert flight.fly().state_hash == whole.state_hash and estimate.time_s == then
+
+
+def test_events_of_a_long_tick_are_all_there():
+    flight, seen = limpet.Flight(limpet.load("perch_concrete")), []
+    while flight.tick(100):
+        seen += [event.name for event in flight.events]
+    seen += [event.name for event in flight.events]
+    assert seen == [event.name for event in limpet.fly("perch_concrete").events]
+    assert flight.tick(2**63 - 1) is False
+    with pytest.raises(ValueError):
+        flight.tick(-1)

@@ -63,17 +63,63 @@ def test_what_it_raises_ends_the_flight_and_comes_back():
         def update(self, *_):
             raise RuntimeError("mine")
 
-    class Wrong:
-        def update(self, *_):
-            return 5
-
     with pytest.raises(RuntimeError, match="mine"):
         limpet.fly("hover", guidance=Fault())
-    with pytest.raises((RuntimeError, TypeError)):
-        limpet.fly("hover", guidance=Wrong())
     with pytest.raises(TypeError, match="no method update"):
         limpet.fly("hover", guidance=3)
     with pytest.raises(ValueError, match="finite"):
         limpet.Setpoint.position([float("nan"), 0, 0])
     with pytest.raises(ValueError, match="3 numbers"):
         limpet.Setpoint.velocity([0, 0])
+
+
+def station(method, answer, **more):
+    """Something that answers so."""
+    return type("Mine", (), {method: lambda self, *_: answer, **more})()
+
+
+@pytest.mark.parametrize("answer, told", [
+    (None, "update\\(\\) returned NoneType, not a Setpoint"), (5, "returned int, not a Setpoint"),
+    ((limpet.Setpoint.idle(), None, "x"), "returned NoneType, not a Setpoint, or")])
+def test_what_guidance_returns_by_mistake_is_told(answer, told):
+    with pytest.raises(TypeError, match=told):
+        limpet.fly("hover", guidance=station("update", answer))
+
+
+@pytest.mark.parametrize("answer, error, told", [
+    (None, TypeError, "control\\(\\) returned NoneType, not \\(thrust, torque\\)"), ("abcd", ValueError, "control"),
+    ((float("nan"), [0, 0, 0]), limpet.InputError, "not finite"),
+    ([0.5, 0.5, float("inf"), 0.5], limpet.InputError, "not finite"), ([0.5] * 3, ValueError, "4 rotors")])
+def test_what_an_autopilot_returns_by_mistake_is_told(answer, error, told):
+    with pytest.raises(error, match=told):
+        limpet.fly("hover", autopilot=station("control", answer))
+
+
+@pytest.mark.parametrize("answer, error", [(None, TypeError), ("x", TypeError), (float("nan"), limpet.InputError)])
+def test_what_a_cup_returns_by_mistake_is_told(answer, error):
+    with pytest.raises(error, match="next_Pa"):
+        limpet.fly("perch_concrete", cup=station("next_Pa", answer))
+
+
+@pytest.mark.parametrize("size", [-1, 1.5, "3", lambda self: 3])
+def test_a_memory_size_is_a_whole_number(size):
+    with pytest.raises(TypeError, match="memory_size: a whole number"):
+        limpet.fly("hover", guidance=station("update", limpet.Setpoint.idle(), memory_size=size))
+    with pytest.raises(TypeError, match="a class, not an object"):
+        limpet.fly("hover", guidance=Circle)
+
+
+def test_memory_may_be_kept():
+    """A copy of what it was: the flight's own numbers go with the flight."""
+    class Keeps:
+        memory_size = 50000
+
+        def update(self, readings, estimate, time_s, memory):
+            memory[:] = memory[0] + 1.0
+            self.last = memory
+            return limpet.Setpoint.position([0.0, 0.0, -1.0])
+
+    keeps = Keeps()
+    limpet.fly("hover", {"simulation.time_limit_s": 0.5}, guidance=keeps)
+    others = [np.full(50000, 7.0) for _ in range(20)]
+    assert np.all(keeps.last == 25.0) and len(others) == 20  # 50 Hz
