@@ -10,6 +10,7 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -172,15 +173,22 @@ void calibrate(const CalibrateOptions& options) {
     fmt::print("{}",
                options.json ? json_of(fit, rows, data.kind).dump(2) + "\n" : text_of(fit, rows));
     if (!options.json) {
-        std::string sets;
+        std::string sets = options.vehicle == CalibrateOptions().vehicle
+                               ? ""
+                               : fmt::format(" \\\n  --set vehicle={}", for_shell(options.vehicle));
+        const std::size_t vehicle = sets.size();
         for (const Calibrated& row : rows) {
             if (row.fitted && std::isfinite(row.there) && row.fitted->value > 0.0) {
                 sets += fmt::format(" \\\n  --set {}={:.5g}", row.key, row.fitted->value);
             }
         }
-        if (!sets.empty()) {
+        if (sets.size() > vehicle) {
             fmt::print("\nfly with it: limpet fly perch_concrete{}\n", sets);
         }
+    }
+    if (!data.damage.empty()) {
+        std::fflush(stdout);
+        throw InputError(options.log + ": " + data.damage);
     }
 }
 

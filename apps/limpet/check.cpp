@@ -72,13 +72,23 @@ void check_scenario(const std::string& file) {
     }
 }
 
+void check_vehicle(const std::string& file) {
+    const double mass_kg = scenario::load_vehicle(file, scenario::data_root()).mass_kg;
+    const std::string path = std::filesystem::absolute(file).string();
+    try {
+        (void)scenario::load_scenario("hover", {.overrides = {"vehicle=" + path}});
+    } catch (const InputError& error) {  // of which the file is one line
+        const std::string why = error.what();
+        const std::size_t end = why.find(": ");
+        throw InputError(file + why.substr(end == std::string::npos ? 0 : end));
+    }
+    fmt::print("{}: a good vehicle of {:.2f} kg\n", file, mass_kg);
+}
+
 void check_yaml(const std::string& file) {
     switch (scenario::kind_of(file)) {
         case scenario::FileKind::scenario: check_scenario(file); break;
-        case scenario::FileKind::vehicle:
-            fmt::print("{}: a good vehicle of {:.2f} kg\n", file,
-                       scenario::load_vehicle(file, scenario::data_root()).mass_kg);
-            break;
+        case scenario::FileKind::vehicle: check_vehicle(file); break;
         case scenario::FileKind::campaign: {
             const campaign::Campaign campaign = campaign::load_campaign(file);
             fmt::print("{}: a good campaign: {} runs of {}\n", file, campaign.runs,

@@ -16,9 +16,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Those of the flight that was there before, which is no more.
+void remove_figures(const fs::path& folder) {
+    for (const std::string_view name : report::kFigures) {
+        const fs::path png = folder / fmt::format("{}.png", name);
+        const fs::path svg = folder / fmt::format("{}.svg", name);
+        std::error_code ignored;
+        if (fs::is_regular_file(png, ignored) && fs::is_regular_file(svg, ignored)) {
+            fs::remove(png, ignored);
+            fs::remove(svg, ignored);
+        }
+    }
+}
+
 /// Tables and figures of the recording, beside it; returns what was written.
 std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path,
                            const std::atomic<bool>& stop, Terminal& terminal) {
+    remove_figures(path.parent_path());
     if (!options.figures() && !options.csv) {
         return {};
     }

@@ -58,9 +58,19 @@ void print_files(const std::vector<fs::path>& files) {
     }
 }
 
-void write_file(const fs::path& path, const std::string& text) {
-    const fs::path part = path.string() + ".part";
+void write_file(const fs::path& named, const std::string& text) {
     std::error_code error;
+    const fs::path path = fs::is_symlink(named, error) ? fs::weakly_canonical(named, error) : named;
+    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {  // a device, a pipe
+        std::ofstream through(path, std::ios::binary);
+        through << text;
+        if (!through.flush()) {
+            throw InputError("--out " + named.string() + ": cannot be written");
+        }
+        return;
+    }
+    const fs::path part = path.string() + ".part";
+    error.clear();
     {
         std::ofstream file(part, std::ios::binary);
         file << text;
@@ -74,7 +84,7 @@ void write_file(const fs::path& path, const std::string& text) {
     if (error) {
         std::error_code ignored;
         fs::remove(part, ignored);
-        throw InputError("--out " + path.string() + ": cannot be written");
+        throw InputError("--out " + named.string() + ": cannot be written");
     }
 }
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/record/recording.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -30,6 +32,11 @@ void view(const ViewOptions& options) {
     if (options.open) {
         open_in_browser(page);
     }
+    for (const std::filesystem::path& recording : recordings) {
+        if (const std::string damage = record::read_recording(recording).damage; !damage.empty()) {
+            throw InputError(recording.string() + ": " + damage);
+        }
+    }
 }
 
 OptionList options_of(ViewOptions& options) {
@@ -46,7 +53,9 @@ Verb view_verb() {
     return verb<ViewOptions>(
         "view", "Show flights in a browser, in three dimensions, with charts", options_of, view,
         "Writes view.html, one file that needs no network and can be sent: time line, events,\n"
-        "charts with one cursor, cameras. It also opens recordings that are dropped on it.\n");
+        "charts with one cursor, cameras. It also opens recordings that are dropped on it.\nWhat "
+        "is "
+        "missing of a damaged recording is said on standard error, and the exit code is 2.\n");
 }
 
 }  // namespace limpet::app

@@ -70,7 +70,7 @@ void add_commands(const Rows& rows, const char* name, FlightData& data) {
 
 FlightData of_recording(const record::Recording& recording) {
     using record::ros::flu_from_frd;
-    FlightData data{.kind = "recording"};
+    FlightData data{.damage = recording.damage, .kind = "recording"};
     if (const auto* text = recording.attachment("scenario.yaml")) {
         data.scenario_yaml = text->text;
     }
@@ -121,7 +121,7 @@ void add_velocities(const Rows& position, const Rows& attitude, FlightData& data
 }
 
 FlightData of_px4(const record::Recording& log) {
-    FlightData data{.kind = "PX4 log"};
+    FlightData data{.damage = log.damage, .kind = "PX4 log"};
     const Rows sensors(log, "sensor_combined");
     for (std::size_t row = 0; row < sensors.count(); ++row) {
         data.rate_B_rad_s.push_back(sensors.each3("gyro_rad", row));

@@ -13,6 +13,7 @@ namespace limpet::identification {
 
 /// What a log says of a flight, in our axes. What the log does not have is empty.
 struct FlightData {
+    std::string damage = {};  ///< of the log, of which the rest was read; empty: none
     std::vector<double> imu_s = {};
     std::vector<Vector3> rate_B_rad_s = {};  ///< a gyro's mean since its last sample
     std::vector<Vector3> specific_force_B_m_s2 = {};

@@ -84,6 +84,9 @@ struct Px4Topic {
     std::string_view from;    ///< topic of the recording
     std::function<void(Fields& fields, const Rows& rows, std::size_t row)> fill;
     std::uint8_t instance = 0;
+    /// What is recorded at an instant has acted since the one before (simulation/flight_log.cpp); a
+    /// PX4 log has it when it was said.
+    bool acted_since = false;
 };
 
 void fill_attitude(Fields& fields, const Rows& rows, std::size_t row) {
@@ -158,7 +161,8 @@ const std::vector<Px4Topic>& px4_topics() {
              for (int motor = 0; motor < 12; ++motor) {
                  fields.real(rows.at(fmt::format("command[{}]", motor), row));
              }
-         }},
+         },
+         0, true},
         {"limpet_cup",
          "float pressure_pa;float pull_n;float shear_n;float peel_n_m;float gap_m;uint8_t phase;"
          "bool pump_running;bool valve_open;",
@@ -216,8 +220,13 @@ std::string definitions(const Recording& recording) {
 }
 
 void gather(const Px4Topic& topic, std::uint16_t id, const Rows& rows, std::vector<Timed>& data) {
+    const double period_s = rows.count() > 1 ? rows.time_s(1) - rows.time_s(0) : 0.0;
     for (std::size_t row = 0; row < rows.count(); ++row) {
-        const std::uint64_t time_us = microseconds(rows.time_s(row));
+        const double said_s = rows.time_s(row) - (topic.acted_since ? period_s : 0.0);
+        if (said_s < 0.0) {
+            continue;  // before the flight
+        }
+        const std::uint64_t time_us = microseconds(said_s);
         Fields fields;
         topic.fill(fields, rows, row);
         data.emplace_back(time_us, message('D', bytes_of(id) + bytes_of(time_us) + fields.bytes()));
@@ -266,9 +275,16 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
     for (const Timed* one : in_time) {
         log += one->second;
     }
-    std::ofstream out(file, std::ios::binary);
+    const std::filesystem::path part = file.string() + ".part";  // whole or not at all
+    std::ofstream out(part, std::ios::binary);
     out << log;
-    if (!out.flush()) {
+    out.close();
+    std::error_code error;
+    if (out) {
+        std::filesystem::rename(part, file, error);
+    }
+    if (!out || error) {
+        std::filesystem::remove(part, error);
         throw InputError("cannot write " + file.string());
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "limpet/core/work.hpp"
 #include "limpet/draw/chart.hpp"
@@ -15,8 +16,12 @@ namespace limpet::report {
 [[nodiscard]] draw::Chart flight_chart(const record::Recording& recording,
                                        const record::Chapter& chapter);
 
-/// Draws those charts, PNG and SVG of each: `overview`, and when they happened `perching`,
-/// `take_off`, `failed_attempt` (story.hpp says what each shows). A panel without data is left out.
+/// What plot() may draw.
+inline constexpr std::string_view kFigures[] = {"overview", "perching", "take_off",
+                                                "failed_attempt"};
+
+/// Draws those charts, PNG and SVG of each: `overview`, and the others when they happened
+/// (story.hpp says what each shows). A panel without data is left out.
 /// A damaged recording is drawn as far as it goes and its figures say so.
 /// @param folder  made when it is not there
 /// @return the files, and what could not be shown

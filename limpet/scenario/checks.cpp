@@ -222,9 +222,11 @@ void check_derived(const Scenario& scenario, const std::vector<Section>& section
     for (const Section& section : sections) {
         for (const BoundParameter& row : section.rows) {
             if (!row.allows(row.value.get()) && derived(section.name, row.name, scenario)) {
+                const bool too_heavy = row.name == "hover_thrust" && row.value.get() > 1.0;
                 fail_at(root, "vehicle",
-                        fmt::format("{}.{} follows from it as {:.4g}, allowed {}", section.name,
-                                    row.name, row.value.get(), allowed_text(row)));
+                        fmt::format("{}.{} follows from it as {:.4g}, allowed {}{}", section.name,
+                                    row.name, row.value.get(), allowed_text(row),
+                                    too_heavy ? ": its rotors do not lift it" : ""));
             }
         }
     }

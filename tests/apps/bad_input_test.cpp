@@ -218,6 +218,13 @@ TEST(BadInput, ARecordingCutInHalfIsPlottedAsFarAsItGoes) {
     EXPECT_TRUE(fs::exists(bench.folder() / "figures/overview.png"));
     EXPECT_TRUE(plot.one_line_of_error()) << plot.err;
     EXPECT_EQ(bench.run({"check", "flight.mcap"}).exit_code, 2);
+    for (const char* verb : {"view", "calibrate"}) {
+        const Finished used = bench.run({verb, "flight.mcap"});
+        EXPECT_EQ(used.exit_code, 2) << verb;
+        EXPECT_NE(used.out, "") << "what is whole is used";
+        EXPECT_TRUE(used.one_line_of_error()) << used.err;
+        EXPECT_THAT(used.err, HasSubstr("flight.mcap: cut off"));
+    }
     fs::resize_file(recording, 100);  // not a message is whole
     expect_refused(bench, {"plot", "flight.mcap"}, {"flight.mcap"});
 }

@@ -40,6 +40,19 @@ TEST(Fly, TellsAPersonWhatHappenedAndWhereItLies) {
     EXPECT_THAT(bench.files(), Contains("here/take_off.png"));
 }
 
+/// A picture beside a recording is of that flight.
+TEST(Fly, FiguresOfTheFlightBeforeGoWithIt) {
+    const Bench bench;
+    ASSERT_EQ(bench.run({"fly", "perch_concrete", "--out", "."}).exit_code, 0);
+    (void)bench.write("perching.txt", "mine");
+    ASSERT_THAT(bench.files(), testing::IsSupersetOf({"overview.png", "take_off.svg"}));
+    ASSERT_EQ(bench.run({"fly", "hover", "--out", "."}).exit_code, 0);
+    EXPECT_THAT(bench.files(), testing::UnorderedElementsAre("flight.mcap", "overview.png",
+                                                             "overview.svg", "perching.txt"));
+    ASSERT_EQ(bench.run({"fly", "hover", "--quiet", "--out", "."}).exit_code, 0);
+    EXPECT_THAT(bench.files(), testing::UnorderedElementsAre("flight.mcap", "perching.txt"));
+}
+
 TEST(Fly, WritesOnlyIntoOut) {
     const Bench bench;
     ASSERT_EQ(bench.run({"fly", "hover", "--json"}).exit_code, 0);

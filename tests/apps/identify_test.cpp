@@ -67,6 +67,18 @@ TEST(Calibrate, RefusesWhatItDoesNotKnow) {
     }
 }
 
+TEST(Calibrate, WhatItSaysToFlyHasItsVehicle) {
+    const Bench bench;
+    ASSERT_EQ(bench
+                  .run({"fly", "perch_concrete", "--quiet", "--out", ".", "--set",
+                        "vehicle=perching_x8", "--set", "simulation.record_rate_Hz=250"})
+                  .exit_code,
+              0);
+    const Finished done = bench.run({"calibrate", "flight.mcap", "--vehicle", "perching_x8"});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("limpet fly perch_concrete \\\n  --set vehicle=perching_x8 "));
+}
+
 TEST(Identify, JsonIsInSiAndHoldsTheTruth) {
     const Bench bench;
     (void)bench.write("log.csv", concrete_log());

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 #include "program.hpp"
 
@@ -117,6 +119,12 @@ TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     EXPECT_EQ(bad.exit_code, 2);
     EXPECT_TRUE(bad.one_line_of_error());
     EXPECT_THAT(bad.err, HasSubstr("big.yaml:2: rotors: must be a list of 4 to 12 rotors, has 1"));
+    (void)bench.write("big.yaml", "has_cup: true\nmass_kg: 30\n");
+    const Finished heavy = bench.run({"check", "big.yaml"});
+    EXPECT_EQ(heavy.exit_code, 2);
+    EXPECT_TRUE(heavy.one_line_of_error()) << heavy.err;
+    EXPECT_THAT(heavy.err, HasSubstr("big.yaml: guidance.hover_thrust follows from it as 2.307"));
+    EXPECT_THAT(heavy.err, HasSubstr("its rotors do not lift it"));
 }
 
 /// Of a flight on a real PX4 v1.15.1.
@@ -146,6 +154,24 @@ TEST(Verbs, ExportNamesWhatItWroteAndMakesItsFolder) {
         bench.run({"export", "perch_metal", "--format", "world", "--out", "g/m.world"});
     EXPECT_THAT(world.out, testing::StartsWith("g/m.world\n"));
     EXPECT_THAT(world.out, HasSubstr(".material\n"));
+}
+
+/// Neither a link nor a device becomes a file in its place.
+TEST(Verbs, ExportWritesThroughWhatIsNoFile) {
+    const Bench bench;
+    (void)bench.write("real.xml", "old");
+    std::filesystem::create_symlink("real.xml", bench.folder() / "link.xml");
+    EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "link.xml"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(bench.folder() / "link.xml"));
+    EXPECT_THAT(text_of(bench.folder() / "real.xml"), HasSubstr("rotor_3"));
+    const auto pipe = bench.folder() / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::string read;
+    std::jthread reader([&] { read = text_of(pipe); });
+    EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "pipe"}).exit_code, 0);
+    reader.join();
+    EXPECT_EQ(read, text_of(bench.folder() / "real.xml"));
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 /// On a terminal of 80 columns nothing wraps by itself.

@@ -312,7 +312,8 @@ TEST_F(BadInput, AVehicleTooHeavyToHover) {
     EXPECT_EQ(error_of([&] {
                   return data_.load_text("mission: hover\nvehicle: {base: small, mass_kg: 20}\n");
               }),
-              "x.yaml:2: vehicle: guidance.hover_thrust follows from it as 1.858, allowed 0.01..1");
+              "x.yaml:2: vehicle: guidance.hover_thrust follows from it as 1.858, allowed "
+              "0.01..1: its rotors do not lift it");
 }
 
 }  // namespace
