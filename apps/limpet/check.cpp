@@ -10,6 +10,7 @@
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -74,13 +75,12 @@ void check_scenario(const std::string& file) {
 
 void check_vehicle(const std::string& file) {
     const double mass_kg = scenario::load_vehicle(file, scenario::data_root()).mass_kg;
-    const std::string path = std::filesystem::absolute(file).string();
+    const std::string path = in_yaml(std::filesystem::absolute(file).string());
     try {
-        (void)scenario::load_scenario("hover", {.overrides = {"vehicle=" + path}});
-    } catch (const InputError& error) {  // of which the file is one line
-        const std::string why = error.what();
-        const std::size_t end = why.find(": ");
-        throw InputError(file + why.substr(end == std::string::npos ? 0 : end));
+        (void)scenario::load_scenario_text("vehicle: " + path + "\nmission: hover\n", file);
+    } catch (const InputError& error) {  // of which who asked has written no line
+        const std::string why = error.what(), where = file + ":1: vehicle";
+        throw InputError(why.starts_with(where) ? file + why.substr(where.size()) : why);
     }
     fmt::print("{}: a good vehicle of {:.2f} kg\n", file, mass_kg);
 }

@@ -16,23 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those of the flight that was there before, which is no more.
-void remove_figures(const fs::path& folder) {
-    for (const std::string_view name : report::kFigures) {
-        const fs::path png = folder / fmt::format("{}.png", name);
-        const fs::path svg = folder / fmt::format("{}.svg", name);
-        std::error_code ignored;
-        if (fs::is_regular_file(png, ignored) && fs::is_regular_file(svg, ignored)) {
-            fs::remove(png, ignored);
-            fs::remove(svg, ignored);
-        }
-    }
-}
-
 /// Tables and figures of the recording, beside it; returns what was written.
 std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path,
                            const std::atomic<bool>& stop, Terminal& terminal) {
-    remove_figures(path.parent_path());
     if (!options.figures() && !options.csv) {
         return {};
     }
@@ -123,6 +109,7 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
         px4->tell(result.performance, terminal);
     }
     if (!result.recording.empty()) {
+        report::remove_figures(result.recording.parent_path());
         std::vector<fs::path> files = {result.recording};
         const auto add = [&files](const std::vector<fs::path>& more) {
             files.insert(files.end(), more.begin(), more.end());

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/write_file.hpp"
 #include "terminal.hpp"
 
 namespace limpet::app {
@@ -58,33 +58,9 @@ void print_files(const std::vector<fs::path>& files) {
     }
 }
 
-void write_file(const fs::path& named, const std::string& text) {
-    std::error_code error;
-    const fs::path path = fs::is_symlink(named, error) ? fs::weakly_canonical(named, error) : named;
-    if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {  // a device, a pipe
-        std::ofstream through(path, std::ios::binary);
-        through << text;
-        if (!through.flush()) {
-            throw InputError("--out " + named.string() + ": cannot be written");
-        }
-        return;
-    }
-    const fs::path part = path.string() + ".part";
-    error.clear();
-    {
-        std::ofstream file(part, std::ios::binary);
-        file << text;
-        file.close();
-        if (file) {
-            fs::rename(part, path, error);
-        } else {
-            error = std::make_error_code(std::errc::io_error);
-        }
-    }
-    if (error) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
-        throw InputError("--out " + named.string() + ": cannot be written");
+void write_file(const fs::path& path, const std::string& text) {
+    if (!limpet::write_file(path, text)) {
+        throw InputError("--out " + path.string() + ": cannot be written");
     }
 }
 

@@ -39,8 +39,7 @@ private:
 /// For scripts: a path a line.
 void print_files(const std::vector<std::filesystem::path>& files);
 
-/// Writes a file whole or not at all; through a link to where it leads, into what is no file as it
-/// comes.
+/// As limpet::write_file().
 /// @throws InputError naming it
 void write_file(const std::filesystem::path& path, const std::string& text);
 

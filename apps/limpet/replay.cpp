@@ -51,6 +51,7 @@ void replay(const ReplayOptions& options) {
     const fs::path& folder = out.path();
     Terminal terminal(Terminal::Voice::normal);
     introduce(results.campaign(), row, terminal);
+    report::remove_figures(folder);
     const simulation::FlightResult result =
         replay_run(results, options.run, folder / "flight.mcap", watch(terminal),
                    noise_of(results, options.run));

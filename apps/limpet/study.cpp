@@ -11,6 +11,7 @@
 #include "command_line.hpp"
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -59,17 +60,6 @@ std::string spread_of(const std::string& text) {
         text));
 }
 
-/// A text as YAML holds any.
-std::string in_yaml(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '\n'               ? "\\n"
-                  : c == '"' || c == '\\' ? fmt::format("\\{}", c)
-                                          : std::string(1, c);
-    }
-    return quoted + "\"";
-}
-
 /// A campaign's file of what --vary and --set say.
 std::string file_of(const StudyOptions& options) {
     std::string text = fmt::format(
@@ -77,12 +67,15 @@ std::string file_of(const StudyOptions& options) {
         in_yaml(scenario::is_path(options.wanted) ? fs::absolute(options.wanted).string()
                                                   : options.wanted),
         options.samples);
-    if (!options.overrides.empty()) {
-        text += "overrides:\n";
-        for (const std::string& one : options.overrides) {
-            text += fmt::format("  - {}\n", in_yaml(one));
+    std::string overrides;
+    for (const std::string& one : options.overrides) {
+        if (one.starts_with("seed=")) {
+            text += fmt::format("seed: {}\n", one.substr(5));
+        } else {
+            overrides += fmt::format("  - {}\n", in_yaml(one));
         }
     }
+    text += overrides.empty() ? "" : "overrides:\n" + overrides;
     text += "parameters:\n";
     for (const std::string& one : options.vary) {
         const std::size_t sign = one.find('=');
@@ -102,7 +95,7 @@ std::string without_places(std::string message, const std::string& file) {
     for (std::size_t at = message.find(file); at != std::string::npos;
          at = message.find(file, at)) {
         const std::size_t end = message.find_first_not_of("0123456789:", at + file.size());
-        const std::size_t colon = end != std::string::npos && message[end] == ' ' ? 1 : 0;
+        const std::size_t colon = end != std::string::npos && message[end - 1] == ':' ? 1 : 0;
         message.replace(at, std::min(end, message.size()) - at - colon, "--vary");
     }
     return message;

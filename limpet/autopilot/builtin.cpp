@@ -2,6 +2,8 @@
 #include "limpet/autopilot/builtin.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <variant>
 
 #include "limpet/autopilot/attitude_control.hpp"

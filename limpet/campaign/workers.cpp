@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <system_error>
 #include <type_traits>
@@ -39,6 +40,9 @@ std::vector<std::pair<std::string, std::string>> columns_of(const Campaign& camp
     for_each_column(campaign, row, [&](std::string_view name, const char*, const auto& value) {
         if constexpr (std::is_same_v<std::decay_t<decltype(value)>, SampledValue>) {
             columns.emplace_back(name, value_text(value));
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+            // A database keeps neither the sign of a zero nor that of what is no number.
+            columns.emplace_back(name, std::isnan(value) ? "nan" : fmt::format("{}", value + 0.0));
         } else {
             columns.emplace_back(name, fmt::format("{}", value));
         }

@@ -56,6 +56,17 @@ namespace limpet {
     return out + (text.size() > kLongest ? "...\"" : "\"");
 }
 
+/// The text as YAML holds any.
+[[nodiscard]] inline std::string in_yaml(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '\n'               ? std::string("\\n")
+                  : c == '"' || c == '\\' ? std::string("\\") + c
+                                          : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
 /// The text as one word of a command that a shell is given.
 [[nodiscard]] inline std::string for_shell(std::string_view text) {
     constexpr std::string_view kPlain =

@@ -132,6 +132,9 @@ Flight::Flight(const Scenario& scenario, const Moment& from, const Stations& sta
     }
     const Moment::Inside& then = *from.inside_;
     require_same_vehicle(*inside_->model, *then.model);
+    if (stations.plant != then.stations.plant) {
+        throw InputError("a branch on another plant than the flight that was saved");
+    }
     simulation::Snapshot snapshot = then.snapshot;
     if (stations.autopilot != then.stations.autopilot) {
         start_memory(inside_->model->autopilot, snapshot.state.autopilot);

@@ -347,7 +347,7 @@ PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOp
     const PressureTrace asked = samples_of(trace, first, std::max(first, end) - first);
     check(asked, options);
     Stages stages = stages_of(asked, options);
-    if (options.pump_off_s) {
+    if (options.pump_off_s && stages.used > 0 && *options.pump_off_s > asked.t_s[stages.used - 1]) {
         stages.used = asked.t_s.size();  // the user knows better where it ends
     }
     const PressureTrace used = samples_of(asked, 0, stages.used);

@@ -16,6 +16,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/write_file.hpp"
 #include "limpet/record/ros_frames.hpp"
 
 namespace limpet::record {
@@ -275,16 +276,7 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
     for (const Timed* one : in_time) {
         log += one->second;
     }
-    const std::filesystem::path part = file.string() + ".part";  // whole or not at all
-    std::ofstream out(part, std::ios::binary);
-    out << log;
-    out.close();
-    std::error_code error;
-    if (out) {
-        std::filesystem::rename(part, file, error);
-    }
-    if (!out || error) {
-        std::filesystem::remove(part, error);
+    if (!write_file(file, log)) {
         throw InputError("cannot write " + file.string());
     }
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"
@@ -116,6 +117,18 @@ draw::Pictures plot(const record::Recording& recording, const std::filesystem::p
     }
     work.say();
     return {draw::publish(drawn, folder), missing_topics(recording)};
+}
+
+void remove_figures(const std::filesystem::path& folder) {
+    for (const char* name : {"overview", "perching", "take_off", "failed_attempt"}) {
+        const std::filesystem::path png = folder / fmt::format("{}.png", name);
+        const std::filesystem::path svg = folder / fmt::format("{}.svg", name);
+        std::error_code ignored;
+        if (is_regular_file(png, ignored) && is_regular_file(svg, ignored)) {
+            remove(png, ignored);
+            remove(svg, ignored);
+        }
+    }
 }
 
 }  // namespace limpet::report

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "limpet/core/work.hpp"
 #include "limpet/draw/chart.hpp"
@@ -16,12 +15,8 @@ namespace limpet::report {
 [[nodiscard]] draw::Chart flight_chart(const record::Recording& recording,
                                        const record::Chapter& chapter);
 
-/// What plot() may draw.
-inline constexpr std::string_view kFigures[] = {"overview", "perching", "take_off",
-                                                "failed_attempt"};
-
-/// Draws those charts, PNG and SVG of each: `overview`, and the others when they happened
-/// (story.hpp says what each shows). A panel without data is left out.
+/// Draws those charts, PNG and SVG of each: `overview`, and when they happened `perching`,
+/// `take_off`, `failed_attempt` (story.hpp says what each shows). A panel without data is left out.
 /// A damaged recording is drawn as far as it goes and its figures say so.
 /// @param folder  made when it is not there
 /// @return the files, and what could not be shown
@@ -29,5 +24,8 @@ inline constexpr std::string_view kFigures[] = {"overview", "perching", "take_of
 ///         gnuplot is not installed; Interrupted, with nothing in the folder
 [[nodiscard]] draw::Pictures plot(const record::Recording& recording,
                                   const std::filesystem::path& folder, const Work& work = {});
+
+/// Before another flight is recorded there: those that plot() has drawn of the last one go.
+void remove_figures(const std::filesystem::path& folder);
 
 }  // namespace limpet::report

@@ -75,7 +75,8 @@ def campaign(wanted: Union[str, os.PathLike, None] = None, *,
              scenario: Union[str, os.PathLike, _core.Scenario, None] = None,
              vary: Optional[Mapping[str, Any]] = None, changes: Optional[Mapping[str, Any]] = None,
              runs: Optional[int] = None, seed: Optional[int] = None,
-             success: Optional[Sequence[str]] = None, jobs: Optional[int] = None, out: Union[str, os.PathLike, None] = None, resume: bool = False,
+             success: Optional[Sequence[str]] = None, jobs: Optional[int] = None,
+             out: Union[str, os.PathLike, None] = None, resume: bool = False,
              on_progress: Optional[Callable[[int, int], None]] = None) -> CampaignResult:
     """Flies a campaign: one of the campaigns' names or files, or one made here of
 
@@ -106,12 +107,17 @@ def campaign(wanted: Union[str, os.PathLike, None] = None, *,
             results = _core._run_campaign(file, folder, (os.cpu_count() or 1) if jobs is None else jobs, resume,
                                           on_progress)
         except _core.InputError as error:  # whoever called has written no such file
-            raise _core.InputError(re.sub(re.escape(file) + r"(:\d+)?", "campaign()", str(error))
+            raise _core.InputError(re.sub(re.escape(scratch) + r"[^:]*(:\d+)?", "campaign()", str(error))
                                    if wanted is None else str(error)) from None
         result = read_results(results)
         if out is None:
             result.file = None
         return result
+
+
+def in_yaml(value: Any) -> str:
+    """Texts, lists and maps as YAML reads them, numbers of NumPy too."""
+    return json.dumps(value, ensure_ascii=False, default=lambda number: number.item())
 
 
 def _write_campaign(folder: Path, scenario: Union[str, os.PathLike, _core.Scenario, None],
@@ -120,15 +126,16 @@ def _write_campaign(folder: Path, scenario: Union[str, os.PathLike, _core.Scenar
     if scenario is None:
         raise _core.InputError("campaign(): a campaign's name, or scenario=")
     if isinstance(scenario, _core.Scenario):
-        text, scenario = scenario.yaml, folder / f"{scenario.name}.yaml"
+        text, scenario = scenario.yaml, folder / "scenario" / f"{scenario.name}.yaml"
+        scenario.parent.mkdir()
         scenario.write_text(text, encoding="utf-8")
     if Path(scenario).suffix in (".yaml", ".yml"):
         scenario = Path(scenario).resolve()
-    lines = [f"scenario: {json.dumps(os.fspath(scenario))}", f"seed: {seed}", f"repeats: {runs}",
-             f"success: {json.dumps(list(success))}"]
+    lines = [f"scenario: {in_yaml(os.fspath(scenario))}", f"seed: {seed}", f"repeats: {runs}",
+             f"success: {in_yaml(list(success))}"]
     if changes:
         lines.append("overrides:")
-        lines += [f"  - {json.dumps(text)}" for text in change_texts(changes)]
+        lines += [f"  - {in_yaml(text)}" for text in change_texts(changes)]
     if vary:
         lines.append("parameters:")
     for key, spread in vary.items():
@@ -140,7 +147,7 @@ def _write_campaign(folder: Path, scenario: Union[str, os.PathLike, _core.Scenar
             raise _core.InputError(f"vary: {key}: (from, to), a list of values, or a dict")
         elif not isinstance(spread, Mapping):
             spread = {"grid": [value for value in spread]}
-        lines.append(f"  {key}: {json.dumps(spread, default=lambda v: v.item())}")
+        lines.append(f"  {key}: {in_yaml(spread)}")
     file = folder / "campaign.yaml"
     file.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return os.fspath(file)

@@ -24,10 +24,14 @@ using OnProgress = std::function<void(std::uint32_t finished, std::uint32_t runs
 /// Python go on meanwhile.
 struct LandsFirst {
     ~LandsFirst() {
-        if (flown.valid()) {
-            stop = true;
+        if (!flown.valid()) {
+            return;
+        }
+        stop = true;
+        try {
             const py::gil_scoped_release land;
             flown.wait();
+        } catch (...) {  // whoever leaves has said why
         }
     }
     std::atomic<bool>& stop;
@@ -62,7 +66,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     const FolderLock lock(folder);
     campaign::Results results = campaign::begin_results(asked, folder, resume);
     std::atomic<bool> stop = false;
-    std::atomic<std::uint32_t> finished = 0;
+    std::atomic<std::uint32_t> finished = results.finished();
     auto flown = std::async(std::launch::async, [&] {
         const auto count = [&](const campaign::Progress& p) { finished = p.finished; };
         campaign::run_campaign(results, jobs, {.on_progress = count, .stop = &stop});

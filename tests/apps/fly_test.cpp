@@ -51,6 +51,9 @@ TEST(Fly, FiguresOfTheFlightBeforeGoWithIt) {
                                                              "overview.svg", "perching.txt"));
     ASSERT_EQ(bench.run({"fly", "hover", "--quiet", "--out", "."}).exit_code, 0);
     EXPECT_THAT(bench.files(), testing::UnorderedElementsAre("flight.mcap", "perching.txt"));
+    std::filesystem::create_symlink("old.ulg", bench.folder() / "flight.ulg");
+    EXPECT_EQ(bench.run({"ulog", "flight.mcap"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(bench.folder() / "flight.ulg"));
 }
 
 TEST(Fly, WritesOnlyIntoOut) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <regex>
 #include <sstream>
-#include <thread>
 
 #include "program.hpp"
 
@@ -125,6 +126,9 @@ TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     EXPECT_TRUE(heavy.one_line_of_error()) << heavy.err;
     EXPECT_THAT(heavy.err, HasSubstr("big.yaml: guidance.hover_thrust follows from it as 2.307"));
     EXPECT_THAT(heavy.err, HasSubstr("its rotors do not lift it"));
+    std::filesystem::create_directory(bench.folder() / "a #b: c");
+    std::filesystem::copy_file(root / "vehicles/iris.yaml", bench.folder() / "a #b: c/iris.yaml");
+    EXPECT_EQ(bench.run({"check", "a #b: c/iris.yaml"}).exit_code, 0);
 }
 
 /// Of a flight on a real PX4 v1.15.1.
@@ -166,12 +170,19 @@ TEST(Verbs, ExportWritesThroughWhatIsNoFile) {
     EXPECT_THAT(text_of(bench.folder() / "real.xml"), HasSubstr("rotor_3"));
     const auto pipe = bench.folder() / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    std::string read;
-    std::jthread reader([&] { read = text_of(pipe); });
+    const int reader = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // it holds more than a model
     EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "pipe"}).exit_code, 0);
-    reader.join();
-    EXPECT_EQ(read, text_of(bench.folder() / "real.xml"));
+    std::string piped(1U << 16U, ' ');
+    piped.resize(
+        static_cast<std::size_t>(std::max<ssize_t>(0, read(reader, piped.data(), piped.size()))));
+    close(reader);
+    EXPECT_EQ(piped, text_of(bench.folder() / "real.xml"));
     EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+    std::filesystem::create_symlink("new.xml", bench.folder() / "ahead.xml");
+    EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "ahead.xml"}).exit_code, 0);
+    EXPECT_EQ(text_of(bench.folder() / "new.xml"), piped);
+    EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "/dev/stdout"}).out,
+              piped + "/dev/stdout\n");
 }
 
 /// On a terminal of 80 columns nothing wraps by itself.

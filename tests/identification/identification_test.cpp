@@ -215,6 +215,10 @@ TEST(Identification, ASecondPressIsLeftOutAndSaid) {
     const PressureFit fit = identify_pressure(twice);
     EXPECT_NEAR(fit.unsealing_time_s->value, 0.40, 2.0 * fit.unsealing_time_s->half_width);
     EXPECT_THAT(fit.notes, testing::Contains(HasSubstr("seals again")));
+    // Also where the user says when the first ended.
+    const PressureFit told = identify_pressure(twice, {.pump_off_s = 4.517});
+    EXPECT_NEAR(told.unsealing_time_s->value, 0.40, 2.0 * told.unsealing_time_s->half_width);
+    EXPECT_THAT(told.notes, testing::Contains(HasSubstr("seals again")));
 }
 
 TEST(Identification, TheJacobianIsThatOfTheCurve) {

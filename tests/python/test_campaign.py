@@ -72,6 +72,14 @@ def test_progress_comes_to_the_end():
     assert seen[-1] == (3, 3)
 
 
+def test_progress_of_one_that_goes_on_counts_what_is_there(tmp_path):
+    seen = []
+    for _ in range(2):
+        limpet.campaign(scenario="hover", changes={"simulation.hover_s": 0.2}, runs=3, out=tmp_path / "r",
+                        resume=True, on_progress=lambda *told: seen.append(told))
+    assert seen[-1] == (3, 3)
+
+
 @pytest.mark.parametrize("told", ["success:\n  - perched", 'success: ["perched"]', '"success": [perched]',
                                   "success:\n  [perched,\n   perched]"])
 def test_success_is_read_as_the_program_does(tmp_path, told):
@@ -97,5 +105,10 @@ def test_scenarios_of_any_name_and_loaded_ones_fly(tmp_path):
     file = tmp_path / "dir #1: x" / "a b.yaml"
     file.parent.mkdir()
     file.write_text(scenario.yaml)
-    one, other = limpet.campaign(scenario=scenario, runs=2), limpet.campaign(scenario=file, runs=2)
-    assert one.runs["state_hash"].tolist() == other.runs["state_hash"].tolist()
+    campaign = tmp_path / "campaign.yaml"  # as the one that is made of it
+    campaign.write_text(scenario.yaml)
+    beyond = tmp_path / "\U0001f681.yaml"
+    beyond.write_text(scenario.yaml)
+    hashes = [limpet.campaign(scenario=one, runs=2).runs["state_hash"].tolist()
+              for one in (scenario, file, limpet.load(campaign), beyond)]
+    assert all(one == hashes[0] for one in hashes)
