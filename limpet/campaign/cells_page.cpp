@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <vector>
 
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/write_file.hpp"
 #include "limpet/draw/html.hpp"
 #include "limpet/record/story.hpp"
 
@@ -221,9 +221,7 @@ std::optional<fs::path> write_cells(Results& results, const fs::path& database,
     }
     const fs::path file = folder / "cells.html";
     fs::create_directories(folder);
-    std::ofstream out(file, std::ios::binary);
-    out << page.take();
-    if (!out.flush()) {
+    if (!write_file(file, page.take())) {
         throw InputError(file.string() + ": cannot be written");
     }
     return file;

@@ -56,15 +56,19 @@ namespace limpet {
     return out + (text.size() > kLongest ? "...\"" : "\"");
 }
 
-/// The text as YAML holds any.
+/// The text as a double-quoted scalar of YAML, all in one line.
 [[nodiscard]] inline std::string in_yaml(std::string_view text) {
-    std::string quoted = "\"";
+    constexpr const char* kDigits = "0123456789abcdef";
+    std::string out = "\"";
     for (const char c : text) {
-        quoted += c == '\n'               ? std::string("\\n")
-                  : c == '"' || c == '\\' ? std::string("\\") + c
-                                          : std::string(1, c);
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7f) {
+            out += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 15U]};
+        } else {
+            out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+        }
     }
-    return quoted + "\"";
+    return out + "\"";
 }
 
 /// The text as one word of a command that a shell is given.

@@ -107,7 +107,7 @@ std::optional<Chapter> perching(const Recording& recording) {
         end = first_event(recording, "perched", start_s);
     }
     const bool perched = first_event(recording, "perched", start_s) != nullptr;
-    return chapter(recording, "perching", "perching", start_s - 0.5,
+    return chapter(recording, kPerching, "perching", start_s - 0.5,
                    end == nullptr ? kEnd_s : end->time_s + 1.0,
                    first_event(recording, "impact", start_s),
                    perched          ? "perched"
@@ -121,7 +121,7 @@ std::optional<Chapter> take_off(const Recording& recording) {
         return std::nullopt;
     }
     const RecordedEvent* end = first_of(recording, {"backed_off", "aborted"}, start->time_s);
-    return chapter(recording, "take_off", "take-off", start->time_s - 0.5,
+    return chapter(recording, kTakeOff, "take-off", start->time_s - 0.5,
                    end == nullptr ? kEnd_s : end->time_s + 2.0, start,
                    end == nullptr ? "" : words(end->name));
 }
@@ -133,14 +133,14 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     }
     const RecordedEvent* approach = last_event(recording, "approach_started", retreat->time_s);
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
-    return chapter(recording, "failed_attempt", "failed attempt", start_s - 0.5,
+    return chapter(recording, kFailedAttempt, "failed attempt", start_s - 0.5,
                    retreat->time_s + 3.0, first_event(recording, "impact", start_s),
                    "no seal, retreat");
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {
     std::vector<Chapter> found = {
-        {.file = "overview", .title = "whole flight", .window = whole_flight(recording)}};
+        {.file = kOverview, .title = "whole flight", .window = whole_flight(recording)}};
     for (const auto& chapter :
          {perching(recording), take_off(recording), failed_attempt(recording)}) {
         if (chapter && chapter->window.span_s() > 0.0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,13 @@ struct Window {
     [[nodiscard]] double span_s() const { return to_s - from_s; }
     [[nodiscard]] bool holds(double time_s) const { return time_s >= from_s && time_s <= to_s; }
 };
+
+/// Chapter::file of each that there may be.
+inline constexpr const char* kOverview = "overview";
+inline constexpr const char* kPerching = "perching";
+inline constexpr const char* kTakeOff = "take_off";
+inline constexpr const char* kFailedAttempt = "failed_attempt";
+inline constexpr std::array kChapterFiles = {kOverview, kPerching, kTakeOff, kFailedAttempt};
 
 /// A named part of the flight worth a picture of its own.
 struct Chapter {

@@ -120,7 +120,7 @@ draw::Pictures plot(const record::Recording& recording, const std::filesystem::p
 }
 
 void remove_figures(const std::filesystem::path& folder) {
-    for (const char* name : {"overview", "perching", "take_off", "failed_attempt"}) {
+    for (const char* name : record::kChapterFiles) {
         const std::filesystem::path png = folder / fmt::format("{}.png", name);
         const std::filesystem::path svg = folder / fmt::format("{}.svg", name);
         std::error_code ignored;

@@ -25,7 +25,7 @@ namespace limpet::report {
 [[nodiscard]] draw::Pictures plot(const record::Recording& recording,
                                   const std::filesystem::path& folder, const Work& work = {});
 
-/// Before another flight is recorded there: those that plot() has drawn of the last one go.
+/// Where another flight is recorded: what plot() has drawn of the last one goes.
 void remove_figures(const std::filesystem::path& folder);
 
 }  // namespace limpet::report

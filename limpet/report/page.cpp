@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/write_file.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/html.hpp"
 #include "limpet/report/page_parts.hpp"
@@ -296,11 +296,8 @@ private:
     std::string text_;
 };
 
-void write_file(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) {
+void write(const std::filesystem::path& path, const std::string& text) {
+    if (!write_file(path, text)) {
         throw InputError(fmt::format("cannot write {}: is the disk full?", path.string()));
     }
 }
@@ -324,8 +321,8 @@ void require_ours(const std::filesystem::path& folder) {
 std::vector<std::filesystem::path> write_page(const Page& page,
                                               const std::filesystem::path& folder) {
     const draw::gnuplot::TemporaryFolder work;
-    write_file(work.path() / "index.html", page_html(page, folder));
-    write_file(work.path() / "results.json", results_json(page));
+    write(work.path() / "index.html", page_html(page, folder));
+    write(work.path() / "results.json", results_json(page));
     return draw::publish({work.path() / "index.html", work.path() / "results.json"}, folder);
 }
 

@@ -4,25 +4,13 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "limpet/core/user_text.hpp"
 #include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/fault_table.hpp"
 
 namespace limpet::scenario {
 namespace {
-
-/// Double-quoted scalar, all in one line.
-std::string in_quotes(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-            out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
-        } else {
-            out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-        }
-    }
-    return out + "\"";
-}
 
 class Writer {
 public:
@@ -52,11 +40,11 @@ void write_model(Writer& writer, const models::CadModel& cad, bool has_cup) {
     const auto names = [&](const char* key, std::initializer_list<std::string_view> parts) {
         writer.line(2, fmt::format("{}:", key));
         for (const std::string_view part : parts) {
-            writer.value(3, part, in_quotes(models::called(cad.names, part)));
+            writer.value(3, part, in_yaml(models::called(cad.names, part)));
         }
     };
     writer.line(1, "model:");
-    writer.value(2, "urdf", in_quotes(cad.file));
+    writer.value(2, "urdf", in_yaml(cad.file));
     if (!has_cup) {
         names("links", {"base"});
         return;
@@ -67,8 +55,8 @@ void write_model(Writer& writer, const models::CadModel& cad, bool has_cup) {
 
 void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
     writer.line(0, "vehicle:");
-    writer.value(1, "name", in_quotes(airframe.name));
-    writer.value(1, "description", in_quotes(airframe.description));
+    writer.value(1, "name", in_yaml(airframe.name));
+    writer.value(1, "description", in_yaml(airframe.description));
     writer.value(1, "has_cup", airframe.has_cup ? "true" : "false");
     if (const models::CadModel* cad = models::cad_of(airframe)) {
         write_model(writer, *cad, airframe.has_cup);
@@ -101,9 +89,9 @@ void write_vehicle(Writer& writer, vehicle::Airframe& airframe) {
 /// @param first  of the lines: "surface:" or the dash of a list's item
 void write_surface(Writer& writer, int indent, std::string_view first, Surface surface) {
     writer.line(indent, first);
-    writer.value(indent + 1, "name", in_quotes(surface.name));
-    writer.value(indent + 1, "description", in_quotes(surface.description));
-    writer.value(indent + 1, "source", in_quotes(surface.source));
+    writer.value(indent + 1, "name", in_yaml(surface.name));
+    writer.value(indent + 1, "description", in_yaml(surface.description));
+    writer.value(indent + 1, "source", in_yaml(surface.source));
     writer.rows(indent + 1, bind(suction::surface_table(), surface));
 }
 
@@ -148,7 +136,7 @@ std::string noise_text(const NoiseBlend& noise) {
 std::string to_yaml(const Scenario& scenario) {
     Scenario copy = scenario;  // sections bind to what may be written
     Writer writer;
-    writer.value(0, "description", in_quotes(copy.description));
+    writer.value(0, "description", in_yaml(copy.description));
     writer.value(0, "mission", to_string(copy.mission));
     writer.value(0, "mount", to_string(copy.mount));
     writer.value(0, "seed", fmt::format("{}", copy.seed));
