@@ -175,8 +175,8 @@ TEST(VehicleFit, APx4LogTellsTheMotorsThatThereAre) {
     ASSERT_TRUE(fit.inertia_kg_m2[1]) << fmt::format("{}", fit.notes.front());
     EXPECT_NEAR(fit.inertia_kg_m2[1]->value, scenario.airframe.inertia_kg_m2[1],
                 fit.inertia_kg_m2[1]->half_width);
-    // A log says nothing of the steps that the bodies went in: 3 ms. A command stamped a period
-    // late takes 5 ms from each.
+    // A log says nothing of the steps that the bodies went in: 3 ms. Commands that are stamped a
+    // period late make the lag up 7 ms too short.
     ASSERT_TRUE(fit.lag_up_s && fit.lag_down_s);
     const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
     EXPECT_NEAR(fit.lag_up_s->value, rotor.time_constant_up_s, 0.003);
