@@ -53,6 +53,15 @@ function(limpet_unity target)
   endif()
 endfunction()
 
+# limpet_left_out(WHAT PACKAGE...): what is not built for want of packages. The build's left_out.txt has it, which ./test
+# reads: a part that vanishes unseen takes its tests along.
+function(limpet_left_out what)
+  list(JOIN ARGN ", " packages)
+  message(STATUS "left out: ${what}: needs ${packages}")
+  list(JOIN ARGN " " packages)
+  set_property(GLOBAL APPEND_STRING PROPERTY LIMPET_LEFT_OUT "${what}| ${packages}\n")
+endfunction()
+
 # limpet_room(NAME SOURCES files... LINKS targets...)
 # A room `suction` becomes the target limpet_suction; LINKS takes rooms by their target names.
 function(limpet_room name)

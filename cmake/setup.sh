@@ -91,14 +91,34 @@ fetch_node_packages() {
     fi
 }
 
-# build PRESET [TARGET...]: configures once, then builds what changed
+# looked_for: what a configuration may find on this machine, with versions: packages of the lists, and Node
+looked_for() {
+    (cd "$limpet_root" && grep -hv '^#' cmake/*packages.txt tests/packages.txt ros2/packages.txt) | sort -u |
+        xargs dpkg-query -W -f '${db:Status-Abbrev}${Package} ${Version}\n' 2>/dev/null | grep '^ii'
+    command -v npm node
+}
+
+# configure_if_new TREE KNOWN COMMAND...: configures a tree that is not, and anew one that was when KNOWN was another:
+# what was not found then is looked for again; options that somebody has set stay.
+configure_if_new() {
+    local tree=$limpet_root/build/$1 known=$2 set=()
+    shift 2
+    [ -f "$tree/build.ninja" ] && [ "$known" = "$(cat "$tree/configured_with" 2>/dev/null)" ] && return
+    if [ -f "$tree/CMakeCache.txt" ]; then
+        mapfile -t set < <(sed -nE 's/^((LIMPET_|CMAKE_CXX_|CMAKE_BUILD_TYPE)[A-Z_]*:(BOOL|STRING)=.*)$/-D\1/p' "$tree/CMakeCache.txt")
+        rm -f "$tree/CMakeCache.txt"
+        find "$tree/web" -maxdepth 1 -name '*.html' -empty -delete 2>/dev/null  # pages that had no Node
+    fi
+    step "configuring ($(basename "$tree")) ..." "$@" "${set[@]}"
+    printf '%s\n' "$known" >"$tree/configured_with"
+}
+
+# build PRESET [TARGET...]: builds what changed
 build() {
     local preset=$1
     shift
     cd "$limpet_root" || exit 1
-    if [ ! -f "build/$preset/build.ninja" ]; then
-        step "configuring ($preset) ..." cmake --preset "$preset"
-    fi
+    configure_if_new "$preset" "$(looked_for)" cmake --preset "$preset"
     if ! ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -q 'no work to do'; then
         if [ -t 2 ]; then
             say "building ($preset), a few minutes the first time ..."
@@ -109,13 +129,20 @@ build() {
     fi
 }
 
-# find_python_module: a tree that was configured before pybind11 was there is configured anew
-find_python_module() {
-    local cache=$limpet_root/build/release/CMakeCache.txt
-    if grep -q 'pybind11_DIR-NOTFOUND\|_Python_INCLUDE_DIR.*-NOTFOUND' "$cache" 2>/dev/null; then
-        step "configuring (release) ..." cmake -S "$limpet_root" -B "$limpet_root/build/release" \
-            -U 'pybind11*' -U '*Python*'
-    fi
+# tell_left_out PRESET: what was not built, and for want of which packages. Fails where all of them are here: then a list
+# of packages promises more than CMake finds.
+tell_left_out() {
+    local what needs broken=0
+    while IFS='|' read -r what needs; do
+        # shellcheck disable=SC2086  # a list of words
+        if [ -n "$(printf '%s\n' $needs | missing_packages -)" ]; then
+            say "not built, for want of$needs: $what"
+        else
+            say "limpet: not built, though its packages are here ($needs): $what ($limpet_root/build/$1/CMakeCache.txt says what was found)"
+            broken=1
+        fi
+    done <"$limpet_root/build/$1/left_out.txt"
+    return $broken
 }
 
 mkdir -p "$limpet_root/build"

@@ -206,9 +206,8 @@ enter() {
 # build_gazebo [TARGET...]: the plugins and their tests, where Gazebo is
 build_gazebo() {
     cd "$limpet_root" || exit 1
-    if [ ! -f build/bullseye/build.ninja ]; then
-        step "configuring (Gazebo) ..." enter cmake -S gazebo -B build/bullseye -G Ninja
-    fi
+    configure_if_new bullseye "$(package_names "$gazebo_packages" | enter xargs dpkg-query -W)" \
+        enter cmake -S gazebo -B build/bullseye -G Ninja
     if ! enter ninja -C build/bullseye -n "$@" 2>/dev/null | grep -q 'no work to do'; then
         step "building (Gazebo), a few minutes the first time ..." enter ninja -C build/bullseye "$@"
     fi

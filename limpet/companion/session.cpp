@@ -182,7 +182,7 @@ void PerchingSession::come_to_end(double time_s) {
     if (!rests || !outcome_) {
         outcome_ = ending.outcome;
         reason_ = alone ? std::string(ending.reason)
-                        : fmt::format("{}; {}", ending.reason, to_string(pending_.cause));
+                        : fmt::format("{}; {}", ending.reason.view(), to_string(pending_.cause));
     }
     if (rests) {
         task_.take_off = false;

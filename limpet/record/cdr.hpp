@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string_view>
 #include <type_traits>
@@ -18,9 +17,53 @@
 // Fields of ROS 2 messages as CDR, in the order of their definition.
 namespace limpet::record {
 
-/// Here, so that put() is found for every field.
-struct Cdr : eprosima::fastcdr::Cdr {
-    using eprosima::fastcdr::Cdr::Cdr;
+/// One message as little-endian plain CDR (version 1): the encapsulation of four bytes, then each
+/// number at a multiple of its size counted from there, with zeros in between.
+/// Source: OMG DDS-XTYPES 1.3, 7.4.1 and 7.6.2
+class Cdr {
+public:
+    /// @param room  holds the whole message
+    explicit Cdr(std::span<char> room) : room_(room) {
+        constexpr char kPlainLittleEndian[] = {0, 1, 0, 0};
+        append(kPlainLittleEndian, sizeof kPlainLittleEndian);
+    }
+
+    template <class Number>
+    Cdr& operator<<(Number value) {
+        numbers(&value, 1);
+        return *this;
+    }
+    /// One after the other, without their count.
+    template <class Number>
+    void numbers(const Number* values, std::size_t count) {
+        static_assert(std::is_arithmetic_v<Number>);
+        static_assert(std::endian::native == std::endian::little,
+                      "numbers are written as they lie in memory");
+        if (count > 0) {
+            align(sizeof(Number));
+            append(values, count * sizeof(Number));
+        }
+    }
+    /// Bytes written so far.
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+private:
+    static constexpr std::size_t kEncapsulation = 4;
+
+    void align(std::size_t to) {
+        constexpr char kZeros[sizeof(double)] = {};
+        append(kZeros, (to - (size_ - kEncapsulation) % to) % to);
+    }
+    /// @throws InternalError where it does not fit: rooms are made for the largest message of a
+    /// channel
+    void append(const void* bytes, std::size_t count) {
+        require(count <= room_.size() - size_, "a recorded message fits into its room");
+        std::memcpy(room_.data() + size_, bytes, count);
+        size_ += count;
+    }
+
+    std::span<char> room_;
+    std::size_t size_ = 0;
 };
 
 /// builtin_interfaces/Time and, as far as bytes go, Duration.
@@ -62,7 +105,7 @@ inline void put(Cdr& cdr, Stamp stamp) {
 
 inline void put(Cdr& cdr, LongText text) {
     cdr << static_cast<std::uint32_t>(text.text.size() + 1);
-    cdr.serializeArray(text.text.data(), text.text.size());
+    cdr.numbers(text.text.data(), text.text.size());
     cdr << '\0';
 }
 
@@ -73,20 +116,20 @@ inline void put(Cdr& cdr, std::string_view text) {
 }
 
 inline void put(Cdr& cdr, std::span<const double> numbers) {
-    cdr.serializeArray(numbers.data(), numbers.size());
+    cdr.numbers(numbers.data(), numbers.size());
 }
 
 inline void put(Cdr& cdr, const Vector3& v) {
-    cdr.serializeArray(v.data(), 3);
+    cdr.numbers(v.data(), 3);
 }
 
 /// ROS puts w last, as Eigen does.
 inline void put(Cdr& cdr, const Quaternion& q) {
-    cdr.serializeArray(q.coeffs().data(), 4);
+    cdr.numbers(q.coeffs().data(), 4);
 }
 
 inline void put(Cdr& cdr, const Euler& angles) {
-    cdr << angles.roll_rad << angles.pitch_rad << angles.yaw_rad;
+    put(cdr, Vector3(angles.roll_rad, angles.pitch_rad, angles.yaw_rad));
 }
 
 template <class Element>
@@ -103,14 +146,9 @@ void MessageWriter::write(std::uint16_t channel, double time_s, const Fields&...
         return;
     }
     const std::int64_t time_ns = stamp(time_s).time_ns;
-    // Fast-CDR skips the bytes that align the next value; they must not carry the last message.
-    std::fill_n(buffer_.begin(), used_, '\0');
-    eprosima::fastcdr::FastBuffer stream(buffer_.data(), buffer_.size());
-    Cdr cdr(stream, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
-    cdr.serialize_encapsulation();
+    Cdr cdr{std::span(buffer_)};
     (put(cdr, fields), ...);
-    used_ = cdr.getSerializedDataLength();
-    const mcap::ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()), used_);
+    const mcap::ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()), cdr.size());
     file_.write(channel, static_cast<std::uint64_t>(time_ns), bytes);
     if (beside_ != nullptr) {
         beside_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);

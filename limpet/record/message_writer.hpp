@@ -55,7 +55,6 @@ private:
     std::vector<std::string> topics_;
     std::map<std::string, std::uint16_t, std::less<>> schemas_;  ///< by type
     std::vector<char> buffer_ = std::vector<char>(4096);
-    std::size_t used_ = 0;  ///< of it, by the last message
     std::int64_t last_time_ns_ = 0;
 };
 

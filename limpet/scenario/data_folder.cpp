@@ -17,9 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Never the working folder by itself: it may be anybody's.
 bool holds_data(const fs::path& folder) {
     std::error_code ignored;
-    return fs::is_regular_file(folder / "surfaces.yaml", ignored);
+    return folder.is_absolute() && fs::is_regular_file(folder / "surfaces.yaml", ignored);
 }
 
 /// From bin/, lib/ or lib/x86_64-linux-gnu/ to what they are in; build trees and the Python package
@@ -41,10 +42,11 @@ fs::path file_of_this_code() {
 
 fs::path data_root() {
     if (const char* given = std::getenv("LIMPET_DATA"); given != nullptr && *given != '\0') {
-        if (!holds_data(given)) {
+        const fs::path folder = fs::absolute(given);
+        if (!holds_data(folder)) {
             throw InputError(fmt::format("LIMPET_DATA={}: holds no surfaces.yaml", given));
         }
-        return given;
+        return folder;
     }
     if (const fs::path known = LIMPET_DATA_DIR; holds_data(known)) {
         return known;

@@ -25,7 +25,7 @@ struct Moment {
     struct AllHeard;
     template <class... All>
     struct AllHeard<TypeList<All...>> {
-        std::tuple<Heard<All>...> of;
+        std::tuple<Heard<All>...> of{};
     };
 
     Tick tick = 0;

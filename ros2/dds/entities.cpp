@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros2/dds/entities.hpp"
 
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <type_hashes.h>
 
 #include <algorithm>
@@ -22,7 +19,6 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <map>
 #include <mutex>
@@ -30,13 +26,10 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "ros2/dds/fast_dds.hpp"
 
 namespace limpet::ros2::dds {
 namespace {
-
-namespace fast = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr const char* kLoopback = "127.0.0.1";
 
@@ -57,39 +50,6 @@ SampleId id_of(const rtps::SampleIdentity& from) {
     return {guid_of(from.writer_guid()),
             static_cast<std::int64_t>(from.sequence_number().to64long())};
 }
-
-/// Messages of any type, encapsulated: the bytes go through as they are.
-class AnyMessage final : public fast::TopicDataType {
-public:
-    explicit AnyMessage(const std::string& name) {
-        setName(name.c_str());
-        constexpr std::uint32_t kUsually_bytes = 512;  // more is got when it comes
-        m_typeSize = kUsually_bytes;
-        m_isGetKeyDefined = false;
-        auto_fill_type_object(false);
-        auto_fill_type_information(false);
-    }
-    bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-        const Bytes& bytes = *static_cast<const Bytes*>(data);
-        if (bytes.size() > payload->max_size) {
-            return false;
-        }
-        std::memcpy(payload->data, bytes.data(), bytes.size());
-        payload->length = static_cast<std::uint32_t>(bytes.size());
-        payload->encapsulation = bytes[1] == 0 ? CDR_BE : CDR_LE;
-        return true;
-    }
-    bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-        static_cast<Bytes*>(data)->assign(payload->data, payload->data + payload->length);
-        return true;
-    }
-    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-        return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
-    }
-    void* createData() override { return new Bytes; }
-    void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-    bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
 
 /// What readers and writers have in common.
 template <class Qos>
@@ -170,9 +130,7 @@ struct Participant::Inside {
     explicit Inside(const NodeSettings& settings) {
         // Two nodes of one process talk over the wire as any others: Fast DDS 2.9 locks itself up
         // when participants of one process find each other and deliver directly.
-        eprosima::fastrtps::LibrarySettingsAttributes library;
-        library.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-        eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(library);
+        deliver_by_the_wire_alone(*factory);
         participant = factory->create_participant(static_cast<std::uint32_t>(settings.domain),
                                                   participant_qos(settings));
         if (participant == nullptr) {
@@ -319,7 +277,7 @@ private:
         for (;;) {
             Bytes bytes;
             fast::SampleInfo info;
-            if (reader->take_next_sample(&bytes, &info) != ReturnCode_t::RETCODE_OK) {
+            if (reader->take_next_sample(&bytes, &info) != kRead) {
                 return;
             }
             if (info.valid_data) {
