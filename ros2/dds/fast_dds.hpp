@@ -16,6 +16,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #else
 #include <fastdds/LibrarySettings.hpp>
+#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #endif

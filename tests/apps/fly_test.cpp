@@ -56,6 +56,36 @@ TEST(Fly, FiguresOfTheFlightBeforeGoWithIt) {
     EXPECT_TRUE(std::filesystem::is_symlink(bench.folder() / "flight.ulg"));
 }
 
+/// A stranger's folder puts nothing of its own under a flight.
+TEST(Fly, IsTheSameFromEveryFolder) {
+    const Bench bench;
+    namespace fs = std::filesystem;
+    const fs::path foreign = bench.folder() / "foreign", empty = bench.folder() / "empty";
+    fs::create_directories(empty);
+    for (const char* root : {"", "share/limpet"}) {
+        for (const char* folder : {"scenarios", "vehicles"}) {
+            fs::create_directories(foreign / root / folder);
+        }
+        const auto put = [&](const char* name, const char* text) {
+            (void)bench.write((foreign.filename() / root / name).string(), text);
+        };
+        put("surfaces.yaml", "concrete: {friction: 0.01}\n");
+        put("scenarios/perch_concrete.yaml", "mission: hover\n");
+        put("vehicles/perching_hexa.yaml", "mass_kg: 9\n");
+    }
+    std::string first;
+    for (const fs::path& folder : {empty, foreign, fs::path(LIMPET_SOURCE_DIR), fs::path("/")}) {
+        const std::string out = (bench.folder() / "out").string();
+        const Finished flight = bench.run_in(
+            folder,
+            {"fly", "perch_concrete", "--set", "vehicle=perching_hexa", "--json", "--out", out});
+        ASSERT_EQ(flight.exit_code, 0) << folder << flight.err;
+        const std::string hash = json::parse(flight.out)["state_hash"];
+        first = first.empty() ? hash : first;
+        EXPECT_EQ(hash, first) << folder;
+    }
+}
+
 TEST(Fly, WritesOnlyIntoOut) {
     const Bench bench;
     ASSERT_EQ(bench.run({"fly", "hover", "--json"}).exit_code, 0);

@@ -84,10 +84,14 @@ pid_t spawn(const fs::path& folder, const std::vector<std::string>& arguments, c
 }  // namespace
 
 Finished Bench::run(const std::vector<std::string>& arguments) const {
+    return run_in(folder_, arguments);
+}
+
+Finished Bench::run_in(const fs::path& folder, const std::vector<std::string>& arguments) const {
     const fs::path out = folder_.string() + ".out";
     const fs::path err = folder_.string() + ".err";
     Finished finished;
-    if (const pid_t child = spawn(folder_, arguments, out, err); child != 0) {
+    if (const pid_t child = spawn(folder, arguments, out, err); child != 0) {
         int status = 0;
         waitpid(child, &status, 0);
         finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -56,6 +56,9 @@ public:
 
     /// Runs limpet in the folder. Arguments are taken as they are, no shell looks at them.
     [[nodiscard]] Finished run(const std::vector<std::string>& arguments) const;
+    /// Runs limpet in another folder.
+    [[nodiscard]] Finished run_in(const std::filesystem::path& folder,
+                                  const std::vector<std::string>& arguments) const;
     [[nodiscard]] std::filesystem::path write(const std::string& name,
                                               const std::string& text) const;
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

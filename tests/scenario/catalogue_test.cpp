@@ -88,11 +88,18 @@ TEST(DataRoot, IsWhereTheEnvironmentSays) {
     const TestData data;
     ::setenv("LIMPET_DATA", data.root().c_str(), 1);
     EXPECT_EQ(data_root(), data.root());
+    ::setenv("LIMPET_DATA", std::filesystem::relative(data.root()).c_str(), 1);
+    EXPECT_TRUE(std::filesystem::equivalent(data_root(), data.root()));
+    EXPECT_TRUE(data_root().is_absolute());  // wherever what is made of it is looked for
     ::setenv("LIMPET_DATA", "/no/such/folder", 1);
     EXPECT_EQ(error_of([] { return data_root(); }),
               "LIMPET_DATA=/no/such/folder: holds no surfaces.yaml");
     ::unsetenv("LIMPET_DATA");
     EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SOURCE_DIR));
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(data.root());  // which holds data, and is not asked
+    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SOURCE_DIR));
+    std::filesystem::current_path(before);
 }
 
 }  // namespace
