@@ -115,7 +115,7 @@ endfunction()
 # A compiler that nobody has tried may see more than these do, and GCC sees ghosts in instrumented
 # library code: there a warning stays a warning.
 set(LIMPET_WERROR_DEFAULT OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15
     AND NOT LIMPET_SANITIZE)
   set(LIMPET_WERROR_DEFAULT ON)
 endif()
