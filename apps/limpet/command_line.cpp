@@ -98,9 +98,37 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
         names.push_back(verb.name);
     }
     const std::string_view near = scenario::nearest(argv[1], names);
-    throw InputError(fmt::format("{}: no such verb{}; there are {}", in_quotes(argv[1]),
-                                 near.empty() ? "" : fmt::format(", did you mean {}?", near),
-                                 fmt::join(names, ", ")));
+    throw InputError(in_quotes(argv[1]) + ": no such verb" +
+                     (near.empty()
+                          ? fmt::format("; there are {} (limpet --help)", fmt::join(names, ", "))
+                          : fmt::format(", did you mean {}? (limpet {} --help)", near, near)));
+}
+
+/// What the parser found no place for, and what was meant by it.
+/// @param parser  of the verb, or of the program where none was reached
+/// @return empty: there is no such word
+std::string stray_word(const CLI::App& parser, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : parser.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back(name);
+        }
+    }
+    const bool sets = parser.get_option_no_throw("--set") != nullptr;
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        const std::size_t letters = name.find_first_not_of('-');
+        if (letters > 0 && letters != name.npos) {
+            const std::string_view near =
+                scenario::nearest(name.substr(letters), {names.begin(), names.end()});
+            return in_quotes(name) + ": no such option" +
+                   (near.empty() ? "" : fmt::format(", did you mean --{}?", near));
+        }
+        if (sets && name != word) {
+            return fmt::format("{}: not expected, did you mean --set {}?", in_quotes(word), word);
+        }
+    }
+    return {};
 }
 
 /// What an option takes, as the help tells it: "DIR", "KIND:{a,b}".
@@ -131,8 +159,8 @@ ProgramText text_of(const Program& program, const CLI::App& app) {
                      .footer = program.footer,
                      .version = program.version};
     for (const Verb& verb : program.verbs) {
-        VerbText& added = text.verbs.emplace_back(
-            VerbText{.name = verb.name, .about = verb.about, .footer = verb.footer});
+        VerbText& added = text.verbs.emplace_back(VerbText{
+            .name = verb.name, .about = verb.about, .footer = verb.footer, .group = verb.group});
         for (const CLI::Option* option : app.get_subcommand(verb.name)->get_options()) {
             if (!option->check_lname("help")) {
                 added.options.push_back(text_of(*option));
@@ -164,13 +192,16 @@ bool print_manual(const Program& program, const CLI::App& app, int argc, char** 
     return true;
 }
 
-/// `limpet help fly` is `limpet fly --help`.
+/// `limpet help fly` is `limpet fly --help`, and `limpet` alone is `limpet --help`.
 std::vector<char*> without_help_verb(int argc, char** argv) {
     static char help[] = "--help";
     std::vector<char*> words(argv, argv + argc);
-    if (argc >= 2 && std::string_view(argv[1]) == "help") {
+    const bool asked = argc >= 2 && std::string_view(argv[1]) == "help";
+    if (asked) {
         words.erase(words.begin() + 1);
         words.resize(std::min<std::size_t>(words.size(), 2));
+    }
+    if (asked || argc == 1) {
         words.push_back(help);
     }
     return words;
@@ -297,6 +328,7 @@ ExitCode run(const Program& program, int argc, char** argv) {
     ExitCode code = ExitCode::ok;
     for (const Verb& verb : program.verbs) {
         CLI::App* parser = app.add_subcommand(verb.name, verb.about);
+        parser->group(verb.group);
         for (const Option& option : verb.options) {
             add(*parser, option);
         }
@@ -323,7 +355,11 @@ ExitCode run(const Program& program, int argc, char** argv) {
                                       line.size() > kAbout && start >= 2 ? kAbout : 2));
         }
     } catch (const CLI::ParseError& error) {
-        throw InputError(std::string(error.what()) + " (limpet --help)");
+        const auto asked = app.get_subcommands();
+        const CLI::App& parser = asked.empty() ? app : *asked.front();
+        const std::string stray = stray_word(parser, app.remaining(true));
+        throw InputError(fmt::format("{} ({}{} --help)", stray.empty() ? error.what() : stray,
+                                     program.name, asked.empty() ? "" : " " + parser.get_name()));
     }
     return code;
 }
