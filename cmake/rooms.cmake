@@ -53,7 +53,6 @@ function(limpet_unity target)
   endif()
 endfunction()
 
-<<<<<<< Updated upstream
 # limpet_left_out(WHAT PACKAGE...): what is not built for want of packages. The build's left_out.txt has it, which ./test
 # reads: a part that vanishes unseen takes its tests along.
 function(limpet_left_out what)
@@ -61,16 +60,16 @@ function(limpet_left_out what)
   message(STATUS "left out: ${what}: needs ${packages}")
   list(JOIN ARGN " " packages)
   set_property(GLOBAL APPEND_STRING PROPERTY LIMPET_LEFT_OUT "${what}| ${packages}\n")
-=======
-# limpet_left_out(FILE WHAT COMPONENT): an install of everything, as after ./run, leaves out what the rest of this
+endfunction()
+
+# limpet_install_if_built(FILE WHAT COMPONENT): an install of everything, as after ./run, leaves out what the rest of this
 # CMakeLists.txt installs where it is not built, and says so. Who asks for a component by name, as packages do, gets it
 # or an error.
-function(limpet_left_out file what component)
+function(limpet_install_if_built file what component)
   install(CODE "if(NOT CMAKE_INSTALL_COMPONENT AND NOT EXISTS \"${file}\")
   message(STATUS \"Left out, since it is not built: ${what} (ninja -C ${PROJECT_BINARY_DIR})\")
   return()
 endif()" COMPONENT ${component})
->>>>>>> Stashed changes
 endfunction()
 
 # limpet_room(NAME SOURCES files... LINKS targets...)

@@ -120,7 +120,7 @@ void check_surfaces(const fs::path& file) {
 }
 
 void check_surface(const Checked& it) {
-    const scenario::Surface surface = scenario::load_surface(it.name, it.file);
+    const scenario::Surface surface = scenario::load_surface(it.name, it.file.parent_path());
     fmt::print("{}: a good surface: {}\n", it.name, surface.description);
 }
 
@@ -175,7 +175,7 @@ void check_file(const Checked& it) {
 struct Entry {
     std::string kind;
     std::string name;
-    fs::path file;  ///< of a surface the folder of surfaces.yaml
+    fs::path file;
     void (*check)(const Checked&);
 };
 
@@ -196,7 +196,7 @@ std::vector<Entry> all_entries() {
         }
     }
     for (const scenario::CatalogueEntry& surface : scenario::list_surfaces(root)) {
-        entries.push_back({"surface", surface.name, root, check_surface});
+        entries.push_back({"surface", surface.name, root / "surfaces.yaml", check_surface});
     }
     for (const scenario::CatalogueEntry& sample : scenario::list_samples(root)) {
         entries.push_back(
@@ -255,8 +255,8 @@ OptionList file_option(std::string& wanted) {
 
 Verb check_verb() {
     return verb<std::string>(
-        "check", "Check a scenario, vehicle, campaign, companion, surface, log or recording",
-        file_option, check_wanted, "Exits with 0 when all is good, 2 when not.\n");
+        "check", "Check a file, or what has a name: scenario, vehicle, log, recording", file_option,
+        check_wanted, "Exits with 0 when all is good, 2 when not.\n");
 }
 
 }  // namespace limpet::app

@@ -323,6 +323,7 @@ ExitCode run(const Program& program, int argc, char** argv) {
     require_verb(program.verbs, count, words.data());
     CLI::App app{program.about, program.name};
     app.footer(program.footer);
+    app.get_formatter()->label("SUBCOMMAND", "VERB");
     app.set_version_flag("--version", program.version);
     app.require_subcommand(1);
     ExitCode code = ExitCode::ok;

@@ -143,7 +143,7 @@ TEST(Verbs, CheckFindsByName) {
                     "a good companion; what it would do: limpet companion "
                     "optitrack_px4 --check"),
           std::pair("metal", "a good surface: "),
-          std::pair("pressure_log", "a good log (CSV), samples: pressure 8"),
+          std::pair("pressure_log", "a good log (CSV), samples: pressure 738"),
           std::pair("samples/pressure_log.csv", "a good log (CSV)"),
           std::pair("propeller_static", "a good propeller file of 12 rows")}) {
         const Finished done = bench.run({"check", name});
