@@ -93,8 +93,8 @@ class House(unittest.TestCase):
                 self.assertTrue((suite, name) in there if name != "*" else suite in suites, "no such test")
 
     def test_the_readme_is_short(self):
-        shown = re.sub(r"<!--.*?-->", "", (ROOT / "README.md").read_text())  # what a reader sees
-        self.assertLessEqual(len(shown.split()), 500, "words")
+        shown = re.sub(r"<!--.*?-->", "", (ROOT / "README.md").read_text())  # what a reader sees, bars of tables aside
+        self.assertLessEqual(len([word for word in shown.split() if re.search(r"\w", word)]), 500, "words")
 
     def test_the_version_stands_in_one_place_and_others_say_the_same(self):
         version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text())[1]
