@@ -351,9 +351,13 @@ ExitCode run(const Program& program, int argc, char** argv) {
         std::istringstream lines(text.str());
         for (std::string line; std::getline(lines, line);) {
             constexpr std::size_t kAbout = 30;  // CLI11's column of descriptions
-            const std::size_t start = line.find_first_not_of(' ');
-            fmt::print("{}\n", folded(line, columns_of(stdout),
-                                      line.size() > kAbout && start >= 2 ? kAbout : 2));
+            const std::size_t start = line.find_first_not_of(' '), columns = columns_of(stdout);
+            const bool described = line.size() > kAbout && start >= 2;
+            // where that column leaves less than itself, a description goes on further left
+            fmt::print("{}\n", folded(line, columns,
+                                      !described             ? 2
+                                      : columns > 2 * kAbout ? kAbout
+                                                             : 6));
         }
     } catch (const CLI::ParseError& error) {
         const auto asked = app.get_subcommands();

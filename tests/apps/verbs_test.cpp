@@ -243,6 +243,20 @@ TEST(Verbs, ExportWritesThroughWhatIsNoFile) {
               piped + "/dev/stdout\n");
 }
 
+/// Neither does it on a narrow one, where descriptions go on further left.
+TEST(Verbs, HelpFitsAnyTerminal) {
+    for (const unsigned short columns : {60, 80, 120}) {
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"--help"}, {"check", "--help"}}) {
+            std::istringstream lines(
+                std::regex_replace(on_terminal(words, columns), std::regex("\r"), ""));
+            for (std::string line; std::getline(lines, line);) {
+                EXPECT_LE(line.size(), columns) << line;
+            }
+        }
+    }
+}
+
 /// On a terminal of 80 columns nothing wraps by itself.
 TEST(Verbs, FoldsItsLinesToTheTerminal) {
     for (const std::vector<std::string>& words :
