@@ -62,6 +62,16 @@ function(limpet_left_out what)
   set_property(GLOBAL APPEND_STRING PROPERTY LIMPET_LEFT_OUT "${what}| ${packages}\n")
 endfunction()
 
+# limpet_install_if_built(FILE WHAT COMPONENT): an install of everything, as after ./run, leaves out what the rest of this
+# CMakeLists.txt installs where it is not built, and says so. Who asks for a component by name, as packages do, gets it
+# or an error.
+function(limpet_install_if_built file what component)
+  install(CODE "if(NOT CMAKE_INSTALL_COMPONENT AND NOT EXISTS \"${file}\")
+  message(STATUS \"Left out, since it is not built: ${what} (ninja -C ${PROJECT_BINARY_DIR})\")
+  return()
+endif()" COMPONENT ${component})
+endfunction()
+
 # limpet_room(NAME SOURCES files... LINKS targets...)
 # A room `suction` becomes the target limpet_suction; LINKS takes rooms by their target names.
 function(limpet_room name)

@@ -15,6 +15,7 @@
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/samples.hpp"
 #include "limpet/simulation/model.hpp"
 #include "output.hpp"
 
@@ -147,7 +148,8 @@ std::vector<int> strides_of(const scenario::Scenario& flown) {
     return {model->strides.begin(), model->strides.end()};
 }
 
-void calibrate(const CalibrateOptions& options) {
+void calibrate(CalibrateOptions options) {
+    options.log = scenario::find_sample(options.log, ".csv").string();
     const scenario::Scenario scenario =
         scenario::load_scenario("perch_concrete", {.overrides = {"vehicle=" + options.vehicle}});
     identification::VehicleFit fit;

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -11,15 +15,21 @@
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/identification/flight_data.hpp"
+#include "limpet/identification/propeller_file.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/makers.hpp"
+#include "limpet/scenario/samples.hpp"
+#include "limpet/scenario/suggestion.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
 
 namespace limpet::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string text_of(const simulation::WireTally::Way& way) {
     std::vector<std::string> parts;
@@ -64,71 +74,189 @@ void check_recording(const std::string& file) {
                recording.events.size());
 }
 
-void check_scenario(const std::string& file) {
-    const scenario::Scenario scenario = scenario::load_scenario(file);
+/// What is checked, and how its user calls it: by a name or by its file.
+struct Checked {
+    std::string name;
+    fs::path file;
+};
+
+void check_scenario(const Checked& it) {
+    const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
-    fmt::print("{}: a good scenario: {}\n", file, scenario.description);
+    fmt::print("{}: a good scenario: {}\n", it.name, scenario.description);
     for (const std::string& note : scenario::makers_notes(scenario)) {
         fmt::print("  {}\n", note);
     }
 }
 
-void check_vehicle(const std::string& file) {
+void check_vehicle(const Checked& it) {
+    const std::string file = it.file.string();
     const double mass_kg = scenario::load_vehicle(file, scenario::data_root()).mass_kg;
-    const std::string path = in_yaml(std::filesystem::absolute(file).string());
+    const std::string path = in_yaml(fs::absolute(file).string());
     try {
         (void)scenario::load_scenario_text("vehicle: " + path + "\nmission: hover\n", file);
     } catch (const InputError& error) {  // of which who asked has written no line
         const std::string why = error.what(), where = file + ":1: vehicle";
         throw InputError(why.starts_with(where) ? file + why.substr(where.size()) : why);
     }
-    fmt::print("{}: a good vehicle of {:.2f} kg\n", file, mass_kg);
+    fmt::print("{}: a good vehicle of {:.2f} kg\n", it.name, mass_kg);
 }
 
-void check_yaml(const std::string& file) {
-    switch (scenario::kind_of(file)) {
-        case scenario::FileKind::scenario: check_scenario(file); break;
-        case scenario::FileKind::vehicle: check_vehicle(file); break;
-        case scenario::FileKind::campaign: {
-            const campaign::Campaign campaign = campaign::load_campaign(file);
-            fmt::print("{}: a good campaign: {} runs of {}\n", file, campaign.runs,
-                       campaign.scenario_name);
-            break;
+void check_campaign(const Checked& it) {
+    const campaign::Campaign campaign = campaign::load_campaign(it.file.string());
+    fmt::print("{}: a good campaign: {} runs of {}\n", it.name, campaign.runs,
+               campaign.scenario_name);
+}
+
+void check_companion(const Checked& it) {
+    (void)companion::load_companion(it.file.string(), {});
+    fmt::print("{}: a good companion; what it would do: limpet companion {} --check\n", it.name,
+               it.name);
+}
+
+void check_surfaces(const fs::path& file) {
+    const fs::path root = fs::absolute(file).parent_path();
+    fmt::print("{}: {} surfaces, all good\n", file.string(), scenario::load_surfaces(root).size());
+}
+
+void check_surface(const Checked& it) {
+    const scenario::Surface surface = scenario::load_surface(it.name, it.file.parent_path());
+    fmt::print("{}: a good surface: {}\n", it.name, surface.description);
+}
+
+void check_propeller(const Checked& it) {
+    fmt::print("{}: a good propeller file of {} rows\n", it.name,
+               identification::read_propeller_file(it.file).size());
+}
+
+void check_log(const Checked& it) {
+    const identification::FlightData log = identification::read_flight(it.file);
+    if (!log.damage.empty()) {
+        throw InputError(it.name + ": " + log.damage);
+    }
+    std::vector<std::string> parts;
+    for (const auto& [what, count] :
+         {std::pair("pressure", log.pressure.t_s.size()), std::pair("gyro", log.imu_s.size()),
+          std::pair("motor commands", log.command_s.size()),
+          std::pair("velocity", log.velocity_s.size()), std::pair("force", log.force_s.size())}) {
+        if (count > 0) {
+            parts.push_back(fmt::format("{} {}", what, count));
         }
-        case scenario::FileKind::companion:
-            (void)companion::load_companion(file, {});
-            fmt::print("{}: a good companion; what it would do: limpet companion {} --check\n",
-                       file, file);
-            break;
+    }
+    fmt::print("{}: a good log ({}), samples: {}\n", it.name, log.kind, fmt::join(parts, ", "));
+}
+
+void check_yaml(const Checked& it) {
+    switch (scenario::kind_of(it.file)) {
+        case scenario::FileKind::scenario: check_scenario(it); break;
+        case scenario::FileKind::vehicle: check_vehicle(it); break;
+        case scenario::FileKind::campaign: check_campaign(it); break;
+        case scenario::FileKind::companion: check_companion(it); break;
     }
 }
 
-void check_file(const std::string& file) {
-    const std::filesystem::path path(file);
-    if (path.extension() == ".mcap") {
-        check_recording(file);
-    } else if (path.filename() == "surfaces.yaml") {
-        const auto root = std::filesystem::absolute(path).parent_path();
-        fmt::print("{}: {} surfaces, all good\n", file, scenario::load_surfaces(root).size());
-    } else if (scenario::is_path(file) && std::filesystem::exists(path)) {
-        check_yaml(file);
+/// By how its name ends, and YAML by what is in it.
+void check_file(const Checked& it) {
+    const std::string ending = it.file.extension().string();
+    if (ending == ".mcap") {
+        check_recording(it.file.string());
+    } else if (ending == ".csv" || ending == ".ulg") {
+        check_log(it);
+    } else if (ending == ".txt") {
+        check_propeller(it);
+    } else if (it.file.filename() == "surfaces.yaml") {
+        check_surfaces(it.file);
     } else {
-        check_scenario(file);
+        check_yaml(it);
     }
 }
 
-OptionList file_option(std::string& file) {
-    return {{"file FILE", &file,
-             "scenario (name or file); file of a vehicle, campaign or companion,\n"
-             "known by what is in it; surfaces.yaml, *.mcap"}};
+/// Something of the data that goes by a name.
+struct Entry {
+    std::string kind;
+    std::string name;
+    fs::path file;
+    void (*check)(const Checked&);
+};
+
+std::vector<Entry> all_entries() {
+    constexpr struct {
+        const char* kind;
+        const char* folder;
+        void (*check)(const Checked&);
+    } kFolders[] = {{"scenario", "scenarios", check_scenario},
+                    {"vehicle", "vehicles", check_vehicle},
+                    {"campaign", "campaigns", check_campaign},
+                    {"companion", "companions", check_companion}};
+    const fs::path root = scenario::data_root();
+    std::vector<Entry> entries;
+    for (const auto& [kind, folder, check] : kFolders) {
+        for (const std::string& name : scenario::names_in(root / folder)) {
+            entries.push_back({kind, name, root / folder / (name + ".yaml"), check});
+        }
+    }
+    for (const scenario::CatalogueEntry& surface : scenario::list_surfaces(root)) {
+        entries.push_back({"surface", surface.name, root / "surfaces.yaml", check_surface});
+    }
+    for (const scenario::CatalogueEntry& sample : scenario::list_samples(root)) {
+        entries.push_back(
+            {"sample", sample.name, scenario::find_sample(sample.name, {}), check_file});
+    }
+    return entries;
+}
+
+/// A name is looked for wherever a verb would; then it is a file, as elsewhere.
+void check_name(const std::string& name) {
+    std::vector<Entry> all = all_entries(), found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found),
+                 [&](const Entry& entry) { return entry.name == name; });
+    std::error_code ignored;
+    if (found.size() == 1) {
+        found.front().check({name, found.front().file});
+    } else if (found.size() > 1) {
+        throw InputError(fmt::format("{}: is a {} and a {}; say {} or {}", in_quotes(name),
+                                     found[0].kind, found[1].kind, found[0].file.string(),
+                                     found[1].file.string()));
+    } else if (!name.empty() && fs::exists(name, ignored)) {
+        check_file({name, name});
+    } else {
+        std::vector<std::string_view> names;
+        for (const Entry& entry : all) {
+            names.push_back(entry.name);
+        }
+        throw InputError(
+            in_quotes(name) +
+            ": no such file, scenario, vehicle, campaign, companion, surface or sample" +
+            scenario::hint(name, names, "limpet list KIND tells what there is"));
+    }
+}
+
+void check_wanted(const std::string& wanted) {
+    const fs::path path(wanted);
+    const std::string ending = path.extension().string();
+    const bool file = scenario::is_path(wanted) || ending == ".mcap" || ending == ".csv" ||
+                      ending == ".ulg" || ending == ".txt";
+    if (file && path.parent_path() == "samples") {  // as pages print it, from any folder
+        check_file({wanted, scenario::find_sample(wanted, {})});
+    } else if (file) {
+        check_file({wanted, path});
+    } else {
+        check_name(wanted);
+    }
+}
+
+OptionList file_option(std::string& wanted) {
+    return {{"what NAME|FILE", &wanted,
+             "name of a scenario, vehicle, campaign, companion, surface or sample;\n"
+             "or a file of one, known by what is in it; *.mcap, *.ulg, *.csv"}};
 }
 
 }  // namespace
 
 Verb check_verb() {
-    return verb<std::string>("check", "Check a scenario, vehicle, campaign, companion or recording",
-                             file_option, check_file,
-                             "Exits with 0 when all is good, 2 when not.\n");
+    return verb<std::string>(
+        "check", "Check a file, or what has a name: scenario, vehicle, log, recording", file_option,
+        check_wanted, "Exits with 0 when all is good, 2 when not.\n");
 }
 
 }  // namespace limpet::app

@@ -98,9 +98,37 @@ void require_verb(const std::vector<Verb>& verbs, int argc, char** argv) {
         names.push_back(verb.name);
     }
     const std::string_view near = scenario::nearest(argv[1], names);
-    throw InputError(fmt::format("{}: no such verb{}; there are {}", in_quotes(argv[1]),
-                                 near.empty() ? "" : fmt::format(", did you mean {}?", near),
-                                 fmt::join(names, ", ")));
+    throw InputError(in_quotes(argv[1]) + ": no such verb" +
+                     (near.empty()
+                          ? fmt::format("; there are {} (limpet --help)", fmt::join(names, ", "))
+                          : fmt::format(", did you mean {}? (limpet {} --help)", near, near)));
+}
+
+/// What the parser found no place for, and what was meant by it.
+/// @param parser  of the verb, or of the program where none was reached
+/// @return empty: there is no such word
+std::string stray_word(const CLI::App& parser, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : parser.get_options()) {
+        for (const std::string& name : option->get_lnames()) {
+            names.push_back(name);
+        }
+    }
+    const bool sets = parser.get_option_no_throw("--set") != nullptr;
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        const std::size_t letters = name.find_first_not_of('-');
+        if (letters > 0 && letters != name.npos) {
+            const std::string_view near =
+                scenario::nearest(name.substr(letters), {names.begin(), names.end()});
+            return in_quotes(name) + ": no such option" +
+                   (near.empty() ? "" : fmt::format(", did you mean --{}?", near));
+        }
+        if (sets && name != word) {
+            return fmt::format("{}: not expected, did you mean --set {}?", in_quotes(word), word);
+        }
+    }
+    return {};
 }
 
 /// What an option takes, as the help tells it: "DIR", "KIND:{a,b}".
@@ -131,8 +159,8 @@ ProgramText text_of(const Program& program, const CLI::App& app) {
                      .footer = program.footer,
                      .version = program.version};
     for (const Verb& verb : program.verbs) {
-        VerbText& added = text.verbs.emplace_back(
-            VerbText{.name = verb.name, .about = verb.about, .footer = verb.footer});
+        VerbText& added = text.verbs.emplace_back(VerbText{
+            .name = verb.name, .about = verb.about, .footer = verb.footer, .group = verb.group});
         for (const CLI::Option* option : app.get_subcommand(verb.name)->get_options()) {
             if (!option->check_lname("help")) {
                 added.options.push_back(text_of(*option));
@@ -164,13 +192,16 @@ bool print_manual(const Program& program, const CLI::App& app, int argc, char** 
     return true;
 }
 
-/// `limpet help fly` is `limpet fly --help`.
+/// `limpet help fly` is `limpet fly --help`, and `limpet` alone is `limpet --help`.
 std::vector<char*> without_help_verb(int argc, char** argv) {
     static char help[] = "--help";
     std::vector<char*> words(argv, argv + argc);
-    if (argc >= 2 && std::string_view(argv[1]) == "help") {
+    const bool asked = argc >= 2 && std::string_view(argv[1]) == "help";
+    if (asked) {
         words.erase(words.begin() + 1);
         words.resize(std::min<std::size_t>(words.size(), 2));
+    }
+    if (asked || argc == 1) {
         words.push_back(help);
     }
     return words;
@@ -292,11 +323,13 @@ ExitCode run(const Program& program, int argc, char** argv) {
     require_verb(program.verbs, count, words.data());
     CLI::App app{program.about, program.name};
     app.footer(program.footer);
+    app.get_formatter()->label("SUBCOMMAND", "VERB");
     app.set_version_flag("--version", program.version);
     app.require_subcommand(1);
     ExitCode code = ExitCode::ok;
     for (const Verb& verb : program.verbs) {
         CLI::App* parser = app.add_subcommand(verb.name, verb.about);
+        parser->group(verb.group);
         for (const Option& option : verb.options) {
             add(*parser, option);
         }
@@ -318,12 +351,20 @@ ExitCode run(const Program& program, int argc, char** argv) {
         std::istringstream lines(text.str());
         for (std::string line; std::getline(lines, line);) {
             constexpr std::size_t kAbout = 30;  // CLI11's column of descriptions
-            const std::size_t start = line.find_first_not_of(' ');
-            fmt::print("{}\n", folded(line, columns_of(stdout),
-                                      line.size() > kAbout && start >= 2 ? kAbout : 2));
+            const std::size_t start = line.find_first_not_of(' '), columns = columns_of(stdout);
+            const bool described = line.size() > kAbout && start >= 2;
+            // where that column leaves less than itself, a description goes on further left
+            fmt::print("{}\n", folded(line, columns,
+                                      !described             ? 2
+                                      : columns > 2 * kAbout ? kAbout
+                                                             : 6));
         }
     } catch (const CLI::ParseError& error) {
-        throw InputError(std::string(error.what()) + " (limpet --help)");
+        const auto asked = app.get_subcommands();
+        const CLI::App& parser = asked.empty() ? app : *asked.front();
+        const std::string stray = stray_word(parser, app.remaining(true));
+        throw InputError(fmt::format("{} ({}{} --help)", stray.empty() ? error.what() : stray,
+                                     program.name, asked.empty() ? "" : " " + parser.get_name()));
     }
     return code;
 }

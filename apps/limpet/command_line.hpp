@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -100,7 +101,14 @@ struct Verb {
     OptionList options;
     std::string footer;                         ///< of its help; empty: the program's
     std::function<ExitCode(const Given&)> run;  ///< owns what the options point to
+    std::string group = {};                     ///< heading that it stands under in the help
 };
+
+/// The verb under that heading.
+[[nodiscard]] inline Verb in_group(std::string group, Verb verb) {
+    verb.group = std::move(group);
+    return verb;
+}
 
 /// A verb whose options are the members of a struct, which it owns.
 /// @param run  from const Options& to an ExitCode, or to nothing, which is ExitCode::ok; or from
@@ -109,7 +117,11 @@ template <class Options, class Run>
 [[nodiscard]] Verb verb(const char* name, const char* about, OptionList (*options_of)(Options&),
                         const Run& run, const std::string& footer = {}) {
     const auto options = std::make_shared<Options>();
-    return {name, about, options_of(*options), footer, [options, run](const Given& given) {
+    return {name,
+            about,
+            options_of(*options),
+            footer,
+            [options, run](const Given& given) {
                 if constexpr (std::is_invocable_v<Run, const Options&, const Given&>) {
                     return run(*options, given);
                 } else if constexpr (std::is_void_v<std::invoke_result_t<Run, const Options&>>) {
@@ -118,7 +130,8 @@ template <class Options, class Run>
                 } else {
                     return run(*options);
                 }
-            }};
+            },
+            {}};
 }
 
 /// Every verb of the program, in the order of --help; apps/limpet/CMakeLists.txt lists them.

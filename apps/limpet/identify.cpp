@@ -14,6 +14,7 @@
 #include "limpet/identification/identification.hpp"
 #include "limpet/identification/pressure_log.hpp"
 #include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/samples.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -219,14 +220,14 @@ void identify(IdentifyOptions options) {
             throw Interrupted(fmt::format("interrupted; {} was written", written));
         }
     };
-    const identification::PressureTrace trace =
-        identification::read_pressure_log(fs::path(options.log));
+    const fs::path log = scenario::find_sample(options.log, ".csv");
+    const identification::PressureTrace trace = identification::read_pressure_log(log);
     go_on("nothing");
     identification::PressureFit fit;
     try {
         fit = identify_pressure(trace, options.of_log);
     } catch (const InputError& error) {
-        throw InputError(options.log + ": " + error.what());
+        throw InputError(log.string() + ": " + error.what());
     }
     go_on("nothing");
     const std::optional<scenario::Surface> surface = nearest_surface(fit);
@@ -241,8 +242,8 @@ void identify(IdentifyOptions options) {
     if (!draws) {
         return;
     }
-    const draw::Pictures pictures = draw_chart(
-        chart_of(trace, fit, fs::path(options.log).filename().string()), "identify", folder);
+    const draw::Pictures pictures =
+        draw_chart(chart_of(trace, fit, log.filename().string()), "identify", folder);
     if (!options.json) {
         print_files(pictures.files);
     }
@@ -250,7 +251,9 @@ void identify(IdentifyOptions options) {
 }
 
 OptionList options_of(IdentifyOptions& options) {
-    return {{"log CSV", &options.log, "CSV with columns t_s and pressure_Pa among any others"},
+    return {{"log CSV", &options.log,
+             "CSV with columns t_s and pressure_Pa among any others, or the name of\n"
+             "a sample (limpet list samples)"},
             {"--pump-on S", &options.of_log.pump_on_s, "when sealing begins (default: found)"},
             {"--pump-off S", &options.of_log.pump_off_s, "when unsealing begins (default: found)"},
             {"--from S", &options.of_log.from_s, "leave out what is before"},

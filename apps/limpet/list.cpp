@@ -8,6 +8,7 @@
 #include "command_line.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/fault_table.hpp"
+#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/sections.hpp"
 
 namespace limpet::app {
@@ -34,6 +35,7 @@ void print_list(const std::string& kind) {
     const auto rows = kind == "keys"       ? keys()
                       : kind == "surfaces" ? scenario::list_surfaces(root)
                       : kind == "faults"   ? scenario::list_faults()
+                      : kind == "samples"  ? scenario::list_samples(root)
                                            : scenario::list_files(root / kind);
     std::size_t width = 0;
     for (const scenario::CatalogueEntry& row : rows) {
@@ -46,16 +48,17 @@ void print_list(const std::string& kind) {
 
 OptionList kind_option(std::string& kind) {
     return {{"kind KIND", &kind,
-             "scenarios, campaigns, surfaces, vehicles, companions, faults or keys",
-             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions", "faults",
-                     "keys"})}};
+             "scenarios, campaigns, surfaces, vehicles, companions, samples, faults\n"
+             "or keys",
+             one_of({"scenarios", "campaigns", "surfaces", "vehicles", "companions", "samples",
+                     "faults", "keys"})}};
 }
 
 }  // namespace
 
 Verb list_verb() {
     return verb<std::string>("list",
-                             "List what there is: scenarios, surfaces, vehicles, faults, keys",
+                             "List what there is: scenarios, surfaces, vehicles, samples, keys",
                              kind_option, print_list);
 }
 

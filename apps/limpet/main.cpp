@@ -16,23 +16,23 @@ namespace {
 
 using limpet::app::ExitCode;
 
+// Lines of 78 columns at most, which a terminal of 80 does not fold.
 constexpr const char* kAbout =
-    "Limpet simulates perching on walls with a suction cup: a 3.2 kg quadrotor flies up to a "
-    "wall,\n"
-    "presses its cup on it, lands on it, rests with its motors off, takes off and comes back.";
+    "Limpet simulates perching on walls with a suction cup: a quadrotor flies up to\n"
+    "a wall, presses its cup on it, lands on it, rests with its motors off, takes\n"
+    "off and comes back.";
 
 constexpr const char* kFooter =
     "Start here:\n"
-    "  limpet fly perch_concrete            one flight, with recording and figures in out/\n"
-    "  limpet list scenarios                what there is to fly\n"
+    "  limpet fly perch_concrete       one flight, recording and figures in out/\n"
+    "  limpet list scenarios           what there is to fly\n"
     "  limpet fly perch_metal --set suction.valve_fitted=true\n"
-    "  limpet params guidance               every number that --set can turn\n"
-    "  limpet campaign impact_speed         many flights; then limpet summary, limpet replay\n"
-    "  limpet help VERB                     what a verb takes; help --man, help --completion "
-    "bash:\n"
-    "                                       all of it, for man and the shell\n\n"
-    "Exit codes: 0 done, 1 another outcome than --expect or control handed back, 2 bad input,\n"
-    "70 a fault of ours, 130 interrupted.\n";
+    "  limpet params guidance          every number that --set can turn\n"
+    "  limpet campaign impact_speed    many flights; then limpet summary, replay\n"
+    "  limpet help VERB                what a verb takes; help --man and\n"
+    "                                  help --completion bash: all of it\n\n"
+    "Exit codes: 0 done, 1 another outcome than --expect or control handed back,\n"
+    "2 bad input, 70 a fault of ours, 130 interrupted.\n";
 
 constexpr const char* kNoOutput = "standard output cannot be written";
 

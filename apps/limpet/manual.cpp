@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string_view>
 
@@ -26,6 +27,13 @@ std::string troff(std::string_view text) {
 /// As it stands, line by line.
 std::string verbatim(const std::string& text) {
     return text.empty() ? "" : ".nf\n" + troff(text) + (text.back() == '\n' ? "" : "\n") + ".fi\n";
+}
+
+/// As sections of a manual page are headed.
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
 }
 
 std::string bold(const std::string& text) {
@@ -71,8 +79,15 @@ std::string synopsis(const ProgramText& program, const VerbText& verb) {
 /// What `limpet list` tells that may stand for a value, as words; empty: none.
 std::string listed(std::string_view value) {
     constexpr std::pair<std::string_view, const char*> kLists[] = {
-        {"SCENARIO", "scenarios"},   {"CAMPAIGN", "campaigns"}, {"VEHICLE", "vehicles"},
-        {"COMPANION", "companions"}, {"CONFIG", "companions"},  {"KEY=VALUE", "keys"}};
+        {"SCENARIO", "scenarios"},
+        {"CAMPAIGN", "campaigns"},
+        {"VEHICLE", "vehicles"},
+        {"COMPANION", "companions"},
+        {"CONFIG", "companions"},
+        {"KEY=VALUE", "keys"},
+        {"CSV", "samples"},
+        {"TXT", "samples"},
+        {"NAME|FILE", "scenarios vehicles campaigns companions surfaces samples"}};
     std::string lists;
     for (const auto& [name, list] : kLists) {
         if (value.find(name) != value.npos) {
@@ -168,8 +183,13 @@ std::string man_page(const ProgramText& program) {
         "cup\n.SH SYNOPSIS\n{} {} [{}]\n.br\n{} {} [{}]\n.SH DESCRIPTION\n",
         troff(program.version), program.name, bold(program.name), italic("verb"),
         italic("arguments"), bold(program.name), bold("help"), italic("verb"));
-    text += verbatim(program.about) + ".SH VERBS\n";
+    text += verbatim(program.about);
+    std::string group;
     for (const VerbText& verb : program.verbs) {
+        if (verb.group != group) {
+            group = verb.group;
+            text += fmt::format(".SH \"{}\"\n", troff(upper(group)));
+        }
         text +=
             fmt::format(".SS {}\n{}\n.PP\n{}.\n", synopsis(program, verb), "", troff(verb.about));
         for (const OptionText& option : verb.options) {

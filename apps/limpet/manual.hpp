@@ -22,6 +22,7 @@ struct VerbText {
     std::string about = {};
     std::vector<OptionText> options = {};
     std::string footer = {};
+    std::string group = {};  ///< heading of those that belong together
 };
 
 struct ProgramText {

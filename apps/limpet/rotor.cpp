@@ -12,6 +12,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/identification/propeller_file.hpp"
+#include "limpet/scenario/samples.hpp"
 
 namespace limpet::app {
 namespace {
@@ -40,7 +41,7 @@ Finding find(const RotorOptions& options) {
     }
     Finding found;
     found.diameter_m = identification::length_m(options.diameter, "--diameter");
-    found.rows = identification::read_propeller_file(options.file);
+    found.rows = identification::read_propeller_file(scenario::find_sample(options.file, ".txt"));
     for (const identification::PropellerRow& row : found.rows) {
         found.constants.push_back(rotor_constants(row, found.diameter_m, options.density_kg_m3));
     }
@@ -118,7 +119,9 @@ void print_json(const RotorOptions& options, const Finding& found) {
 }
 
 OptionList options_of(RotorOptions& options) {
-    return {{"file FILE", &options.file, "UIUC static file: columns RPM, CT, CP"},
+    return {{"file TXT", &options.file,
+             "UIUC static file: columns RPM, CT, CP; or the name of a sample\n"
+             "(limpet list samples)"},
             {"--diameter LENGTH", &options.diameter, "of the propeller, with its unit: 12in, 305mm",
              required()},
             {"--density RHO", &options.density_kg_m3, "of the air in the result, 1.225 kg/m3"},

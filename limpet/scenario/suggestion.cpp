@@ -23,6 +23,14 @@ bool begins_with(std::string_view text, std::string_view stem) {
     return stem.size() >= kShortestStem && text.substr(0, stem.size()) == stem;
 }
 
+/// Whether letters were left out of the name alone: likelier than a wrong one.
+bool left_out_of(std::string_view name, std::string_view wrong) {
+    for (const char letter : name) {
+        wrong.remove_prefix(!wrong.empty() && wrong.front() == letter ? 1 : 0);
+    }
+    return wrong.empty();
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -45,7 +53,8 @@ std::string_view nearest(std::string_view wrong, const std::vector<std::string_v
     std::size_t best_distance = farthest(wrong) + 1;
     for (const std::string_view name : names) {
         const std::size_t distance = edit_distance(wrong, name);
-        if (distance < best_distance) {
+        if (distance < best_distance || (distance == best_distance && !best.empty() &&
+                                         left_out_of(name, wrong) && !left_out_of(best, wrong))) {
             best = name;
             best_distance = distance;
         }

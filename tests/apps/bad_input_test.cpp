@@ -189,11 +189,24 @@ TEST(BadInput, OptionsSayWhatTheyTake) {
 
 TEST(BadInput, UnknownVerbAndOption) {
     const Bench bench;
-    expect_refused(bench, {"flie"}, {"flie"});
-    expect_refused(bench, {"fly", "hover", "--sed", "3"}, {"--sed"});
+    expect_refused(bench, {"campain"},
+                   {"\"campain\": no such verb, did you mean campaign? (limpet campaign --help)"});
+    expect_refused(bench, {"xyzzy"}, {"no such verb; there are fly, ", "(limpet --help)"});
+    expect_refused(bench, {"fly", "hover", "--sed", "3"},
+                   {"\"--sed\": no such option, did you mean --seed? (limpet fly --help)"});
+    expect_refused(bench, {"fly", "hover", "--sett", "a=b"}, {"did you mean --set?"});
+    expect_refused(bench, {"fly", "hover", "-set", "a=b"}, {"did you mean --set?"});
+    expect_refused(bench, {"fly", "hover", "--seeed=3"}, {"\"--seeed\"", "did you mean --seed?"});
+    expect_refused(bench, {"fly", "--quiett"}, {"did you mean --quiet?"});
+    expect_refused(bench, {"fly", "hover", "--qqqqqq"},
+                   {"\"--qqqqqq\": no such option (limpet fly --help)"});
+    expect_refused(bench, {"fly", "hover", "guidance.attempts=2"},
+                   {"did you mean --set guidance.attempts=2? (limpet fly --help)"});
+    expect_refused(bench, {"fly"}, {"scenario is required (limpet fly --help)"});
+    expect_refused(bench, {"--versoin"}, {"did you mean --version? (limpet --help)"});
+    expect_refused(bench, {"--json", "list", "faults"}, {"--json", "no such option"});
     expect_refused(bench, {"list", "planets"}, {"planets"});
     expect_refused(bench, {"params", "kitchen"}, {"kitchen", "guidance"});
-    expect_refused(bench, {}, {"--help"});
 }
 
 TEST(BadInput, WhatIsNoRecording) {

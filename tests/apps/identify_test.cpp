@@ -48,6 +48,30 @@ TEST(Identify, FindsTheNumbersOfALogAndDrawsThem) {
     EXPECT_THAT(bench.files(), Contains("out/identify/identify.svg"));
 }
 
+/// Named from a folder that is not the checkout's, as scenarios are; as pages print it, too.
+TEST(Identify, FindsASampleByItsName) {
+    const Bench bench;
+    const Finished by_name = bench.run({"identify", "pressure_log"});
+    EXPECT_EQ(by_name.exit_code, 0) << by_name.err;
+    EXPECT_THAT(by_name.out, HasSubstr("650.5"));
+    EXPECT_EQ(bench.run({"identify", "samples/pressure_log.csv"}).out, by_name.out);
+    const Finished calibrated = bench.run({"calibrate", "pressure_log"});
+    EXPECT_THAT(calibrated.out, HasSubstr("vacuum_pressure_Pa")) << calibrated.err;
+    const Finished wrong = bench.run({"identify", "pressure_lag"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_EQ(
+        wrong.err,
+        "limpet: \"pressure_lag\": no such file or sample (did you mean pressure_log?); there "
+        "is pressure_log\n");
+    const Finished other_kind = bench.run({"identify", "propeller_static"});
+    EXPECT_EQ(other_kind.exit_code, 2);
+    EXPECT_TRUE(other_kind.one_line_of_error()) << other_kind.err;
+    const Finished rotor = bench.run({"rotor", "propeller_static", "--diameter", "12in"});
+    EXPECT_EQ(rotor.exit_code, 0) << rotor.err;
+    EXPECT_EQ(bench.run({"rotor", "samples/propeller_static.txt", "--diameter", "12in"}).out,
+              rotor.out);
+}
+
 /// Its model of a flight has neither: numbers would come out, and be wrong.
 TEST(Calibrate, RefusesWhatItDoesNotKnow) {
     const Bench bench;

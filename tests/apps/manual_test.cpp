@@ -40,9 +40,10 @@ std::string typeset(std::string text) {
 
 const std::vector<std::string>& verbs() {
     static const std::vector<std::string> all = {
-        "fly",      "sim-io", "campaign", "merge",   "companion",  "replay", "summary", "reproduce",
-        "identify", "check",  "list",     "params",  "px4-params", "plot",   "film",    "csv",
-        "ulog",     "view",   "lab",      "compare", "export",     "rotor",  "stand-in"};
+        "fly",       "sim-io",   "campaign", "merge",     "companion", "replay",     "summary",
+        "reproduce", "identify", "check",    "list",      "params",    "px4-params", "plot",
+        "film",      "csv",      "ulog",     "view",      "lab",       "compare",    "export",
+        "rotor",     "stand-in", "study",    "calibrate", "dossier"};
     return all;
 }
 
@@ -106,6 +107,9 @@ TEST_F(Completion, OffersVerbsOptionsNamesAndKeys) {
     EXPECT_EQ(offered("list surf"), "surfaces\n");
     EXPECT_EQ(offered("sim-io perch_concrete optitrack"), "optitrack_px4\n");
     EXPECT_EQ(offered("campaign fig3_w"), "fig3_without_spread\n");
+    EXPECT_EQ(offered("check iri"), "iris\n");
+    EXPECT_EQ(offered("identify pressure"), "pressure_log\n");
+    EXPECT_EQ(offered("list sam"), "samples\n");
 }
 
 TEST(CompletionOptions, AreCheckedLikeAnyOther) {

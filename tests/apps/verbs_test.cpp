@@ -28,16 +28,28 @@ std::size_t width(const std::string& text) {
     return longest;
 }
 
-/// Of the list between "Subcommands:" and the empty line that ends it.
-std::vector<std::string> verbs_of(const std::string& help) {
+/// A heading of the help and the verbs below it.
+struct Group {
+    std::string heading;
     std::vector<std::string> verbs;
-    std::istringstream lines(help.substr(help.find("Subcommands:\n")));
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line) && !line.empty()) {
-        std::istringstream(line) >> verbs.emplace_back();
+};
+
+/// Of the help after its options, up to "Start here:".
+std::vector<Group> groups_of(const std::string& help) {
+    std::vector<Group> groups;
+    const std::size_t from = help.find("\n\n", help.find("Options:"));
+    std::istringstream lines(help.substr(from, help.find("\nStart here:") - from));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line.rfind("    ", 0) == 0) {
+            continue;  // between groups, or what a verb is about
+        }
+        if (line[0] != ' ') {
+            groups.push_back({line.substr(0, line.size() - 1), {}});
+        } else {
+            std::istringstream(line) >> groups.back().verbs.emplace_back();
+        }
     }
-    return verbs;
+    return groups;
 }
 
 TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
@@ -45,15 +57,31 @@ TEST(Verbs, EachHasAHelpThatNamesItsOptionsAndFitsAHundredColumns) {
     const Finished all = bench.run({"--help"});
     EXPECT_THAT(all.out, HasSubstr("limpet fly perch_concrete"));
     EXPECT_LE(width(all.out), 100U);
-    const std::vector<std::string> verbs = verbs_of(all.out);
-    ASSERT_THAT(verbs, testing::IsSupersetOf({"fly", "study", "stand-in"}));
-    for (const std::string& verb : verbs) {
-        const Finished help = bench.run({verb, "--help"});
-        EXPECT_EQ(help.exit_code, 0);
-        EXPECT_THAT(help.out, HasSubstr("--help"));
-        EXPECT_LE(width(help.out), 100U) << help.out;
-        EXPECT_EQ(help.err, "");
+    const std::vector<Group> groups = groups_of(all.out);
+    ASSERT_EQ(groups.size(), 5U) << all.out;
+    for (const Group& group : groups) {
+        EXPECT_THAT(group.verbs, testing::SizeIs(testing::AllOf(testing::Ge(4U), testing::Le(7U))))
+            << group.heading << ": as many as one takes in at a glance";
+        for (const std::string& verb : group.verbs) {
+            const Finished help = bench.run({verb, "--help"});
+            EXPECT_EQ(help.exit_code, 0) << verb;
+            EXPECT_THAT(help.out, HasSubstr("--help"));
+            EXPECT_LE(width(help.out), 100U) << help.out;
+            EXPECT_EQ(help.err, "");
+        }
     }
+    EXPECT_EQ(groups.front().verbs.front(), "fly");
+    EXPECT_THAT(bench.run({"help", "--man"}).out, HasSubstr(".SH \"FLY MANY\""));
+}
+
+/// As cargo does, which answers who does not know what to ask; git's exit code 1 is another
+/// outcome than --expect here, 2 is bad input, and this is neither.
+TEST(Verbs, TheProgramAlonePrintsItsHelp) {
+    const Bench bench;
+    const Finished alone = bench.run({});
+    EXPECT_EQ(alone.exit_code, 0);
+    EXPECT_EQ(alone.err, "");
+    EXPECT_EQ(alone.out, bench.run({"--help"}).out);
 }
 
 TEST(Verbs, HelpEndsWithTheProgramsFooterUnlessAVerbHasItsOwn) {
@@ -97,8 +125,38 @@ TEST(Verbs, ListsWhatShips) {
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
         EXPECT_THAT(bench.run({"list", "surfaces"}).out, HasSubstr(name));
     }
+    EXPECT_THAT(bench.run({"list", "samples"}).out,
+                testing::AllOf(HasSubstr("pressure_log      Pressure under a cup"),
+                               HasSubstr("\npropeller_static  GENERATED")));
     EXPECT_THAT(bench.run({"list", "vehicles"}).out, HasSubstr("iris"));
     EXPECT_THAT(bench.run({"list", "campaigns"}).out, HasSubstr("impact_speed"));
+}
+
+/// In any kind that a verb finds by name, from any folder.
+TEST(Verbs, CheckFindsByName) {
+    const Bench bench;
+    for (const auto& [name, kind] :
+         {std::pair("perch_metal", "a good scenario"),
+          std::pair("iris", "a good vehicle of 1.50 kg"),
+          std::pair("fig3", "a good campaign: 253 runs of pendulum_concrete"),
+          std::pair("optitrack_px4",
+                    "a good companion; what it would do: limpet companion "
+                    "optitrack_px4 --check"),
+          std::pair("metal", "a good surface: "),
+          std::pair("pressure_log", "a good log (CSV), samples: pressure 738"),
+          std::pair("samples/pressure_log.csv", "a good log (CSV)"),
+          std::pair("propeller_static", "a good propeller file of 12 rows")}) {
+        const Finished done = bench.run({"check", name});
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        EXPECT_THAT(done.out, testing::StartsWith(std::string(name) + ": " + kind));
+    }
+    const Finished unknown = bench.run({"check", "iriss"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_EQ(unknown.err,
+              "limpet: \"iriss\": no such file, scenario, vehicle, campaign, companion, surface or "
+              "sample, did you mean iris?\n");
+    EXPECT_THAT(bench.run({"check", "qqqq"}).err, HasSubstr("limpet list KIND"));
+    EXPECT_EQ(bench.run({"check", "nowhere.csv"}).exit_code, 2);
 }
 
 TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
@@ -183,6 +241,20 @@ TEST(Verbs, ExportWritesThroughWhatIsNoFile) {
     EXPECT_EQ(text_of(bench.folder() / "new.xml"), piped);
     EXPECT_EQ(bench.run({"export", "perching_uav", "--out", "/dev/stdout"}).out,
               piped + "/dev/stdout\n");
+}
+
+/// Neither does it on a narrow one, where descriptions go on further left.
+TEST(Verbs, HelpFitsAnyTerminal) {
+    for (const unsigned short columns : {60, 80, 120}) {
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"--help"}, {"check", "--help"}}) {
+            std::istringstream lines(
+                std::regex_replace(on_terminal(words, columns), std::regex("\r"), ""));
+            for (std::string line; std::getline(lines, line);) {
+                EXPECT_LE(line.size(), columns) << line;
+            }
+        }
+    }
 }
 
 /// On a terminal of 80 columns nothing wraps by itself.

@@ -6,6 +6,7 @@
 
 #include "campaigns.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/version.hpp"
 
 namespace limpet::campaign {
 namespace {
@@ -103,7 +104,8 @@ TEST_F(Sharded, ForeignOnesAreRefused) {
     expect_refused({"merge", "1", "seed", "3", "--out", "merged"}, "is of another campaign");
     open_database(file("2"), Access::write).exec("UPDATE campaign SET limpet = '0.0.1'");
     expect_refused({"merge", "1", "2", "3", "--out", "merged"}, "Limpet itself differs");
-    open_database(file("2"), Access::write).exec("UPDATE campaign SET limpet = '0.1.0'");
+    open_database(file("2"), Access::write)
+        .exec("UPDATE campaign SET limpet = '" + std::string(kVersion) + "'");
     open_database(file("2"), Access::write).exec("UPDATE runs SET run = 19 WHERE run = 9");
     expect_refused({"merge", "1", "2", "3", "--out", "merged"}, "runs that its campaign does not");
     expect_refused({"merge", "1", "nowhere", "--out", "merged"}, "nowhere: there is no such file");

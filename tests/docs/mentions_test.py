@@ -49,6 +49,9 @@ limpet fly hover
 ```
 <!-- picture: nothing.png -->
 ![none](nothing.png)
+<!-- figure walls: limpet list surfaces | wc -l => (\\d+) -->
+<!-- figure moons: limpet list surfaces | wc -l => (\\d+) -->
+There are <!-- walls -->77<!-- /walls --> walls and <!-- stars -->8<!-- /stars --> stars.
 """
 
 
@@ -61,8 +64,10 @@ class Mentions(unittest.TestCase):
                                      text=True)
             self.assertEqual(page.read_text(), LYING)
         self.assertEqual(checked.returncode, 1)
+        self.assertIn("lying.md:1: says 0 times where it is typed", checked.stderr)
         for line, said in ((3, "says 'nothing at all'"), (6, "exit code 2"), (9, "no excuse"), (13, "nobody types"),
-                           (15, "nothing made it")):
+                           (15, "nothing made it"), (19, "says '77' as walls, and there comes '5'"), (19, "stars: no command"),
+                           (18, "moons: nothing shows it")):
             self.assertRegex(checked.stderr, rf"lying\.md:{line}: .*{said}")
 
     def test_links_lead_somewhere(self):

@@ -25,6 +25,12 @@ TEST(Nearest, FindsAForgottenUnit) {
     EXPECT_EQ(nearest("dock_speed", kNames), "dock_speed_m_s");
 }
 
+TEST(Nearest, TakesALetterLeftOutBeforeAWrongOne) {
+    EXPECT_EQ(nearest("sed", {"set", "seed"}), "seed");
+    EXPECT_EQ(nearest("sed", {"seed", "set"}), "seed");
+    EXPECT_EQ(nearest("sef", {"set", "seed"}), "set");
+}
+
 TEST(Nearest, KeepsSilentWhenNothingIsNear) {
     EXPECT_EQ(nearest("wind", kNames), "");
     EXPECT_EQ(nearest("x", kNames), "");
