@@ -69,6 +69,8 @@ void print_text(const std::vector<scenario::Section>& sections) {
             width = std::max(width, row.name.size());
         }
     }
+    fmt::print("  {:<{}}  {:>9}  {:<9} {:<20}  what  [source]\n", "", width, "default", "unit",
+               "allowed");
     for (const scenario::Section& section : sections) {
         fmt::print("{}{}:\n", &section == &sections.front() ? "" : "\n", section.name);
         for (const BoundParameter& row : section.rows) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -159,6 +160,24 @@ TEST(Verbs, CheckFindsByName) {
     EXPECT_EQ(bench.run({"check", "nowhere.csv"}).exit_code, 2);
 }
 
+/// Of data of one's own, in which a name stands for two things.
+TEST(Verbs, CheckAsksWhichOfTwo) {
+    const Bench bench;
+    std::filesystem::create_directories(bench.folder() / "scenarios");
+    std::filesystem::create_directories(bench.folder() / "vehicles");
+    (void)bench.write("surfaces.yaml", "stone: {description: grey}\n");
+    (void)bench.write("scenarios/mine.yaml", "mission: hover\nvehicle: mine\n");
+    (void)bench.write("vehicles/mine.yaml", "mass_kg: 3\n");
+    ::setenv("LIMPET_DATA", bench.folder().c_str(), 1);
+    const Finished two = bench.run({"check", "mine"});
+    const Finished one = bench.run({"check", "vehicles/mine.yaml"});
+    ::unsetenv("LIMPET_DATA");
+    EXPECT_EQ(two.exit_code, 2);
+    EXPECT_TRUE(two.one_line_of_error()) << two.err;
+    EXPECT_THAT(two.err, HasSubstr("\"mine\": is a scenario and a vehicle; say "));
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+}
+
 TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     const Bench bench;
     const std::filesystem::path root = LIMPET_SOURCE_DIR;
@@ -279,6 +298,8 @@ TEST(Verbs, FoldsItsLinesToTheTerminal) {
 TEST(Verbs, ParamsOfOneRoomAndTheGeneratedPage) {
     const Bench bench;
     EXPECT_THAT(bench.run({"params", "guidance"}).out, HasSubstr("dock_speed_m_s"));
+    EXPECT_THAT(bench.run({"params", "guidance"}).out,
+                testing::ContainsRegex("^ +default  unit +allowed +what  \\[source\\]\n"));
     EXPECT_THAT(bench.run({"params", "guidance"}).out, Not(HasSubstr("MC_PITCHRATE_P")));
     EXPECT_EQ(bench.run({"params", "--format", "markdown"}).out,
               text_of(std::filesystem::path(LIMPET_SOURCE_DIR) / "docs/parameters.md"))
