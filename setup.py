@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the extension by CMake, as everything else here is built; see pyproject.toml."""
+"""Builds the extension and the program by CMake, as everything else here is built; see pyproject.toml."""
 
 import os
 import re
@@ -15,24 +15,25 @@ ROOT = Path(__file__).resolve().parent
 # A tree that is configured already, or one of its own.
 GIVEN = os.environ.get("LIMPET_BUILD_TREE")
 TREE = Path(GIVEN) if GIVEN else ROOT / "build" / "pip"
-DATA = ("campaigns", "companions", "layouts", "paper", "samples", "scenarios", "vehicles")
 
 
 class Build(build_py):
     def run(self):
         if not GIVEN:
             subprocess.run(["cmake", "-S", ROOT, "-B", TREE, "-G", "Ninja", f"-DPython_EXECUTABLE={sys.executable}",
-                            "-DCMAKE_BUILD_TYPE=Release", "-DLIMPET_PROGRAM=OFF", "-DLIMPET_TESTS=OFF",
-                            "-DLIMPET_BENCH=OFF"], check=True)
-        subprocess.run(["cmake", "--build", TREE, "--target", "limpet_python"], check=True)
+                            "-DCMAKE_BUILD_TYPE=Release", "-DLIMPET_TESTS=OFF", "-DLIMPET_BENCH=OFF",
+                            "-DLIMPET_ROS2=OFF"], check=True)
+        subprocess.run(["cmake", "--build", TREE, "--parallel", str(len(os.sched_getaffinity(0))),
+                        "--target", "limpet_python", "limpet", "limpet_manual"], check=True)
         super().run()
         package = Path(self.build_lib) / "limpet"
         for module in (TREE / "python" / "limpet").glob("_core.*.so"):
             shutil.copy2(module, package)
-        share = package / "share" / "limpet"
-        for folder in DATA:
-            shutil.copytree(ROOT / folder, share / folder, dirs_exist_ok=True)
-        shutil.copy2(ROOT / "surfaces.yaml", share)
+        for component in ("program", "data"):
+            subprocess.run(["cmake", "--install", TREE, "--strip", "--component", component, "--prefix",
+                            package.resolve()], check=True, stdout=subprocess.DEVNULL)
+        for others in ("lib/systemd", "share/doc"):  # a system's, not a package's
+            shutil.rmtree(package / others, ignore_errors=True)
 
 
 class Binary(Distribution):
@@ -43,5 +44,6 @@ class Binary(Distribution):
 version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text()).group(1)
 (ROOT / "build").mkdir(exist_ok=True)
 setup(version=version, packages=["limpet"], package_dir={"limpet": "python/limpet"},
+      scripts=["python/command/limpet"],
       package_data={"limpet": ["*.pyi", "py.typed"]}, distclass=Binary, cmdclass={"build_py": Build},
       options={"egg_info": {"egg_base": "build"}, "build": {"build_base": "build/setuptools"}})

@@ -1,5 +1,10 @@
 # The pages in web/, bundled by Node into one file each; empty where there is no npm, and the program
 # says so when it is asked for one.
+set(LIMPET_PAGES "" CACHE PATH "a folder with pages that web/build has made, for a machine without Node")
+if(LIMPET_PAGES)
+  set(LIMPET_VIEW_PAGE ${LIMPET_PAGES}/view.html)
+  return()
+endif()
 set(LIMPET_VIEW_PAGE ${CMAKE_BINARY_DIR}/web/view.html)
 limpet_files(web_sources ${LIMPET_ROOT}/web/src/*)
 add_custom_command(

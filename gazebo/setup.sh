@@ -1,4 +1,4 @@
-# shellcheck shell=bash disable=SC2154,SC2016  # limpet_root and limpet_log come from cmake/setup.sh
+# shellcheck shell=bash disable=SC2154  # limpet_root and limpet_log come from cmake/setup.sh
 # Sourced by gazebo/run and gazebo/test, after cmake/setup.sh: Gazebo 11 and ROS 1, where the machine
 # has them, else in a root folder of Debian 11 that is made once and entered by bubblewrap.
 #
@@ -9,7 +9,9 @@
 #   enter_reads=(PATH...) further files and folders that it shows, read-only
 #
 # LIMPET_GAZEBO_ROOT   the root folder (~/.cache/limpet/gazebo-DIGEST of the package list)
-# LIMPET_MIRROR        where Debian comes from (the machine's own mirror)
+# LIMPET_MIRROR        where Debian comes from (cmake/mirror.sh)
+
+. "$limpet_root/cmake/mirror.sh"
 
 gazebo_suite=bullseye
 gazebo_packages=$limpet_root/gazebo/packages.txt
@@ -25,38 +27,6 @@ gazebo_root_folder() {
     local digest
     digest=$({ echo "$gazebo_suite" && package_names "$gazebo_packages" | sort; } | sha256sum | cut -c 1-12)
     echo "${LIMPET_GAZEBO_ROOT:-${XDG_CACHE_HOME:-$HOME/.cache}/limpet/gazebo-$digest}"
-}
-
-stop() {
-    say "limpet: $*"
-    exit 1
-}
-
-# serves_gazebo MIRROR: by apt's own means, so with the machine's proxy
-serves_gazebo() {
-    local file
-    file=$(mktemp) || return 1
-    timeout 60 /usr/lib/apt/apt-helper download-file "$1/dists/$gazebo_suite/Release" "$file" >>"$limpet_log" 2>&1
-    local result=$?
-    rm -f "$file"
-    return $result
-}
-
-# find_mirror: the first of the machine's own mirrors that has Debian 11
-find_mirror() {
-    local site
-    if [ -n "${LIMPET_MIRROR:-}" ]; then
-        serves_gazebo "$LIMPET_MIRROR" || stop "LIMPET_MIRROR: $LIMPET_MIRROR does not serve Debian 11 ($gazebo_suite)"
-        echo "$LIMPET_MIRROR"
-        return
-    fi
-    for site in $(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' | awk '!seen[$0]++' | grep -v security); do
-        if serves_gazebo "$site"; then
-            echo "$site"
-            return
-        fi
-    done
-    stop "no package mirror of this machine serves Debian 11 ($gazebo_suite): is there a network? Else set LIMPET_MIRROR=URL (tried: see $limpet_log)"
 }
 
 # remove_root FOLDER: a root folder that was not finished
@@ -99,7 +69,7 @@ make_root() {
     free_MB=$(df --output=avail -BM "$(dirname "$root")" | tail -n 1 | tr -dc 0-9)
     [ "$free_MB" -ge "$gazebo_needs_MB" ] ||
         stop "the root folder with Gazebo needs $gazebo_needs_MB MB in $(dirname "$root"), there are $free_MB; LIMPET_GAZEBO_ROOT names another place"
-    mirror=$(find_mirror) || exit 1
+    mirror=$(find_mirror "$gazebo_suite") || exit 1
     # shellcheck disable=SC2064  # the folder as it is named now
     trap "remove_root '$making'" EXIT
     trap 'exit 130' INT TERM HUP

@@ -28,7 +28,10 @@ set(library liblimpet${limpet_VERSION_MAJOR}.${limpet_VERSION_MINOR})
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME limpet)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "limpet-data ${same}, gnuplot-nox, fonts-dejavu-core")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+# What is loaded, which nobody finds by looking at a binary: MuJoCo of the version that its header has.
+file(STRINGS ${MUJOCO_INCLUDE_DIR}/mujoco/mujoco.h mujoco REGEX "define mjVERSION_HEADER")
+string(REGEX REPLACE ".* ([0-9]+)([0-9])([0-9])$" "libmujoco\\1.\\2.\\3" mujoco "${mujoco}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${mujoco}, libegl1, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, openmpi-bin, ${library}, python3-limpet")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "perching of multirotors on walls with a suction cup
  Simulates, reproduces and flies the perching of a multirotor on vertical
@@ -46,6 +49,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${library})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${LIMPET_ROOT}/packaging/debian/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "limpet-data ${same}")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${mujoco}")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "perching of multirotors: shared library
  Limpet's simulation of perching with a suction cup, for programs of one's
  own: fly, step, save and branch a flight, bring stations of one's own.")
@@ -56,7 +60,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library} ${same}, libeigen3-dev"
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "perching of multirotors: headers
  Headers, CMake's and pkg-config's files of Limpet's shared library.")
 
-if(TARGET limpet_python)
+if(TARGET limpet_python AND NOT LIMPET_PYTHONS)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-limpet)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -64,7 +68,7 @@ if(TARGET limpet_python)
   math(EXPR next "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "limpet-data ${same}, python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, ${mujoco}")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "perching of multirotors: Python module
  Flights, campaigns and recordings of Limpet from Python, and environments
  to learn in with the interface of Gymnasium.")

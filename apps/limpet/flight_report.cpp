@@ -10,6 +10,7 @@
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/makers.hpp"
 #include "limpet/simulation/result_json.hpp"
+#include "output.hpp"
 
 namespace limpet::app {
 namespace {
@@ -30,7 +31,8 @@ std::vector<fs::path> draw(const FlightOptions& options, const fs::path& path,
     if (options.figures()) {
         terminal.progress("drawing figures ...");
         try {
-            const auto figures = report::plot(recording, path.parent_path(), {.stop = &stop}).files;
+            const auto figures = drawn_where_possible(
+                [&] { return report::plot(recording, path.parent_path(), {.stop = &stop}).files; });
             files.insert(files.end(), figures.begin(), figures.end());
         } catch (const std::exception&) {
             if (!stop) {

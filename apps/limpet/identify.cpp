@@ -242,10 +242,11 @@ void identify(IdentifyOptions options) {
     if (!draws) {
         return;
     }
-    const draw::Pictures pictures =
-        draw_chart(chart_of(trace, fit, log.filename().string()), "identify", folder);
+    const std::vector<fs::path> files = drawn_where_possible([&] {
+        return draw_chart(chart_of(trace, fit, log.filename().string()), "identify", folder).files;
+    });
     if (!options.json) {
-        print_files(pictures.files);
+        print_files(files);
     }
     go_on("all");
 }

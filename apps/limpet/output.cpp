@@ -52,6 +52,15 @@ OutFolder::~OutFolder() {
     }
 }
 
+std::vector<fs::path> drawn_where_possible(const std::function<std::vector<fs::path>()>& draw) {
+    try {
+        return draw();
+    } catch (const NotInstalled& problem) {
+        complain(std::string("no figures: ") + problem.what());
+        return {};
+    }
+}
+
 void print_files(const std::vector<fs::path>& files) {
     for (const fs::path& file : files) {
         fmt::print("{}\n", file.string());

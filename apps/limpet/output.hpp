@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,11 @@ private:
     std::vector<std::filesystem::path> made_;  ///< innermost first
     std::optional<FolderLock> lock_;
 };
+
+/// What is drawn beside other results. Where what draws is not installed, nothing is, and a line on
+/// standard error names it.
+[[nodiscard]] std::vector<std::filesystem::path> drawn_where_possible(
+    const std::function<std::vector<std::filesystem::path>()>& draw);
 
 /// For scripts: a path a line.
 void print_files(const std::vector<std::filesystem::path>& files);

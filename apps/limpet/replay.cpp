@@ -58,8 +58,8 @@ void replay(const ReplayOptions& options) {
     tell(result, terminal);
     terminal.line("", "the same as in the row: the flight is the same to the last bit");
     terminal.progress("drawing figures ...");
-    std::vector<fs::path> files =
-        report::plot(record::read_recording(result.recording), folder).files;
+    std::vector<fs::path> files = drawn_where_possible(
+        [&] { return report::plot(record::read_recording(result.recording), folder).files; });
     files.insert(files.begin(), result.recording);
     terminal.written(files);
 }

@@ -174,7 +174,8 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     const study::StudyFound found = study::find_study(results);
     fmt::print("{}", options.json ? study_json(found) + "\n" : study_text(found));
     std::vector<fs::path> files = {folder.path() / campaign::Results::kFileName};
-    for (fs::path& file : study::draw_study(found, folder.path())) {
+    for (fs::path& file :
+         drawn_where_possible([&] { return study::draw_study(found, folder.path()); })) {
         files.push_back(std::move(file));
     }
     terminal.written(files);

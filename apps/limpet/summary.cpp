@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "limpet/campaign/cells_page.hpp"
@@ -23,14 +26,21 @@ struct SummaryOptions {
 };
 
 /// @param draw  makes the figures in a folder
-template <class Draw>
+/// @param page  and a page, if there is one
 void tell(const SummaryOptions& options, const fs::path& database, const std::string& text,
-          const Draw& draw) {
+          const std::function<std::vector<fs::path>(const fs::path&)>& draw,
+          const std::function<std::optional<fs::path>(const fs::path&)>& page = {}) {
     fmt::print("{}\n", text);
     if (options.json && options.out.empty()) {
         return;  // a program asked: it gets what it asked for
     }
-    const auto files = draw(folder_or_beside(options.out, database));
+    const fs::path folder = folder_or_beside(options.out, database);
+    std::vector<fs::path> files = drawn_where_possible([&] { return draw(folder); });
+    if (page) {
+        if (const auto cells = page(folder)) {
+            files.push_back(*cells);
+        }
+    }
     if (!options.json) {
         print_files(files);
     }
@@ -52,14 +62,10 @@ void summarise_campaign(const SummaryOptions& options) {
         return;
     }
     const campaign::CampaignSummary summary = summarise(results);
-    tell(options, database, options.json ? summary_json(summary) : summary_text(summary),
-         [&](const fs::path& folder) {
-             std::vector<fs::path> files = draw_summary(summary, folder);
-             if (const auto cells = write_cells(results, database, folder)) {
-                 files.push_back(*cells);
-             }
-             return files;
-         });
+    tell(
+        options, database, options.json ? summary_json(summary) : summary_text(summary),
+        [&](const fs::path& folder) { return draw_summary(summary, folder); },
+        [&](const fs::path& folder) { return write_cells(results, database, folder); });
 }
 
 OptionList options_of(SummaryOptions& options) {

@@ -2,10 +2,11 @@
 #include "limpet/compare/rest.hpp"
 
 #include <cmath>
+#include <pugixml.hpp>
+#include <string_view>
 
 #include "limpet/compare/channels.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/draw/mjcf.hpp"
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/story.hpp"
 
@@ -15,15 +16,31 @@ namespace {
 constexpr double kLeastRest_s = 1.0;
 constexpr double kMillimetres = 1e3;
 
+/// Masses of a body of MJCF and of all below it. Our models say each; none has to be worked out of
+/// shapes, as MuJoCo would.
+struct MassSum : pugi::xml_tree_walker {
+    double mass_kg = 0.0;
+    bool for_each(pugi::xml_node& node) override {
+        if (std::string_view(node.name()) == "inertial") {
+            mass_kg += node.attribute("mass").as_double();
+        }
+        return true;
+    }
+};
+
 /// Weight of all that hangs on "base" [N].
 double weight_N(const record::Recording& recording) {
     const mcap::Attachment* attached = recording.attachment("model.xml");
-    if (attached == nullptr) {
+    pugi::xml_document model;
+    if (attached == nullptr || !model.load_string(attached->text.c_str())) {
         return kNaN;
     }
-    const draw::MujocoModel model = draw::compile_mjcf(attached->text);
-    const int base = mj_name2id(model.get(), mjOBJ_BODY, "base");
-    return base < 0 ? kNaN : model->body_subtreemass[base] * kGravity_m_s2;
+    pugi::xml_node base = model.find_node([](const pugi::xml_node& node) {
+        return std::string_view(node.name()) == "body" &&
+               std::string_view(node.attribute("name").value()) == "base";
+    });
+    MassSum sum;
+    return base && base.traverse(sum) ? sum.mass_kg * kGravity_m_s2 : kNaN;
 }
 
 /// The last rest but its first half.

@@ -13,6 +13,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// A program or a library that is not on this machine: one line that names the package. Who can do
+/// without says it and goes on.
+class NotInstalled : public InputError {
+public:
+    using InputError::InputError;
+};
+
 /// A fault of ours: a broken promise between two rooms. The command line turns it into exit
 /// code 70.
 class InternalError : public std::logic_error {

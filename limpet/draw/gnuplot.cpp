@@ -91,7 +91,7 @@ void run(const std::filesystem::path& folder, const std::string& script) {
     const int problem = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
     posix_spawn_file_actions_destroy(&actions);
     if (problem == ENOENT || problem == EACCES) {
-        throw InputError("gnuplot is not installed (apt-get install gnuplot-nox)");
+        throw NotInstalled("gnuplot is not installed (apt-get install gnuplot-nox)");
     }
     if (problem != 0) {
         throw InputError(fmt::format("gnuplot cannot be started: {}", std::strerror(problem)));

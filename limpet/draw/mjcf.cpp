@@ -11,6 +11,8 @@
 namespace limpet::draw {
 namespace {
 
+using loaded::mujoco;
+
 /// An attribute `file`, `fileup`...: MuJoCo would read whatever it is told to.
 bool names_a_file(const std::string& mjcf) {
     constexpr std::string_view kBlanks = " \t\r\n\"'/";
@@ -30,18 +32,19 @@ bool names_a_file(const std::string& mjcf) {
 MujocoModel compile_mjcf(const std::string& mjcf) {
     constexpr const char* kName = "model.xml";
     const auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
+    mujoco().mj_defaultVFS(files.get());
     if (names_a_file(mjcf)) {
         throw InputError("model.xml: names a file, which the model of a recording does not");
     }
     if (mjcf.empty() ||
-        mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
+        mujoco().mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
         throw InputError("model.xml: empty, or too large");
     }
-    std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], mjcf.data(), mjcf.size());
+    std::memcpy(files->filedata[mujoco().mj_findFileVFS(files.get(), kName)], mjcf.data(),
+                mjcf.size());
     char message[1000] = "";
-    MujocoModel model(mj_loadXML(kName, files.get(), message, sizeof message));
-    mj_deleteVFS(files.get());
+    MujocoModel model(mujoco().mj_loadXML(kName, files.get(), message, sizeof message));
+    mujoco().mj_deleteVFS(files.get());
     if (!model) {
         throw InputError(fmt::format("model.xml: {}", message));
     }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <memory>
 #include <string>
+
+#include "limpet/loaded/mujoco.hpp"
 
 namespace limpet::draw {
 
 struct DeleteModel {
-    void operator()(mjModel* model) const { mj_deleteModel(model); }
+    void operator()(mjModel* model) const { loaded::mujoco().mj_deleteModel(model); }
 };
 using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
 

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/draw/offscreen.hpp"
 
-#include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <fmt/format.h>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/egl.hpp"
 
 namespace limpet::draw {
 namespace {
 
 [[noreturn]] void give_up(const char* what) {
-    throw InputError(
+    throw NotInstalled(
         fmt::format("cannot draw without a screen: {} (EGL error {:#x}); needed: "
                     "apt-get install libegl1 libgl1-mesa-dri",
-                    what, eglGetError()));
+                    what, egl().eglGetError()));
 }
 
 /// A display that is no device and no window system.
 EGLDisplay surfaceless_display() {
     const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
-        eglGetProcAddress("eglGetPlatformDisplayEXT"));
+        egl().eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (get_display == nullptr) {
         return EGL_NO_DISPLAY;
     }
@@ -30,7 +30,7 @@ EGLDisplay surfaceless_display() {
 }  // namespace
 
 OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
-    if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
+    if (display_ == EGL_NO_DISPLAY || egl().eglInitialize(display_, nullptr, nullptr) != EGL_TRUE) {
         give_up("no surfaceless EGL display");
     }
     // MuJoCo draws into buffers of its own, with OpenGL's compatibility profile.
@@ -38,11 +38,11 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
                                   EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
-    if (eglChooseConfig(display_, kWanted, &config, 1, &found) != EGL_TRUE || found == 0) {
+    if (egl().eglChooseConfig(display_, kWanted, &config, 1, &found) != EGL_TRUE || found == 0) {
         give_up("no EGL configuration for OpenGL");
     }
-    eglBindAPI(EGL_OPENGL_API);
-    context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
+    egl().eglBindAPI(EGL_OPENGL_API);
+    context_ = egl().eglCreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) {
         give_up("no OpenGL context");
     }
@@ -52,12 +52,12 @@ OffscreenContext::OffscreenContext() : display_(surfaceless_display()) {
 }
 
 bool OffscreenContext::use() noexcept {
-    return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+    return egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
 }
 
 OffscreenContext::~OffscreenContext() {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(display_, context_);
+    egl().eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl().eglDestroyContext(display_, context_);
     // The display is the process's: ending it here would take it from every other context.
 }
 

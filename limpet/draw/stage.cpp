@@ -2,20 +2,38 @@
 #include "limpet/draw/stage.hpp"
 
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 
 #include <algorithm>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/egl.hpp"
 #include "limpet/draw/mjcf.hpp"
 #include "limpet/draw/offscreen.hpp"
+#include "limpet/loaded/mujoco.hpp"
 
 namespace limpet::draw {
 namespace {
 
+using loaded::mujoco;
+
 constexpr int kSamples = 4;
 constexpr double kAngleOfSight_deg = 28.0;
 constexpr float kBlur = 0.30F;  // how much a turning propeller hides
+
+/// One line for all that is not there.
+void require_libraries() {
+    std::string missing;
+    for (void (*const load)() : {+[] { (void)mujoco(); }, +[] { (void)egl(); }}) {
+        try {
+            load();
+        } catch (const NotInstalled& problem) {
+            missing += (missing.empty() ? "" : "; ") + std::string(problem.what());
+        }
+    }
+    if (!missing.empty()) {
+        throw NotInstalled(missing);
+    }
+}
 
 using Pixels = std::vector<std::uint8_t>;  // three a pixel, rows from bottom to top
 
@@ -27,13 +45,13 @@ void keep_silent(const char*) {}
 /// MuJoCo's hooks are the process's: they are ours as long as a stage stands.
 class ErrorHooks {
 public:
-    ErrorHooks() : error_(mju_user_error), warning_(mju_user_warning) {
-        mju_user_error = throw_error;
-        mju_user_warning = keep_silent;
+    ErrorHooks() : error_(*mujoco().mju_user_error), warning_(*mujoco().mju_user_warning) {
+        *mujoco().mju_user_error = throw_error;
+        *mujoco().mju_user_warning = keep_silent;
     }
     ~ErrorHooks() {
-        mju_user_error = error_;
-        mju_user_warning = warning_;
+        *mujoco().mju_user_error = error_;
+        *mujoco().mju_user_warning = warning_;
     }
     ErrorHooks(const ErrorHooks&) = delete;
     ErrorHooks& operator=(const ErrorHooks&) = delete;
@@ -44,7 +62,7 @@ private:
 };
 
 int base_address(const mjModel& model) {
-    const int body = mj_name2id(&model, mjOBJ_BODY, "base");
+    const int body = mujoco().mj_name2id(&model, mjOBJ_BODY, "base");
     const int joint = body < 0 ? -1 : model.body_jntadr[body];
     if (joint < 0 || model.jnt_type[joint] != mjJNT_FREE) {
         throw InputError("model.xml: there is no body \"base\" with a free joint");
@@ -79,7 +97,7 @@ struct Stage::Parts {
     ErrorHooks hooks;
     OffscreenContext screen;
     MujocoModel model;
-    std::unique_ptr<mjData, decltype(&mj_deleteData)> data{nullptr, mj_deleteData};
+    std::unique_ptr<mjData, decltype(&::mj_deleteData)> data{nullptr, mujoco().mj_deleteData};
     double* base;  ///< place and attitude, in qpos
     mjvScene scene;
     mjrContext renderer;
@@ -95,19 +113,19 @@ struct Stage::Parts {
         model->vis.global.offheight = oversampling * height;
         model->vis.global.fovy = static_cast<float>(kAngleOfSight_deg);
         model->vis.quality.offsamples = kSamples;
-        data.reset(mj_makeData(model.get()));
+        data.reset(mujoco().mj_makeData(model.get()));
         base = data->qpos + base_at;
-        mjv_defaultOption(&option);
-        mjv_defaultScene(&scene);
-        mjr_defaultContext(&renderer);
-        mjv_makeScene(model.get(), &scene, 1000);
+        mujoco().mjv_defaultOption(&option);
+        mujoco().mjv_defaultScene(&scene);
+        mujoco().mjr_defaultContext(&renderer);
+        mujoco().mjv_makeScene(model.get(), &scene, 1000);
         make_renderer();
     }
     ~Parts() {
         if (screen.use()) {  // else it took what it held along
-            mjr_freeContext(&renderer);
+            mujoco().mjr_freeContext(&renderer);
         }
-        mjv_freeScene(&scene);
+        mujoco().mjv_freeScene(&scene);
     }
     Parts(const Parts&) = delete;
     Parts& operator=(const Parts&) = delete;
@@ -115,33 +133,33 @@ struct Stage::Parts {
     /// MuJoCo looks for OpenGL by itself, under names that only the -dev packages bring.
     void make_renderer() {
         try {
-            mjr_makeContext(model.get(), &renderer, mjFONTSCALE_100);
+            mujoco().mjr_makeContext(model.get(), &renderer, mjFONTSCALE_100);
         } catch (const InternalError& problem) {
-            mjv_freeScene(&scene);
-            throw InputError(fmt::format(
+            mujoco().mjv_freeScene(&scene);
+            throw NotInstalled(fmt::format(
                 "cannot draw: {}; needed: apt-get install libegl-dev libgl-dev", problem.what()));
         }
-        mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
+        mujoco().mjr_setBuffer(mjFB_OFFSCREEN, &renderer);
         require(renderer.currentBuffer == mjFB_OFFSCREEN, "MuJoCo has a buffer to draw into");
     }
 
     void set_joint(const char* name, double value) {
-        const int id = mj_name2id(model.get(), mjOBJ_JOINT, name);
+        const int id = mujoco().mj_name2id(model.get(), mjOBJ_JOINT, name);
         if (id >= 0) {
             data->qpos[model->jnt_qposadr[id]] = value;
         }
     }
 
     void show_material(const char* name, bool shown, float alpha) const {
-        const int id = mj_name2id(model.get(), mjOBJ_MATERIAL, name);
+        const int id = mujoco().mj_name2id(model.get(), mjOBJ_MATERIAL, name);
         if (id >= 0) {
             model->mat_rgba[4 * id + 3] = shown ? alpha : 0.0F;
         }
     }
 
     void set_payload(const Pose& pose) {
-        const int body = mj_name2id(model.get(), mjOBJ_BODY, "payload");
-        const int cable = mj_name2id(model.get(), mjOBJ_TENDON, "cable");
+        const int body = mujoco().mj_name2id(model.get(), mjOBJ_BODY, "payload");
+        const int cable = mujoco().mj_name2id(model.get(), mjOBJ_TENDON, "cable");
         if (pose.payload_m && body >= 0 && model->body_mocapid[body] >= 0) {
             std::copy_n(pose.payload_m->data(), 3, data->mocap_pos + 3 * model->body_mocapid[body]);
         }
@@ -159,26 +177,29 @@ struct Stage::Parts {
         set_joint("cup_pitch", pose.cup_pitch_rad);
         set_joint("cup_yaw", pose.cup_yaw_rad);
         set_payload(pose);
-        mj_kinematics(model.get(), data.get());
-        mj_comPos(model.get(), data.get());
-        mj_tendon(model.get(), data.get());
-        mj_camlight(model.get(), data.get());
+        mujoco().mj_kinematics(model.get(), data.get());
+        mujoco().mj_comPos(model.get(), data.get());
+        mujoco().mj_tendon(model.get(), data.get());
+        mujoco().mj_camlight(model.get(), data.get());
     }
 
     [[nodiscard]] Pixels render(mjvCamera& camera, bool shadows) {
-        mjv_updateScene(model.get(), data.get(), &option, nullptr, &camera, mjCAT_ALL, &scene);
+        mujoco().mjv_updateScene(model.get(), data.get(), &option, nullptr, &camera, mjCAT_ALL,
+                                 &scene);
         scene.flags[mjRND_SHADOW] = shadows ? 1 : 0;
         const mjrRect all{0, 0, oversampling * width_px, oversampling * height_px};
-        mjr_render(all, &scene, &renderer);
+        mujoco().mjr_render(all, &scene, &renderer);
         Pixels pixels(3u * static_cast<std::size_t>(all.width) *
                       static_cast<std::size_t>(all.height));
-        mjr_readPixels(pixels.data(), nullptr, all, &renderer);
+        mujoco().mjr_readPixels(pixels.data(), nullptr, all, &renderer);
         return pixels;
     }
 };
 
-Stage::Stage(const std::string& mjcf, int width_px, int height_px, int oversampling)
-    : parts_(std::make_unique<Parts>(mjcf, width_px, height_px, oversampling)) {}
+Stage::Stage(const std::string& mjcf, int width_px, int height_px, int oversampling) {
+    require_libraries();
+    parts_ = std::make_unique<Parts>(mjcf, width_px, height_px, oversampling);
+}
 
 Stage::~Stage() = default;
 
@@ -188,11 +209,11 @@ double Stage::angle_of_sight_rad() {
 
 std::optional<WallFace> Stage::wall() const {
     const mjModel& model = *parts_->model;
-    const int geom = mj_name2id(&model, mjOBJ_GEOM, "wall");
+    const int geom = mujoco().mj_name2id(&model, mjOBJ_GEOM, "wall");
     if (geom < 0 || model.geom_type[geom] != mjGEOM_BOX) {
         return std::nullopt;
     }
-    mj_kinematics(&model, parts_->data.get());
+    mujoco().mj_kinematics(&model, parts_->data.get());
     const double* rotation = parts_->data->geom_xmat + 9 * geom;
     WallFace face;
     face.normal = {rotation[2], rotation[5], rotation[8]};
@@ -208,7 +229,7 @@ Image Stage::photograph(const Pose& pose, const View& view) {
     }
     p.set(pose);
     mjvCamera camera;
-    mjv_defaultCamera(&camera);
+    mujoco().mjv_defaultCamera(&camera);
     camera.type = mjCAMERA_FREE;
     std::copy_n(view.target_m.data(), 3, camera.lookat);
     camera.azimuth = degrees(view.azimuth_rad);

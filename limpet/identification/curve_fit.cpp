@@ -38,7 +38,7 @@ struct Residuals {
 
     [[nodiscard]] VectorXd parameters() const {
         VectorXd some(inputs());
-        std::transform(free.begin(), free.end(), some.begin(),
+        std::transform(free.begin(), free.end(), some.data(),
                        [this](CurveParameter parameter) { return start.*member_of(parameter); });
         return some;
     }

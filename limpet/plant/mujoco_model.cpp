@@ -2,7 +2,6 @@
 #include "limpet/plant/mujoco_model.hpp"
 
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 
 #include <cstring>
 #include <deque>
@@ -10,21 +9,24 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/loaded/mujoco.hpp"
 #include "limpet/plant/engines.hpp"
 
 namespace limpet::plant {
 
 namespace {
 
+using loaded::mujoco;
+
 /// Makes MuJoCo throw InternalError where it would print, write MUJOCO_LOG.TXT and end the process.
 /// Its warnings stay silent: they are counted in mjData::warning, which the plant reads after every
 /// step. Process-wide, as MuJoCo's hooks are; safe to call from any thread, any number of times.
 void guard_mujoco() {
     [[maybe_unused]] static const bool installed = [] {
-        mju_user_error = [](const char* message) {
+        *mujoco().mju_user_error = [](const char* message) {
             throw InternalError(std::string("MuJoCo: ") + message);
         };
-        mju_user_warning = [](const char*) {};
+        *mujoco().mju_user_warning = [](const char*) {};
         return true;
     }();
 }
@@ -37,14 +39,15 @@ mjModel* compile(const std::string& mjcf) {
         throw InputError("MJCF: the model is empty");
     }
     const auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    if (mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
+    mujoco().mj_defaultVFS(files.get());
+    if (mujoco().mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
         throw InputError("MJCF: the model is too large");
     }
-    std::memcpy(files->filedata[mj_findFileVFS(files.get(), kName)], mjcf.data(), mjcf.size());
+    std::memcpy(files->filedata[mujoco().mj_findFileVFS(files.get(), kName)], mjcf.data(),
+                mjcf.size());
     char message[1000] = "";
-    mjModel* model = mj_loadXML(kName, files.get(), message, sizeof message);
-    mj_deleteVFS(files.get());
+    mjModel* model = mujoco().mj_loadXML(kName, files.get(), message, sizeof message);
+    mujoco().mj_deleteVFS(files.get());
     if (model == nullptr) {
         throw InputError(fmt::format("MJCF: {}", message));
     }
@@ -52,7 +55,7 @@ mjModel* compile(const std::string& mjcf) {
 }
 
 int find(const mjModel& model, mjtObj type, const char* what, const char* name) {
-    const int id = mj_name2id(&model, type, name);
+    const int id = mujoco().mj_name2id(&model, type, name);
     if (id < 0) {
         throw InputError(fmt::format("MJCF: there is no {} \"{}\"", what, name));
     }
@@ -97,14 +100,14 @@ std::shared_ptr<const MujocoModel> compiled(std::string mjcf, const vehicle::Air
 }  // namespace
 
 MujocoModel::MujocoModel(const std::string& mjcf, const vehicle::Airframe& airframe)
-    : model_(compile(mjcf), mj_deleteModel), mechanism_(make_mechanism(airframe)) {
+    : model_(compile(mjcf), mujoco().mj_deleteModel), mechanism_(make_mechanism(airframe)) {
     mjModel& model = *model_;
     Places& at = places_;
     at.base_body = find(model, mjOBJ_BODY, "body", "base");
     const int free = find_joint(model, at.base_body, mjJNT_FREE, "free");
     at.base_position = model.jnt_qposadr[free];
     at.base_velocity = model.jnt_dofadr[free];
-    at.has_cup = mj_name2id(&model, mjOBJ_BODY, "cup") >= 0;
+    at.has_cup = mujoco().mj_name2id(&model, mjOBJ_BODY, "cup") >= 0;
     if (at.has_cup) {
         at.cup_body = find(model, mjOBJ_BODY, "body", "cup");
         at.carriage_body = find(model, mjOBJ_BODY, "body", "carriage");

@@ -2,17 +2,19 @@
 #include "limpet/plant/mujoco_plant.hpp"
 
 #include <fmt/format.h>
-#include <mujoco/mujoco.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/loaded/mujoco.hpp"
 #include "limpet/plant/mujoco_frames.hpp"
 
 namespace limpet::plant {
 
 namespace {
+
+using loaded::mujoco;
 
 using mujoco_frames::turn;
 using mujoco_frames::turn_attitude;
@@ -45,7 +47,7 @@ std::shared_ptr<const MujocoModel> own_model(const std::shared_ptr<const PlantMo
 MujocoPlant::MujocoPlant(std::shared_ptr<const MujocoModel> model)
     : model_(std::move(model)),
       options_(std::make_unique<mjModel>(model_->get())),
-      data_(mj_makeData(options_.get()), mj_deleteData),
+      data_(mujoco().mj_makeData(options_.get()), mujoco().mj_deleteData),
       integrated_(data_->qpos, data_->qpos + options_->nq) {
     refresh();
     start_twin();
@@ -96,7 +98,7 @@ void MujocoPlant::step(const StepMode& mode) {
     if (model_->places().has_cup) {
         push_joints(mode.step_s);
     }
-    mj_step2(options_.get(), data_.get());
+    mujoco().mj_step2(options_.get(), data_.get());
     // The first half makes new contacts, which have no forces yet.
     sum_contacts();
     take_positions();
@@ -133,7 +135,7 @@ void MujocoPlant::take_positions() {
 /// again, after a change of mode or in another plant, stays as it is.
 void MujocoPlant::refresh() {
     std::copy_n(integrated_.data(), options_->nq, data_->qpos);
-    mj_step1(options_.get(), data_.get());
+    mujoco().mj_step1(options_.get(), data_.get());
 }
 
 /// Where MuJoCo's bodies are, and pushed by the legs as in the last step: what they will push in
@@ -180,9 +182,9 @@ void MujocoPlant::sum_contacts() {
             continue;
         }
         mjtNum force[6];  // by the first shape on the second, in the contact's axes
-        mj_contactForce(options_.get(), data_.get(), i, force);
+        mujoco().mj_contactForce(options_.get(), data_.get(), i, force);
         mjtNum force_world[3];
-        mju_rotVecMatT(force_world, force, contact.frame);
+        mujoco().mju_rotVecMatT(force_world, force, contact.frame);
         const int second = options_->body_weldid[options_->geom_bodyid[contact.geom2]];
         const double sign = second == 0 ? -1.0 : 1.0;
         const Vector3 force_W_N = sign * turn(force_world);
@@ -197,7 +199,7 @@ void MujocoPlant::require_healthy() {
         if (data_->warning[i].number > 0) [[unlikely]] {
             const int info = data_->warning[i].lastinfo;
             throw InternalError(fmt::format("MuJoCo diverged after {} s: {}", data_->time,
-                                            mju_warningText(i, info)));
+                                            mujoco().mju_warningText(i, info)));
         }
     }
 }
@@ -233,8 +235,8 @@ std::optional<double> MujocoPlant::ray(const Vector3& origin_W_m, const Vector3&
     const Vector3 from = turn(origin_W_m);
     const Vector3 along = turn(dir_W);
     int shape = -1;
-    const double distance_m = mj_ray(options_.get(), data_.get(), from.data(), along.data(),
-                                     kSurroundings, 1, -1, &shape);
+    const double distance_m = mujoco().mj_ray(options_.get(), data_.get(), from.data(),
+                                              along.data(), kSurroundings, 1, -1, &shape);
     return shape < 0 ? std::nullopt : std::optional(distance_m);
 }
 
@@ -255,7 +257,7 @@ void MujocoPlant::restore(const PlantState& state) {
     for_each_state(*options_, *data_, contacts_W_, slider_N_, add);
     require(state.values.size() == static_cast<std::size_t>(expected), "a state of this model");
     // Also after a divergence: its warnings and half-done work must not outlive it.
-    mj_resetData(options_.get(), data_.get());
+    mujoco().mj_resetData(options_.get(), data_.get());
     const double* from = state.values.data();
     const auto read = [&from](double* values, int count) {
         std::copy_n(from, count, values);

@@ -166,7 +166,7 @@ std::string rare_text(const RareSummary& summary) {
 std::string rare_json(const RareSummary& summary) {
     const SubsetResult& result = summary.result;
     const bool estimated = result.ending == RareEnding::estimated;
-    const auto if_estimated = [&](double value) { return estimated ? finite(value) : nullptr; };
+    const auto if_estimated = [&](double value) { return estimated ? finite(value) : RareJson(); };
     RareJson levels = RareJson::array();
     for (const SubsetLevel& level : result.levels) {
         levels.push_back(json_of(summary, level));
@@ -191,8 +191,8 @@ std::string rare_json(const RareSummary& summary) {
         {"level_runs", summary.level_runs},
         {"ending", ending_of(result.ending)},
         {"probability", if_estimated(result.probability())},
-        {"low", estimated ? finite(result.interval().low) : nullptr},
-        {"high", estimated ? finite(result.interval().high) : nullptr},
+        {"low", if_estimated(result.interval().low)},
+        {"high", if_estimated(result.interval().high)},
         {"coefficient_of_variation", if_estimated(std::sqrt(result.variation2()))},
         {"lineages", if_estimated(result.lineages)},
         {"flown", summary.flown},

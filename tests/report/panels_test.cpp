@@ -32,8 +32,8 @@ std::vector<std::string> titles(const std::vector<draw::ChartPanel>& panels) {
     return names;
 }
 
-const draw::ChartSeries& curve(const std::vector<draw::ChartPanel>& panels, const std::string& name,
-                               const std::string& label) {
+const draw::ChartSeries& curve(const std::vector<draw::ChartPanel>& panels, const char* name,
+                               const char* label) {
     for (const draw::ChartPanel& panel : panels) {
         for (const draw::ChartSeries& found : panel.series) {
             if (title(panel) == name && found.name == label) {
@@ -41,7 +41,7 @@ const draw::ChartSeries& curve(const std::vector<draw::ChartPanel>& panels, cons
             }
         }
     }
-    throw std::out_of_range(name + ", " + label);
+    throw std::out_of_range(std::string(name) + ", " + label);
 }
 
 /// The curve is the recording's column, scaled.

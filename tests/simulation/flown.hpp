@@ -126,8 +126,8 @@ inline Trace trace(const std::shared_ptr<const FlightModel>& model) {
 }
 
 /// One flight of a shipped scenario, flown once for all tests of this program.
-inline const Trace& flown(const std::string& scenario) {
-    static std::map<std::string, Trace> flights;
+inline const Trace& flown(const char* scenario) {
+    static std::map<std::string, Trace, std::less<>> flights;
     const auto found = flights.find(scenario);
     return found != flights.end()
                ? found->second
