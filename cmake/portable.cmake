@@ -3,4 +3,5 @@
 # meant to be in a program; for Python's module their names stay inside.
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a .so)
 set(Boost_USE_STATIC_LIBS ON)
-add_link_options(-static-libstdc++ -static-libgcc -Wl,--exclude-libs,ALL -Wl,--as-needed)
+set(LIMPET_PORTABLE_MATH "" CACHE FILEPATH "object with what this glibc rounds otherwise than a newer one (packaging/portable_math.c)")
+add_link_options(${LIMPET_PORTABLE_MATH} -static-libstdc++ -static-libgcc -Wl,--exclude-libs,ALL -Wl,--as-needed)
