@@ -264,7 +264,7 @@ TEST(Verbs, ExportWritesThroughWhatIsNoFile) {
 
 /// Neither does it on a narrow one, where descriptions go on further left.
 TEST(Verbs, HelpFitsAnyTerminal) {
-    for (const unsigned short columns : {60, 80, 120}) {
+    for (const auto columns : std::initializer_list<unsigned short>{60, 80, 120}) {
         for (const std::vector<std::string>& words :
              {std::vector<std::string>{"--help"}, {"check", "--help"}}) {
             std::istringstream lines(
