@@ -36,7 +36,7 @@ missing_packages() {
     done
 }
 
-# known_packages NAME...: without those that this distribution does not have (Ubuntu has no chromium);
+# known_packages NAME...: without those that this distribution does not have (Ubuntu has chromium as a snap alone);
 # a library that is missed so is named by cmake, a program by the test that is skipped.
 known_packages() {
     local package
