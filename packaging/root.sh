@@ -18,6 +18,7 @@ within() {
         root=$0
         mount -t proc proc "$root/proc"
         mount --rbind /dev "$root/dev"
+        mount --rbind /sys "$root/sys"
         mount -t tmpfs tmpfs "$root/tmp"
         while [ "$1" != -- ]; do
             mkdir -p "$root${1#*=}"

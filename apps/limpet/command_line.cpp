@@ -239,7 +239,9 @@ OptionRule one_of(const std::vector<std::string>& names, bool told) {
 
 OptionRule range(double least, double most, bool told) {
     return [=](CLI::App&, CLI::Option& option) {
-        option.check(told ? CLI::Range(least, most) : between(least, most));
+        // in words of our own: CLI11's differ from version to version
+        const std::string about = told ? CLI::Range(least, most).get_description() : "";
+        option.check(between(least, most).description(about));
     };
 }
 
@@ -270,7 +272,9 @@ Option overrides_option(std::vector<std::string>& overrides, const char* about) 
 Option jobs_option(int& jobs) {
     return {"--jobs,-j N", &jobs,
             "threads, several runs at once in each (default: one a processor)",
-            [](CLI::App&, CLI::Option& option) { option.check(CLI::Range(1, 1024)); }};
+            [](CLI::App&, CLI::Option& option) {
+                option.check(between(1, 1024).description(CLI::Range(1, 1024).get_description()));
+            }};
 }
 
 int default_jobs() {

@@ -102,8 +102,9 @@ def finish(app, failure):
         return
     out = pathlib.Path(app.outdir)
     shown_files = set()
-    for page in out.rglob("*.html"):  # "file:line" in a comment is no address
-        page.write_text(re.sub(r'<a class="reference external" href="file:[^"]*">(.*?)</a>', r"\1", page.read_text()))
+    for page in out.rglob("*.html"):  # "file:line" in a comment is no address; a file may not ask for a module
+        page.write_text(re.sub(r'<a class="reference external" href="file:[^"]*">(.*?)</a>', r"\1", page.read_text())
+                        .replace('<script type="module" src=', "<script defer src="))
         shown_files.update(re.findall(r'href="[./]*files/([^"]+)\.txt"', page.read_text()))
     for name in shown_files:
         shown = out / "files" / f"{name}.txt"
@@ -166,7 +167,7 @@ def repair_theme(static):
     if dark and "prefers-color-scheme" not in style:
         style += f'@media (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {{{dark[1]}}} }}\n'
     css.write_text(style)
-    if script.read_text().startswith("import Gumshoe"):
+    if script.read_text().startswith("import "):
         script.write_text(part.read_text() + re.sub(r"^import .*\n", "", script.read_text()))
 
 

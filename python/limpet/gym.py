@@ -198,14 +198,14 @@ class VectorFlights(_VectorEnv):
                                 np.tile(self.single_action_space.high, wide), dtype=np.float32)
         names = [name for name, _, _ in task.seen]
         self.flights = _core.Flights(num_envs, jobs or os.cpu_count() or 1, [*names, *task.judged])
-        self._zero = np.tile([zero for _, zero, _ in task.seen], wide)
+        self._zero: np.ndarray = np.tile([zero for _, zero, _ in task.seen], wide)
         self._scale = np.array([scale for _, _, scale in task.seen])
         self._since_start = np.array([name in task.since_start for name in names])
         columns = list(task.acts_on)
         self._acts_on = slice(columns[0], columns[-1] + 1, columns[1] - columns[0] if acted > 1 else 1)
         self._middle, self._span = np.array([task.acted[k] for k in columns]).T
         self._told = np.tile([*(middle for middle, _ in task.acted), float(task.pump_on), 0.0], wide)
-        self._seen = np.zeros((num_envs, observed + len(task.judged)))
+        self._seen: np.ndarray = np.zeros((num_envs, observed + len(task.judged)))
         self.steps = np.zeros(num_envs, int)
         self.random: list[np.random.Generator] = []
 
