@@ -37,7 +37,7 @@ class House(unittest.TestCase):
         for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "gazebo", ROOT / "ros", ROOT / "ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
-                if folder.parent.name == "limpet":
+                if folder.parent == ROOT / "limpet":
                     self.assertLess(page.count("\n"), PAGE_LINES)
                     self.assertIn("**Uses:**", page)
                     self.assertIn("**Start reading:**", page)
