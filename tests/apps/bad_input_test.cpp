@@ -177,8 +177,7 @@ TEST(BadInput, APortOfALiveViewIsAPortThatIsFree) {
 
 TEST(BadInput, OptionsSayWhatTheyTake) {
     const Bench bench;
-    expect_refused(bench, {"campaign", "x", "--jobs", "0"},
-                   {"--jobs: must be 1 to 1024, not '0'"});
+    expect_refused(bench, {"campaign", "x", "--jobs", "0"}, {"--jobs: must be 1 to 1024, not '0'"});
     expect_refused(bench, {"export", "iris", "--format", "foo"},
                    {"--format: foo not in {mjcf,sdf,urdf,world}"});
     expect_refused(bench, {"export", "iris", "--camera", "c", "--camera-rate", "nan"},
