@@ -99,17 +99,17 @@ looked_for() {
 }
 
 # configure_if_new TREE KNOWN COMMAND...: configures a tree that is not, and anew one that was when KNOWN was another:
-# what was not found then is looked for again; options that somebody has set stay.
+# what a search found or did not find is looked for again; options that somebody has set stay.
 configure_if_new() {
-    local tree=$limpet_root/build/$1 known=$2 set=()
+    local tree=$limpet_root/build/$1 known=$2
     shift 2
     [ -f "$tree/build.ninja" ] && [ "$known" = "$(cat "$tree/configured_with" 2>/dev/null)" ] && return
     if [ -f "$tree/CMakeCache.txt" ]; then
-        mapfile -t set < <(sed -nE 's/^((LIMPET_|CMAKE_CXX_|CMAKE_BUILD_TYPE)[A-Z_]*:(BOOL|STRING)=.*)$/-D\1/p' "$tree/CMakeCache.txt")
-        rm -f "$tree/CMakeCache.txt"
-        find "$tree/web" -maxdepth 1 -name '*.html' -empty -delete 2>/dev/null  # pages that had no Node
+        sed -i -E '/-NOTFOUND$/d; /^(__pkg_config_|pkgcfg_lib_|FIND_PACKAGE_MESSAGE_)/d
+            /^(CMAKE_|Python)/!{/^[^:]+:(FILEPATH|PATH)=\/(usr|lib)/d}' "$tree/CMakeCache.txt"
+        find "$tree/web" -maxdepth 1 -name '*.html' -empty -delete 2>/dev/null # pages that had no Node
     fi
-    step "configuring ($(basename "$tree")) ..." "$@" "${set[@]}"
+    step "configuring ($(basename "$tree")) ..." "$@"
     printf '%s\n' "$known" >"$tree/configured_with"
 }
 
@@ -145,4 +145,4 @@ tell_left_out() {
     return $broken
 }
 
-mkdir -p "$limpet_root/build"
+mkdir -p "$limpet_root/build" && : >>"$limpet_log" # by who calls, before any sudo

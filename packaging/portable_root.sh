@@ -61,6 +61,7 @@ prepare_portable() {
     made=$(cat "$limpet_root"/packaging/portable_{packages.txt,newer.txt,math,math.c} | cksum)
     [ "$(cat "$portable_root/made" 2>/dev/null)" != "$made" ] || return 0
     [ ! -d "$portable_root" ] || rm -rf --one-file-system "$portable_root" || exit 1
+    [ ! -e "$making" ] || rm -rf --one-file-system "$making" || exit 1 # of a first time that was broken off
     mkdir -p "$(dirname "$portable_root")"
     mirror=$(find_mirror bullseye) || exit 1
     LIMPET_MIRROR=$mirror root_folder "$making" bullseye --components=main --include="$names" \

@@ -246,7 +246,7 @@ void check_wanted(const std::string& wanted) {
 }
 
 OptionList file_option(std::string& wanted) {
-    return {{"what NAME|FILE", &wanted,
+    return {{"name NAME|FILE", &wanted,
              "name of a scenario, vehicle, campaign, companion, surface or sample;\n"
              "or a file of one, known by what is in it; *.mcap, *.ulg, *.csv"}};
 }

@@ -114,12 +114,13 @@ ExitCode compare_flights(const CompareOptions& options) {
     }
     if (!options.out.empty()) {
         const fs::path folder = make_folder(options.out);
-        const draw::Pictures pictures =
-            draw_comparison(reference, others, comparisons, folder / "figures", work);
+        const std::vector<fs::path> figures = drawn_where_possible([&] {
+            return draw_comparison(reference, others, comparisons, folder / "figures", work).files;
+        });
         write_file(folder / "compare.json", comparison_json(comparisons, checked) + "\n");
         write_file(
             folder / "index.html",
-            comparison_html(comparisons, checked, pictures.files, folder,
+            comparison_html(comparisons, checked, figures, folder,
                             fmt::format("limpet compare {}", fmt::join(options.recordings, " "))));
         if (!options.json && !options.markdown) {
             print_files({folder / "index.html", folder / "compare.json"});

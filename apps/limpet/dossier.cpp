@@ -7,6 +7,7 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/gnuplot.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -31,6 +32,7 @@ ExitCode make_dossier(const DossierChoices& options) {
                                               }
                                           },
                                       .stop = stop_on_signals()};
+    draw::gnuplot::must_be_installed();
     const OutFolder folder(options.out);
     try {
         const auto files = write_dossier(

@@ -8,6 +8,7 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/gnuplot.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -49,6 +50,7 @@ void fly_parts(const ReproduceOptions& options) {
                 }
             },
         .stop = stop_on_signals()};
+    draw::gnuplot::must_be_installed();
     const paper::Reproduction result = reproduce({.folder = make_folder(options.out),
                                                   .only = options.only,
                                                   .quick = options.quick,

@@ -106,4 +106,9 @@ void run(const std::filesystem::path& folder, const std::string& script) {
     }
 }
 
+void must_be_installed() {
+    const TemporaryFolder folder;
+    run(folder.path(), "");
+}
+
 }  // namespace limpet::draw::gnuplot

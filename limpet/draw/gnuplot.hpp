@@ -33,4 +33,8 @@ private:
 ///         does not accept the script
 void run(const std::filesystem::path& folder, const std::string& script);
 
+/// Asks before long work whose figures come last.
+/// @throws NotInstalled when there is no gnuplot
+void must_be_installed();
+
 }  // namespace limpet::draw::gnuplot

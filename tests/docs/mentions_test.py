@@ -73,11 +73,11 @@ class Mentions(unittest.TestCase):
     def test_a_page_stands_at_one_of_three_places(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "moon.md"
-            page.write_text("<!-- typed in: the moon -->\n```sh\nlimpet list surfaces\n```\n")
+            page.write_text("*Typed in the moon.*\n```sh\nlimpet list surfaces\n```\n")
             checked = subprocess.run([sys.executable, ROOT / "docs/refresh", "--check", "--build", BUILD, page], capture_output=True,
                                      text=True)
         self.assertEqual(checked.returncode, 1)
-        self.assertRegex(checked.stderr, r"moon\.md:1: typed in: the moon: no such place; there are the checkout's root, a folder")
+        self.assertRegex(checked.stderr, r"moon\.md:1: \*Typed in the moon\.\*: no such place; there are \*Typed in the checkout's root")
 
     def test_links_lead_somewhere(self):
         for page in PAGES:

@@ -4,6 +4,7 @@
 import pathlib
 import re
 import subprocess
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -124,6 +125,18 @@ class House(unittest.TestCase):
             with self.subTest(diff.name):
                 tried = subprocess.run(["git", "apply", "--check", diff], cwd=ROOT, capture_output=True, text=True)
                 self.assertEqual(tried.returncode, 0, tried.stderr)
+
+    def test_a_test_that_is_gone_is_seen(self):
+        """tests/count fails where a module has more tests or fewer than tests/counts.txt says, or is not there."""
+        counts = [line.split() for line in (ROOT / "tests/counts.txt").read_text().splitlines() if not line.startswith("all ")]
+        whole = [f"  Test #{k}: {module}.T{k}" for module, count in counts for k in range(int(count))]
+        for listed, code in ((whole, 0), (whole[1:], 1), (whole + ["  Test #9: core.Another"], 1), ([], 1)):
+            with self.subTest(len(listed)), tempfile.NamedTemporaryFile("w") as file:
+                file.write("\n".join(listed) + "\n")
+                file.flush()
+                counted = subprocess.run([ROOT / "tests/count", "--of", file.name], capture_output=True, text=True)
+                self.assertEqual(counted.returncode, code, counted.stderr)
+                self.assertEqual("tests/count --write" in counted.stderr, code == 1)
 
 
 if __name__ == "__main__":
