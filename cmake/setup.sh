@@ -98,18 +98,30 @@ looked_for() {
     command -v npm node
 }
 
-# configure_if_new TREE KNOWN COMMAND...: configures a tree that is not, and anew one that was when KNOWN was another:
-# what a search found or did not find is looked for again; options that somebody has set stay.
+# configure_if_new TREE KNOWN CMAKE...: configures a tree that is not, and anew one that was when KNOWN was another: from
+# nothing, so that what was not found then is looked for again. Options that somebody has set stay, unless CMAKE or the
+# presets say otherwise today. A tree that cannot be configured keeps its cache.
 configure_if_new() {
-    local tree=$limpet_root/build/$1 known=$2
+    local tree=$limpet_root/build/$1 known=$2 option name kept=() cache preset
+    cache=$tree/CMakeCache.txt
+    preset=$(sed -n "/\"name\": \"$(basename "$1")\",/,/}}/p" "$limpet_root/CMakePresets.json")
     shift 2
     [ -f "$tree/build.ninja" ] && [ "$known" = "$(cat "$tree/configured_with" 2>/dev/null)" ] && return
-    if [ -f "$tree/CMakeCache.txt" ]; then
-        sed -i -E '/-NOTFOUND$/d; /^(__pkg_config_|pkgcfg_lib_|FIND_PACKAGE_MESSAGE_)/d
-            /^(CMAKE_|Python)/!{/^[^:]+:(FILEPATH|PATH)=\/(usr|lib)/d}' "$tree/CMakeCache.txt"
-        find "$tree/web" -maxdepth 1 -name '*.html' -empty -delete 2>/dev/null # pages that had no Node
+    [ -f "$cache" ] || [ ! -f "$cache.before" ] || mv "$cache.before" "$cache"  # of a time that was broken off
+    if [ -f "$cache" ]; then
+        while read -r option; do
+            name=${option%%:*}
+            [[ " $*" == *" -D$name"[:=]* ]] || [[ $preset == *"\"$name\""* ]] || kept+=("-D$option")
+        done < <(grep -E '^((LIMPET_[A-Z0-9_]*|CMAKE_CXX_(FLAGS|COMPILER_LAUNCHER)|CMAKE_BUILD_TYPE|CPACK_PACKAGE_CONTACT):(BOOL|STRING)|(CMAKE_PREFIX_PATH|Python_EXECUTABLE):[A-Z]*)=.' "$cache" |
+            grep -v '^LIMPET_WERROR:BOOL=ON')  # which follows from the compiler
+        mv "$cache" "$cache.before"
+        find "$tree/web" -maxdepth 1 -name '*.html' -empty -delete 2>/dev/null  # pages that had no Node
     fi
-    step "configuring ($(basename "$tree")) ..." "$@"
+    (step "configuring ($(basename "$tree")) ..." "$@" "${kept[@]}") || {
+        [ ! -f "$cache.before" ] || mv "$cache.before" "$cache"
+        exit 1
+    }
+    rm -f "$cache.before"
     printf '%s\n' "$known" >"$tree/configured_with"
 }
 
