@@ -43,7 +43,7 @@ class Binary(Distribution):
 
 version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text()).group(1)
 (ROOT / "build").mkdir(exist_ok=True)
-setup(version=version, packages=["limpet"], package_dir={"limpet": "python/limpet"},
-      scripts=["python/command/limpet"],
+setup(version=version, packages=["limpet"], package_dir={"limpet": "adapters/python/limpet"},
+      scripts=["adapters/python/command/limpet"],
       package_data={"limpet": ["*.pyi", "py.typed"]}, distclass=Binary, cmdclass={"build_py": Build},
       options={"egg_info": {"egg_base": "build"}, "build": {"build_base": "build/setuptools"}})

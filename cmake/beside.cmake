@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 
 include(${CMAKE_CURRENT_LIST_DIR}/rooms.cmake)
-set(LIMPET_DATA_DIR ${LIMPET_ROOT})
+set(LIMPET_DATA_DIR ${LIMPET_ROOT}/data)
 find_package(Eigen3 3.3 REQUIRED)
 find_package(fmt REQUIRED)
 set(loaded)

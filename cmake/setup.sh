@@ -93,7 +93,7 @@ fetch_node_packages() {
 
 # looked_for: what a configuration may find on this machine, with versions: packages of the lists, and Node
 looked_for() {
-    (cd "$limpet_root" && grep -hv '^#' cmake/*packages.txt tests/packages.txt ros2/packages.txt) | sort -u |
+    (cd "$limpet_root" && grep -hv '^#' cmake/*packages.txt tests/packages.txt adapters/ros2/packages.txt) | sort -u |
         xargs dpkg-query -W -f '${db:Status-Abbrev}${Package} ${Version}\n' 2>/dev/null | grep '^ii'
     command -v npm node
 }

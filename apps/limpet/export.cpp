@@ -198,7 +198,7 @@ OptionList options_of(ExportOptions& options) {
         overrides_option(options.overrides, "turn one number of a scenario, as for fly"),
         {"--sensors", &options.sensors,
          "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
-        {"--ros", &options.ros, "world of a scenario only: flown over ROS topics (ros/README.md)"},
+        {"--ros", &options.ros, "world of a scenario only: flown over ROS topics (adapters/ros/README.md)"},
         {"--camera FOLDER", &options.camera,
          "world only: a camera saves its frames in this folder"},
         {"--view VIEW", &options.view,

@@ -54,7 +54,7 @@ OptionList options_of(RareOptions& options) {
     return {{"--rare EVENT", &options.event,
              "say how probable a rare event is, down to 1e-7: a metric and its\n"
              "limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
-             "outcome, as in failed_to_seal (campaigns/README.md)"},
+             "outcome, as in failed_to_seal (data/campaigns/README.md)"},
             {"--falling METRIC", &options.guide.falling,
              "that falls towards the outcome (failed_to_seal: cup_press_max_N)"},
             {"--rising METRIC", &options.guide.rising,

@@ -198,7 +198,7 @@ OptionList options_of(StudyOptions& options) {
              required()},
             {"--vary KEY=SPREAD", &options.vary,
              "an input: 0.8..1.2 is even between them, 1.1+-0.05 normal, or a\n"
-             "spread as in a campaign's file (campaigns/README.md)",
+             "spread as in a campaign's file (data/campaigns/README.md)",
              value_each_time()},
             overrides_option(options.overrides, "set a key of the scenario, with --vary"),
             {"--samples N", &options.samples, "N (inputs + 3) flights (default: 256)",

@@ -35,7 +35,7 @@ def below(room, seen=None):
 
 class House(unittest.TestCase):
     def test_every_room_opens_with_a_page(self):
-        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "gazebo", ROOT / "ros", ROOT / "ros2"]:
+        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent == ROOT / "limpet":
@@ -72,10 +72,10 @@ class House(unittest.TestCase):
                         self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
 
     def test_documents_name_sources_that_are_there(self):
-        tops = ("limpet", "apps", "gazebo", "ros", "ros2", "tests", "bench", "examples")
+        tops = ("limpet", "apps", "adapters", "tests", "bench", "examples")
         there = [f"/{path.relative_to(ROOT)}" for top in tops for path in sources(ROOT / top)]
         pages = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md"),
-                 ROOT / "ros/README.md"]
+                 ROOT / "adapters/ros/README.md"]
         for page in pages:
             for name in set(re.findall(r"`([\w/]+\.[ch]pp)`", page.read_text())):
                 if "NAME" not in name:
@@ -84,7 +84,7 @@ class House(unittest.TestCase):
 
     def test_the_models_page_names_tests_that_are_there(self):
         there = set()
-        for top in ("tests", "gazebo/tests", "ros/test", "ros2/test"):
+        for top in ("tests", "adapters/gazebo/tests", "adapters/ros/test", "adapters/ros2/test"):
             for path in (ROOT / top).rglob("*.cpp"):
                 there |= set(re.findall(r"^TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", path.read_text(), re.M))
         suites = {suite for suite, _ in there}
@@ -101,7 +101,7 @@ class House(unittest.TestCase):
         version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text())[1]
         minor = version.rsplit(".", 1)[0]
         for file, said in (("CITATION.cff", f"\nversion: {version}\n"), ("CHANGELOG.md", f"\n## {version}"),
-                           ("ros/package.xml", f"<version>{version}</version>"), ("ros/CMakeLists.txt", f"VERSION {version} "),
+                           ("adapters/ros/package.xml", f"<version>{version}</version>"), ("adapters/ros/CMakeLists.txt", f"VERSION {version} "),
                            ("examples/CMakeLists.txt", f"find_package(limpet {minor} "), ("docs/install.md", f"`liblimpet{minor}`")):
             with self.subTest(file):
                 self.assertIn(said, (ROOT / file).read_text())
