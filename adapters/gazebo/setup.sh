@@ -1,5 +1,5 @@
-# shellcheck shell=bash disable=SC2154  # limpet_root and limpet_log come from cmake/setup.sh
-# Sourced by adapters/gazebo/run and adapters/gazebo/test, after cmake/setup.sh: Gazebo 11 and ROS 1, where the machine
+# shellcheck shell=bash disable=SC2154  # limpet_root and limpet_log come from packaging/cmake/setup.sh
+# Sourced by adapters/gazebo/run and adapters/gazebo/test, after packaging/cmake/setup.sh: Gazebo 11 and ROS 1, where the machine
 # has them, else in a root folder of Debian 11 that is made once and entered by bubblewrap.
 #
 #   prepare_gazebo       sees to Gazebo 11; seconds when it is there
@@ -9,9 +9,9 @@
 #   enter_reads=(PATH...) further files and folders that it shows, read-only
 #
 # LIMPET_GAZEBO_ROOT   the root folder (~/.cache/limpet/gazebo-DIGEST of the package list)
-# LIMPET_MIRROR        where Debian comes from (cmake/mirror.sh)
+# LIMPET_MIRROR        where Debian comes from (packaging/cmake/mirror.sh)
 
-. "$limpet_root/cmake/mirror.sh"
+. "$limpet_root/packaging/cmake/mirror.sh"
 
 gazebo_suite=bullseye
 gazebo_packages=$limpet_root/adapters/gazebo/packages.txt

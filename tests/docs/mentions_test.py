@@ -20,7 +20,7 @@ def pages():
     refresh = importlib.util.module_from_spec(importlib.util.spec_from_loader("refresh", loader))
     sys.dont_write_bytecode = True
     loader.exec_module(refresh)
-    return [*refresh.pages(), *ROOT.glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md")]
+    return [*refresh.pages(), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md")]
 
 
 PAGES = sorted(set(pages()))

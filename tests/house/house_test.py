@@ -35,7 +35,7 @@ def below(room, seen=None):
 
 class House(unittest.TestCase):
     def test_every_room_opens_with_a_page(self):
-        for folder in [*ROOMS.values(), ROOT / "apps/limpet", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
+        for folder in [*ROOMS.values(), ROOT / "adapters/cli", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent == ROOT / "limpet":
@@ -72,7 +72,7 @@ class House(unittest.TestCase):
                         self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
 
     def test_documents_name_sources_that_are_there(self):
-        tops = ("limpet", "apps", "adapters", "tests", "bench", "examples")
+        tops = ("limpet", "adapters", "tests", "docs/examples")
         there = [f"/{path.relative_to(ROOT)}" for top in tops for path in sources(ROOT / top)]
         pages = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md"),
                  ROOT / "adapters/ros/README.md"]
@@ -100,14 +100,14 @@ class House(unittest.TestCase):
     def test_the_version_stands_in_one_place_and_others_say_the_same(self):
         version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text())[1]
         minor = version.rsplit(".", 1)[0]
-        for file, said in (("CITATION.cff", f"\nversion: {version}\n"), ("CHANGELOG.md", f"\n## {version}"),
+        for file, said in (("docs/CITATION.cff", f"\nversion: {version}\n"), ("docs/CHANGELOG.md", f"\n## {version}"),
                            ("adapters/ros/package.xml", f"<version>{version}</version>"), ("adapters/ros/CMakeLists.txt", f"VERSION {version} "),
-                           ("examples/CMakeLists.txt", f"find_package(limpet {minor} "), ("docs/install.md", f"`liblimpet{minor}`")):
+                           ("docs/examples/CMakeLists.txt", f"find_package(limpet {minor} "), ("docs/install.md", f"`liblimpet{minor}`")):
             with self.subTest(file):
                 self.assertIn(said, (ROOT / file).read_text())
 
     def test_the_log_of_changes_is_by_release_and_area(self):
-        releases = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)[1:]
+        releases = re.split(r"^## ", (ROOT / "docs/CHANGELOG.md").read_text(), flags=re.M)[1:]
         newest = releases[0]
         self.assertIn("> **What breaks", newest)
         before, *areas = re.split(r"^### ", newest, flags=re.M)
