@@ -1,4 +1,4 @@
-# One target a room; its link list is the dependency rule of the house (docs/design.md).
+# One target a module; its link list is the dependency rule of the architecture (docs/design.md).
 
 get_filename_component(LIMPET_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
@@ -9,9 +9,9 @@ set(LIMPET_COMMON_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <cstdint
     <fstream> <functional> <limits> <map> <memory> <optional> <span> <sstream> <string> <string_view>
     <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
 
-# limpet_precompile(TARGET [tests]): the headers come precompiled, for tests with GoogleTest's. Rooms,
+# limpet_precompile(TARGET [tests]): the headers come precompiled, for tests with GoogleTest's. Modules,
 # the shared library and tests have a holder each, with the compile options of those who use it; else the
-# compiler refuses. Programs are compiled as rooms are.
+# compiler refuses. Programs are compiled as modules are.
 function(limpet_precompile target)
   if(NOT LIMPET_PRECOMPILE)
     return()
@@ -38,13 +38,13 @@ function(limpet_precompile target)
     limpet_compile_options(${holder} ${ARGN})
     target_precompile_headers(${holder} PRIVATE ${headers})
   endif()
-  # As the holder has it: a room that does not link fmt must agree too.
+  # As the holder has it: a module that does not link fmt must agree too.
   target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   target_precompile_headers(${target} REUSE_FROM ${holder})
 endfunction()
 
 # A few files are compiled as one: their headers are read and their templates made once, and a build from
-# nothing takes much less. Names within the unnamed namespaces of a room, or of a test program, are
+# nothing takes much less. Names within the unnamed namespaces of a module, or of a test program, are
 # therefore its own once. One by one (preset dev) is quickest for work on a single file.
 set(LIMPET_UNITY 12 CACHE STRING "how many files are compiled as one; 1: each by itself")
 function(limpet_unity target)
@@ -72,14 +72,14 @@ function(limpet_install_if_built file what component)
 endif()" COMPONENT ${component})
 endfunction()
 
-# limpet_room(NAME SOURCES files... LINKS targets...)
-# A room `suction` becomes the target limpet_suction; LINKS takes rooms by their target names.
-function(limpet_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  add_library(limpet_${name} STATIC ${ROOM_SOURCES})
+# limpet_module(NAME SOURCES files... LINKS targets...)
+# A module `suction` becomes the target limpet_suction; LINKS takes modules by their target names.
+function(limpet_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(limpet_${name} STATIC ${MODULE_SOURCES})
   add_library(limpet::${name} ALIAS limpet_${name})
   target_include_directories(limpet_${name} PUBLIC ${LIMPET_ROOT})
-  target_link_libraries(limpet_${name} PUBLIC ${ROOM_LINKS} PRIVATE ${ROOM_PRIVATE_LINKS})
+  target_link_libraries(limpet_${name} PUBLIC ${MODULE_LINKS} PRIVATE ${MODULE_PRIVATE_LINKS})
   limpet_compile_options(limpet_${name})
   limpet_precompile(limpet_${name})
   limpet_unity(limpet_${name})
@@ -104,22 +104,22 @@ function(limpet_text variable file)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# limpet_test(ROOM SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a room.
+# limpet_test(MODULE SOURCES files... LINKS targets... [LABEL label] [ALONE]): one test program a module.
 # ALONE: nothing else runs beside it, for it lives in real time.
 # The label `pictures` is for tests that draw: the sanitizers leave them out, they would watch Mesa.
-function(limpet_test room)
+function(limpet_test module)
   cmake_parse_arguments(TEST "ALONE" "LABEL" "SOURCES;LINKS" ${ARGN})
   if(NOT TEST_LABEL)
     set(TEST_LABEL unit)
   endif()
-  add_executable(${room}_test ${TEST_SOURCES})
-  target_link_libraries(${room}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${room}_test PRIVATE LIMPET_SOURCE_DIR="${LIMPET_ROOT}"
+  add_executable(${module}_test ${TEST_SOURCES})
+  target_link_libraries(${module}_test PRIVATE ${TEST_LINKS} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${module}_test PRIVATE LIMPET_SOURCE_DIR="${LIMPET_ROOT}"
     LIMPET_SHIPPED_DIR="${LIMPET_ROOT}/data")
-  limpet_compile_options(${room}_test tests)
-  limpet_precompile(${room}_test tests)
-  limpet_unity(${room}_test)
-  gtest_discover_tests(${room}_test TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 60
+  limpet_compile_options(${module}_test tests)
+  limpet_precompile(${module}_test tests)
+  limpet_unity(${module}_test)
+  gtest_discover_tests(${module}_test TEST_PREFIX ${module}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${TEST_LABEL} RUN_SERIAL ${TEST_ALONE})
 endfunction()
 

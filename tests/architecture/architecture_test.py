@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the house promises of its rooms (docs/design.md): a page each, a size, arrows that run down."""
+"""What docs/design.md promises of the modules: a page each, a size, arrows that run down."""
 
 import pathlib
 import re
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ROOMS = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
+MODULES = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
 MOST_LINES = 4000
 PAGE_LINES = 20
 # A header of core's kind that lies with the bodies it speaks of: plant.hpp needs core alone.
@@ -19,23 +19,23 @@ def sources(folder):
     return sorted(path for path in folder.rglob("*") if path.suffix in (".cpp", ".hpp"))
 
 
-def links(room):
-    """The rooms that its CMakeLists.txt names."""
-    text = re.sub(r"#.*", "", (ROOMS[room] / "CMakeLists.txt").read_text())
-    return set(re.findall(r"limpet::(\w+)", text)) & set(ROOMS) - {room}
+def links(module):
+    """The modules that its CMakeLists.txt names."""
+    text = re.sub(r"#.*", "", (MODULES[module] / "CMakeLists.txt").read_text())
+    return set(re.findall(r"limpet::(\w+)", text)) & set(MODULES) - {module}
 
 
-def below(room, seen=None):
+def below(module, seen=None):
     seen = set() if seen is None else seen
-    for other in links(room) - seen:
+    for other in links(module) - seen:
         seen.add(other)
         below(other, seen)
     return seen
 
 
-class House(unittest.TestCase):
-    def test_every_room_opens_with_a_page(self):
-        for folder in [*ROOMS.values(), ROOT / "adapters/cli", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
+class Architecture(unittest.TestCase):
+    def test_every_module_opens_with_a_page(self):
+        for folder in [*MODULES.values(), ROOT / "adapters/cli", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent == ROOT / "limpet":
@@ -45,28 +45,28 @@ class House(unittest.TestCase):
                 for name in re.findall(r"`([\w/]+\.[ch]pp)`", page) + re.findall(r"\]\(([^)#:]+)\)", page):
                     self.assertTrue((folder / name).exists(), f"{name} is not there")
 
-    def test_no_room_is_two(self):
-        for name, folder in ROOMS.items():
+    def test_no_module_is_two(self):
+        for name, folder in MODULES.items():
             with self.subTest(name):
                 lines = sum(len(path.read_text().splitlines()) for path in sources(folder))
                 self.assertLess(lines, MOST_LINES)
 
     def test_every_arrow_runs_down(self):
-        for room, folder in ROOMS.items():
-            self.assertNotIn(room, below(room), "a circle")
-            may = below(room) | {room}
+        for module, folder in MODULES.items():
+            self.assertNotIn(module, below(module), "a circle")
+            may = below(module) | {module}
             for path in sources(folder):
                 for header in re.findall(r'#include "limpet/(\w+/[\w/]+\.hpp)"', path.read_text()):
-                    if (room, header) not in GRANTED:
+                    if (module, header) not in GRANTED:
                         with self.subTest(path.relative_to(ROOT)):
-                            self.assertIn(header.split("/")[0], may, f"{header}: its room is not in LINKS")
+                            self.assertIn(header.split("/")[0], may, f"{header}: its module is not in LINKS")
 
-    def test_a_room_is_its_namespace(self):
-        for room, folder in ROOMS.items():
-            name = "limpet" if room in ("core", "face") else f"limpet::{room}"
+    def test_a_module_is_its_namespace(self):
+        for module, folder in MODULES.items():
+            name = "limpet" if module in ("core", "face") else f"limpet::{module}"
             for path in sources(folder):
                 for opened in re.findall(r"^namespace (limpet\S*) \{", path.read_text(), re.M):
-                    if (room, opened) == ("sensors", "limpet::plant"):
+                    if (module, opened) == ("sensors", "limpet::plant"):
                         continue  # what it is granted above
                     with self.subTest(path.relative_to(ROOT)):
                         self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
