@@ -1,7 +1,7 @@
-# shellcheck shell=bash disable=SC2154,SC2016  # limpet_root comes from cmake/setup.sh
-# Sourced by packaging/portable, after cmake/setup.sh and packaging/root.sh: a root folder of Debian 11 with the compiler
+# shellcheck shell=bash disable=SC2154,SC2016  # limpet_root comes from packaging/cmake/setup.sh
+# Sourced by packaging/portable, after packaging/cmake/setup.sh and packaging/root.sh: a root folder of Debian 11 with the compiler
 # and all that the portable program is built of. Made once, in a minute; build/portable/root, or LIMPET_PORTABLE_ROOT.
-. "$limpet_root/cmake/mirror.sh"
+. "$limpet_root/packaging/cmake/mirror.sh"
 
 portable_root=${LIMPET_PORTABLE_ROOT:-$limpet_root/build/portable/root}
 

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2016
-# Sourced by packaging/test, arm64, portable and portable_test, after cmake/setup.sh: root folders of Debian, and commands in them.
+# Sourced by packaging/test, arm64, portable and portable_test, after packaging/cmake/setup.sh: root folders of Debian, and commands in them.
 
 # root_folder FOLDER SUITE OPTION...: by mmdebstrap, whole or not at all
 root_folder() {

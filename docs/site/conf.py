@@ -17,9 +17,9 @@ author = copyright = "The Limpet developers"
 release = re.search(r'kVersion = "([^"]+)"', (ROOT / "limpet/core/version.hpp").read_text())[1]
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 root_doc = "README"
-include_patterns = ["*.md", "docs/*.md", "docs/decisions/*.md", "docs/reference/*.md", "docs/site/*.md", "scenarios/README.md",
-                    "campaigns/README.md", "python/README.md", "samples/README.md", "ros/README.md"]
-exclude_patterns = ["build", "out", ".git", "web", "tests", "limpet", "gazebo", "ros2", "bench"]
+include_patterns = ["*.md", "docs/*.md", "docs/decisions/*.md", "docs/reference/*.md", "docs/site/*.md", "data/scenarios/README.md",
+                    "data/campaigns/README.md", "adapters/python/README.md", "data/samples/README.md", "adapters/ros/README.md"]
+exclude_patterns = ["build", "out", ".git", "adapters/web", "adapters/cli", "tests", "limpet", "adapters/gazebo", "adapters/ros2"]
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]
@@ -39,12 +39,12 @@ pygments_style = "friendly"
 
 CHAPTERS = {
     "Begin": ["docs/tutorial", "docs/commands", "docs/reading_a_flight"],
-    "Yours": ["docs/own_vehicle", "docs/own_controller", "scenarios/README", "campaigns/README", "python/README", "samples/README"],
-    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "ros/README", "docs/ros2", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
+    "Yours": ["docs/own_vehicle", "docs/own_controller", "data/scenarios/README", "data/campaigns/README", "adapters/python/README", "data/samples/README"],
+    "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "adapters/ros/README", "docs/ros2", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
     "Reference": ["docs/glossary", "docs/site/cpp", "docs/site/python"],
-    "How it is built": ["docs/design", "CONVENTIONS", "CONTRIBUTING", "docs/decisions", "CHANGELOG"],
+    "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions", "docs/CHANGELOG"],
 }
 
 

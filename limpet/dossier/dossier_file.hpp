@@ -28,7 +28,7 @@ struct Quantity {
     std::vector<std::string> evidence;  ///< ids of the paper's statements
 };
 
-/// A file like paper/dossier.yaml, whose head says what its keys are.
+/// A file like data/paper/dossier.yaml, whose head says what its keys are.
 struct DossierFile {
     std::string title;
     std::string question;

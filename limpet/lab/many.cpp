@@ -21,7 +21,7 @@ using nlohmann::json;
 constexpr std::uint32_t kMostRuns = 20'000;  ///< rows stay in memory, here and in the page
 constexpr std::size_t kMostRowsAtOnce = 5000;
 
-/// A campaign's file (campaigns/README.md) in JSON, which is YAML: the scenario over a grid.
+/// A campaign's file (data/campaigns/README.md) in JSON, which is YAML: the scenario over a grid.
 nlohmann::ordered_json file_text(const json& request, Asked asked) {
     const scenario::Scenario scenario =
         scenario::load_scenario(asked.scenario, {.overrides = asked.changes});

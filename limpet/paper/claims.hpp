@@ -29,7 +29,7 @@ struct PaperStatement {
 };
 
 /// Every number and qualitative statement of the paper's text, in its order: a file like
-/// paper/statements.yaml, whose head says what its keys are.
+/// data/paper/statements.yaml, whose head says what its keys are.
 /// @param measured  names of all evidence that there will be
 /// @throws InputError for what is not so: an unknown key, an id twice, a name without evidence
 [[nodiscard]] std::vector<PaperStatement> load_statements(const std::filesystem::path& file,

@@ -7,7 +7,7 @@
 namespace limpet::paper {
 
 /// A flight, or flights, of parts that are not at hand here, flown elsewhere and kept:
-/// paper/recorded/NAME.json, by paper/record or tests/px4/real.
+/// data/paper/recorded/NAME.json, by data/paper/record or tests/px4/real.
 /// @throws InputError when it is none
 [[nodiscard]] nlohmann::json read_recorded(const std::string& name);
 

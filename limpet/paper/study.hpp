@@ -30,7 +30,7 @@ struct Study {
 
     std::vector<PaperStatement> statements = {};
     Evidence evidence = {};
-    std::vector<report::PageBlock> blocks = {};  ///< of the part that runs, from paper/page.yaml
+    std::vector<report::PageBlock> blocks = {};  ///< of the part that runs, from data/paper/page.yaml
 
     /// The paper's number on what a part measures, and its tolerance.
     [[nodiscard]] std::pair<double, double> said(const std::string& name) const;
@@ -96,7 +96,7 @@ inline const std::vector<std::string> kSummaryCounts = {
 /// @return all of kSummaryCounts
 [[nodiscard]] Evidence counted(const std::vector<report::Claim>& claims);
 
-/// A file like paper/page.yaml, whose head says what its keys are.
+/// A file like data/paper/page.yaml, whose head says what its keys are.
 /// @param parts  all that there are; what they show and the file's tables and figures are the same
 /// @throws InputError for what is not so: an unknown key, a part, table or figure without a text or
 /// the other way about, a number that nobody measures, a format that is none

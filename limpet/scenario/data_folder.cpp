@@ -76,6 +76,20 @@ std::vector<std::string> names_in(const fs::path& folder) {
     return names;
 }
 
+std::string shipped_name_of(const fs::path& path) {
+    const fs::path folder = path.parent_path().filename();
+    if (folder.empty() || path.extension() != ".yaml") {
+        return {};
+    }
+    try {
+        std::error_code ignored;
+        const bool ships = fs::exists(data_root() / folder / path.filename(), ignored);
+        return ships ? path.stem().string() : std::string();
+    } catch (const InputError&) {  // no data at all
+        return {};
+    }
+}
+
 bool is_path(const std::string& wanted) {
     const fs::path path(wanted);
     return wanted.find('/') != std::string::npos || path.extension() == ".yaml" ||

@@ -10,7 +10,7 @@ namespace limpet::scenario {
 
 /// Folder with scenarios/, vehicles/ and surfaces.yaml: the environment's LIMPET_DATA, else
 /// share/limpet beside the folder of the program, or of the library that it has this from. A build
-/// tree has a link there to the sources; plugins and nodes, which are not installed, know theirs.
+/// tree has a link there to the checkout's data/; plugins and nodes, which are not installed, know theirs.
 /// @throws InputError when there is no surfaces.yaml
 [[nodiscard]] std::filesystem::path data_root();
 
@@ -24,6 +24,10 @@ namespace limpet::scenario {
 /// @throws InputError naming the nearest name and all there are
 [[nodiscard]] std::filesystem::path find_file(const std::string& wanted, std::string_view kind,
                                               const std::filesystem::path& folder);
+
+/// The name of a shipped file whose folder and file name a path ends in: "hover" of
+/// `scenarios/hover.yaml`, wherever that lies; empty where nothing like it ships.
+[[nodiscard]] std::string shipped_name_of(const std::filesystem::path& path);
 
 /// Whether find_file() takes it as a path.
 [[nodiscard]] bool is_path(const std::string& wanted);

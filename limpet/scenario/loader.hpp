@@ -22,7 +22,7 @@ struct LoadOptions {
 };
 
 /// Reads, overrides, derives and checks one experiment. A scenario's keys are described in
-/// scenarios/README.md.
+/// data/scenarios/README.md.
 /// @param wanted  path of a file, or a name in scenarios/ of the data
 /// @throws InputError one line: file:line (or --set), key, value, what is allowed
 [[nodiscard]] Scenario load_scenario(const std::string& wanted, const LoadOptions& options = {});

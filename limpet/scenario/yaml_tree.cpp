@@ -11,6 +11,7 @@
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/scenario/data_folder.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -265,6 +266,12 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
 }
 
 std::string read_yaml_text(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (const std::string name = shipped_name_of(path);
+        !name.empty() && !std::filesystem::exists(path, ignored)) {
+        throw InputError(fmt::format("{}: no such file; {} ships, and goes by that name alone",
+                                     shown_path(path), name));
+    }
     return read_file(path, kYamlFile, shown_path(path));
 }
 

@@ -20,7 +20,7 @@ def pages():
     refresh = importlib.util.module_from_spec(importlib.util.spec_from_loader("refresh", loader))
     sys.dont_write_bytecode = True
     loader.exec_module(refresh)
-    return [*refresh.pages(), *ROOT.glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md")]
+    return [*refresh.pages(), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md")]
 
 
 PAGES = sorted(set(pages()))
@@ -101,7 +101,7 @@ class Mentions(unittest.TestCase):
                                            page.read_text().replace("\\|", "|")):  # as a cell of a table has it
                 with self.subTest(f"{page.relative_to(ROOT)}: {quoted or bare}"):
                     for part in ([quoted] if "(" in quoted else quoted.split("|")) if quoted else [bare]:
-                        if part not in ("suction_cup", "X", "room"):  # of gazebo/test; patterns
+                        if part not in ("suction_cup", "X", "room"):  # of adapters/gazebo/test; patterns
                             self.assertTrue(any(re.search(part, name) for name in there), "no such test")
 
     def test_cells_of_tables_hide_their_bars(self):

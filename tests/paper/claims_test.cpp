@@ -74,7 +74,7 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
 }
 
 std::vector<PaperStatement> statements() {
-    return load_statements(std::filesystem::path(LIMPET_SOURCE_DIR) / "paper" / "statements.yaml",
+    return load_statements(std::filesystem::path(LIMPET_SHIPPED_DIR) / "paper" / "statements.yaml",
                            measured_names());
 }
 

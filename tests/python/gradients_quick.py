@@ -3,7 +3,7 @@
 is not what the mean does."""
 import sys
 
-sys.path.insert(0, sys.argv[1] + "/examples/python")
+sys.path.insert(0, sys.argv[1] + "/docs/examples/python")
 import gradients as example
 
 mean, single = example.of_the_mean(160, jobs=2), example.of_one_mission(1)

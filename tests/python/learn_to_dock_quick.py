@@ -2,7 +2,7 @@
 """The example learns: after a few generations it seals clearly more often than as it began."""
 import sys
 
-sys.path.insert(0, sys.argv[1] + "/examples/python")
+sys.path.insert(0, sys.argv[1] + "/docs/examples/python")
 import learn_to_dock as example
 from limpet import gym
 

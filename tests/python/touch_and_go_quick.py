@@ -2,7 +2,7 @@
 """The nose meets the wall again and again, and where it is level with the centre of mass its spring calms the pitch."""
 import sys
 
-sys.path.insert(0, sys.argv[1] + "/examples/python")
+sys.path.insert(0, sys.argv[1] + "/docs/examples/python")
 import touch_and_go as example
 
 rows = example.compare(1)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, sys.argv[1] + "/examples/python")
+sys.path.insert(0, sys.argv[1] + "/docs/examples/python")
 import limpet
 import tune_my_vehicle as example
 

@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/recorder.hpp"
 
-// Read by another's reader in web/test/ulog.test.ts; here, byte by byte.
+// Read by another's reader in adapters/web/test/ulog.test.ts; here, byte by byte.
 namespace limpet::record {
 namespace {
 

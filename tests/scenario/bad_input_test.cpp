@@ -194,6 +194,12 @@ TEST_F(BadInput, UnknownScenario) {
 TEST_F(BadInput, NoScenarioFile) {
     EXPECT_EQ(error_of([&] { return data_.load("scenarios/none.yaml"); }),
               "scenarios/none.yaml: cannot be read: No such file or directory");
+    EXPECT_EQ(error_of([&] { return data_.load("scenarios/hover.yaml"); }),
+              "scenarios/hover.yaml: no such file; hover ships, and goes by that name alone");
+    EXPECT_EQ(error_of([&] {
+                  return data_.load_text("mission: hover\nvehicle: ../vehicles/iris.yaml\n");
+              }),
+              "../vehicles/iris.yaml: no such file; iris ships, and goes by that name alone");
     const std::string folder = (data_.root() / "scenarios").string();
     EXPECT_EQ(error_of([&] { return data_.load(folder); }),
               folder + ": is a directory, not a file");
@@ -231,7 +237,7 @@ TEST_F(BadInput, AMountThatTheStepCannotHold) {
                                            "press_rig.damping=2"});
         return error_of([&] {
             return load_scenario("press_concrete",
-                                 {.overrides = overrides, .data_root = LIMPET_SOURCE_DIR});
+                                 {.overrides = overrides, .data_root = LIMPET_SHIPPED_DIR});
         });
     };
     EXPECT_THAT(error({}), testing::HasSubstr("simulation.step_s: 0.001 s is unstable for this "

@@ -14,7 +14,7 @@
 namespace limpet::scenario {
 namespace {
 
-const std::filesystem::path kRoot = LIMPET_SOURCE_DIR;
+const std::filesystem::path kRoot = LIMPET_SHIPPED_DIR;
 
 Scenario shipped(const std::string& name) {
     return load_scenario(name, {{}, {}, kRoot});
@@ -90,7 +90,7 @@ TEST(Scenarios, AllLoad) {
                                                 "perch_metal_valve", "perch_turbine_blade"}));
 }
 
-/// The fenced examples of scenarios/README.md are what the loader takes.
+/// The fenced examples of data/scenarios/README.md are what the loader takes.
 TEST(Scenarios, OfTheReadmeLoad) {
     std::ifstream file(kRoot / "scenarios" / "README.md");
     const std::string readme(std::istreambuf_iterator<char>(file), {});

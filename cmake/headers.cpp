@@ -1,3 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// What the precompiled headers belong to (cmake/rooms.cmake); nothing runs it.
-int main() {}

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "gazebo/vehicle_plugin.hpp"
-
-namespace limpet::gazebo11 {
-
-GZ_REGISTER_MODEL_PLUGIN(VehiclePlugin)
-
-}  // namespace limpet::gazebo11
