@@ -38,13 +38,13 @@ html_copy_source = False
 pygments_style = "friendly"
 
 CHAPTERS = {
-    "Begin": ["docs/tutorial", "docs/commands", "docs/reading_a_flight"],
+    "Begin": ["docs/README", "docs/tutorial", "docs/commands", "docs/reading_a_flight"],
     "Yours": ["docs/own_vehicle", "docs/own_controller", "data/scenarios/README", "data/campaigns/README", "adapters/python/README", "data/samples/README"],
     "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "adapters/ros/README", "docs/ros2", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
     "Reference": ["docs/glossary", "docs/site/cpp", "docs/site/python"],
-    "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions", "docs/CHANGELOG"],
+    "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions/README", "docs/CHANGELOG"],
 }
 
 
@@ -54,7 +54,7 @@ def contents():
     left = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if f"docs/{path.stem}" not in listed)
     chapters = {**CHAPTERS, **({"More": [f"docs/{name}" for name in left]} if left else {})}
     return "\n\n".join(f"```{{toctree}}\n:hidden:\n:caption: {caption}\n\n" + "\n".join(names) + "\n```"
-                       for caption, names in chapters.items()).replace("docs/decisions\n", "docs/site/decisions\n")
+                       for caption, names in chapters.items())
 
 
 def listed(folder):
@@ -70,7 +70,7 @@ def link_to(app, docname, text, target):
         return None  # a broken one is Sphinx's to tell
     name = str(path.relative_to(ROOT))
     if path.is_dir():
-        page = "docs/site/decisions" if name == "docs/decisions" else f"{name}/README"
+        page = f"{name}/README"
         if page not in app.env.found_docs:
             return f"{text} (`{name}/`)" if name not in text else text
         return f"[{text}](/{page}.md)"
@@ -88,10 +88,8 @@ def read(app, docname, source):
     text = "".join(pieces)
     if docname == root_doc:
         text += "\n" + contents() + "\n"
-    if docname == "docs/site/decisions":
-        text += listed("docs/decisions")
-    if docname == "docs/reference/README":
-        text += "\n" + listed("docs/reference")
+    if docname in ("docs/decisions/README", "docs/reference/README"):
+        text += "\n" + listed(docname.removesuffix("/README"))
     if docname == "docs/site/cpp":
         text += cpp_reference()
     source[0] = text

@@ -13,8 +13,8 @@
 namespace limpet::campaign {
 
 /// Many flights: a scenario, what differs from run to run, how many. Keys of the file are described
-/// in data/campaigns/README.md. It stands for itself once it is loaded: its scenario is spelled out, so
-/// that a run flies the same when vehicles, surfaces and scenarios have changed.
+/// in data/campaigns/README.md. It stands for itself once it is loaded: its scenario is spelled
+/// out, so that a run flies the same when vehicles, surfaces and scenarios have changed.
 struct Campaign {
     std::string name;
     std::string description;

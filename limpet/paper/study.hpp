@@ -30,7 +30,8 @@ struct Study {
 
     std::vector<PaperStatement> statements = {};
     Evidence evidence = {};
-    std::vector<report::PageBlock> blocks = {};  ///< of the part that runs, from data/paper/page.yaml
+    std::vector<report::PageBlock> blocks =
+        {};  ///< of the part that runs, from data/paper/page.yaml
 
     /// The paper's number on what a part measures, and its tolerance.
     [[nodiscard]] std::pair<double, double> said(const std::string& name) const;

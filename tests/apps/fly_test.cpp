@@ -74,7 +74,8 @@ TEST(Fly, IsTheSameFromEveryFolder) {
         put("vehicles/perching_hexa.yaml", "mass_kg: 9\n");
     }
     std::string first;
-    for (const fs::path& folder : {empty, foreign, fs::path(LIMPET_SHIPPED_DIR), fs::path("/")}) {
+    for (const fs::path& folder :
+         {empty, foreign, fs::path(LIMPET_SOURCE_DIR "/data"), fs::path("/")}) {
         const std::string out = (bench.folder() / "out").string();
         const Finished flight = bench.run_in(
             folder,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A viewer of the programs that run in real time; flights that are watched: adapters/web/test/live.test.ts.
+// A viewer of the programs that run in real time; flights that are watched:
+// adapters/web/test/live.test.ts.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

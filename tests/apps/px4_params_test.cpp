@@ -39,7 +39,7 @@ TEST(Px4ParamsVerb, TakesTheAutopilotOfAScenario) {
 TEST(Px4ParamsVerb, TakesAVehicleFileOfOnesOwn) {
     const Bench bench;
     const auto file = bench.write("mine.yaml", "base: iris\n");
-    std::filesystem::copy_file(std::filesystem::path(LIMPET_SHIPPED_DIR) / "vehicles/iris.yaml",
+    std::filesystem::copy_file(std::filesystem::path(LIMPET_SOURCE_DIR) / "data/vehicles/iris.yaml",
                                file, std::filesystem::copy_options::overwrite_existing);
     const Finished done = bench.run({"px4-params", "mine.yaml"});
     ASSERT_EQ(done.exit_code, 0) << done.err;

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kTableOne =
-    (std::filesystem::path(LIMPET_SHIPPED_DIR) / "samples/propeller_static.txt").string();
+    (std::filesystem::path(LIMPET_SOURCE_DIR) / "data/samples/propeller_static.txt").string();
 
 TEST(RotorVerb, PrintsTableOneOfTheGeneratedFile) {
     const Finished text = Bench{}.run({"rotor", kTableOne, "--diameter", "12in"});

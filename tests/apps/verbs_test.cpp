@@ -102,8 +102,9 @@ TEST(Verbs, HelpIsAVerbToo) {
 
 TEST(Verbs, AVehiclesPathCountsFromWhereTheCommandIsGiven) {
     const Bench bench;
-    std::filesystem::copy(std::filesystem::path(LIMPET_SHIPPED_DIR) / "vehicles/perching_uav.yaml",
-                          bench.folder() / "mine.yaml");
+    std::filesystem::copy(
+        std::filesystem::path(LIMPET_SOURCE_DIR) / "data/vehicles/perching_uav.yaml",
+        bench.folder() / "mine.yaml");
     const Finished own = bench.run({"fly", "hover", "--set", "vehicle=mine.yaml", "--no-record"});
     EXPECT_EQ(own.exit_code, 0) << own.err;
     const Finished none = bench.run({"fly", "hover", "--set", "vehicle=none.yaml", "--no-record"});
@@ -180,7 +181,7 @@ TEST(Verbs, CheckAsksWhichOfTwo) {
 
 TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     const Bench bench;
-    const std::filesystem::path root = LIMPET_SHIPPED_DIR;
+    const std::filesystem::path root = LIMPET_SOURCE_DIR "/data";
     for (const auto& [file, kind] :
          {std::pair("vehicles/perching_x8.yaml", "a good vehicle of 4.10 kg"),
           std::pair("campaigns/fig3.yaml", "a good campaign: 253 runs"),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What docs/design.md promises of the modules: a page each, a size, arrows that run down."""
 
+import os
 import pathlib
 import re
 import subprocess
@@ -11,12 +12,39 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODULES = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
 MOST_LINES = 4000
 PAGE_LINES = 20
+MOST_ENTRIES = 16  # of the repository's top
 # A header of core's kind that lies with the bodies it speaks of: plant.hpp needs core alone.
 GRANTED = {("sensors", "plant/plant.hpp")}
 
 
 def sources(folder):
     return sorted(path for path in folder.rglob("*") if path.suffix in (".cpp", ".hpp"))
+
+
+def tracked():
+    """Paths of the repository's files; of an unpacked archive those that nothing has built or flown."""
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True)
+    if listed.returncode == 0:
+        return [name for name in map(os.fsdecode, listed.stdout.split(b"\0")) if name and (ROOT / name).exists()]
+    return [str(path.relative_to(ROOT)) for path in ROOT.rglob("*")
+            if path.is_file() and path.relative_to(ROOT).parts[0] not in ("build", "out")]
+
+
+def tables(text, level):
+    """First cell of each row under each heading of a level: [(heading, cell)]. A heading is its first word."""
+    found, heading = [], None
+    for line in text.split("\n"):
+        if re.match(rf"#{{1,{level}}} ", line):
+            heading = re.match(r"#+ (\w+)", line)[1] if line.startswith("#" * level + " ") else None
+        cell = re.match(r"\| \[?([\w/]+)[\]| ]", line)
+        if heading and cell and cell[1] not in ("module", "adapter", "folder"):
+            found.append((heading, cell[1]))
+    return found
+
+
+def lines_of(path):
+    files = [path] if path.is_file() else [file for file in path.rglob("*") if file.suffix in (".cpp", ".hpp", ".h")]
+    return sum(len(file.read_text().splitlines()) for file in files)
 
 
 def links(module):
@@ -44,6 +72,55 @@ class Architecture(unittest.TestCase):
                     self.assertIn("**Start reading:**", page)
                 for name in re.findall(r"`([\w/]+\.[ch]pp)`", page) + re.findall(r"\]\(([^)#:]+)\)", page):
                     self.assertTrue((folder / name).exists(), f"{name} is not there")
+
+    def test_the_top_is_short(self):
+        top = {name.split("/")[0] for name in tracked()}
+        self.assertLessEqual(len(top), MOST_ENTRIES, sorted(top))
+
+    def test_every_module_stands_in_both_tables_under_the_same_wing(self):
+        read_here = tables((ROOT / "limpet/README.md").read_text(), 2)
+        design = (ROOT / "docs/design.md").read_text().split("\n## Modules\n")[1].split("\n## ")[0]
+        drawn = [row for row in tables(design, 3) if row[0] not in ("Adapters", "The", "Layers")]
+        self.assertEqual(sorted(module for _, module in read_here), sorted(MODULES), "limpet/README.md: each once")
+        self.assertEqual(sorted(module for _, module in drawn), sorted(MODULES), "docs/design.md: each once")
+        self.assertEqual(read_here, drawn, "the same wings, in the same order")
+
+    def test_limpets_page_names_files_that_are_there(self):
+        for row in re.findall(r"^\| \[(\w+)\]\((.*?)\) \|.*\| (.*) \|$", (ROOT / "limpet/README.md").read_text(), re.M):
+            module, page, start = row
+            for name in [*re.findall(r"`([\w/]+\.\w+)`", start), page.removeprefix(f"{module}/")]:
+                with self.subTest(f"{module}: {name}"):
+                    self.assertTrue((MODULES[module] / name).is_file(), "no such file")
+
+    def test_every_page_is_in_the_index(self):
+        index = (ROOT / "docs/README.md").read_text()
+        linked = {(ROOT / "docs" / link).resolve() for link in re.findall(r"\]\(([^)#\s]+)\)", index)}
+        pages = {*(ROOT / "docs").glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "data").glob("*/README.md"),
+                 *(ROOT / "docs").glob("*/README.md")} - {ROOT / "docs/README.md"}
+        self.assertEqual([str(page.relative_to(ROOT)) for page in sorted(pages - linked)], [], "not in docs/README.md")
+
+    def test_every_record_has_a_status(self):
+        folder = ROOT / "docs/decisions"
+        index = (folder / "README.md").read_text()
+        rows = {name: (title, status) for name, title, status in re.findall(r"^\| \[\d+\]\((\S+)\) \| (.*) \| (.*) \|$", index, re.M)}
+        records = {path.name: re.sub(r"^# \d+:? ", "", path.read_text().split("\n")[0]) for path in folder.glob("[0-9]*.md")}
+        self.assertEqual({name: title for name, (title, _) in rows.items()}, records, "a row for each record, with its title")
+        for name, (_, status) in rows.items():
+            with self.subTest(name):
+                self.assertRegex(status, r"^(holds|amended by \[|superseded by \[)")
+                self.assertTrue(all(other in records for other in re.findall(r"\]\((\S+?)\)", status)), status)
+        numbers = sorted(int(name[:4]) for name in records)
+        for missing in set(range(1, numbers[-1])) - set(numbers):
+            self.assertIn(f"{missing:04} has no record", index)
+
+    def test_records_count_lines_that_are_there(self):
+        for record in (ROOT / "docs/decisions").glob("*.md"):
+            for name, lines in re.findall(r"`([\w/.]+)`, ([\d,]+) lines", record.read_text()):
+                path = next((ROOT / top / name for top in ("", "limpet") if (ROOT / top / name).exists()), None)
+                with self.subTest(f"{record.name}: {name}"):
+                    self.assertIsNotNone(path, "no such file")
+                    counted = lines_of(path)
+                    self.assertLess(abs(counted - int(lines.replace(",", ""))), 0.2 * counted, f"{counted} lines")
 
     def test_no_module_is_two(self):
         for name, folder in MODULES.items():
@@ -121,8 +198,11 @@ class Architecture(unittest.TestCase):
         diffs = sorted((ROOT / "docs/extending").glob("*.diff"))
         self.assertEqual([diff.stem for diff in diffs],
                          ["autopilot", "engine", "pressure_model", "sensor", "verb"])
+        said = dict(re.findall(r"^\| \[(\w+)\.diff\].*\| (\d+) \| [^|]*\|$", (ROOT / "docs/extending/README.md").read_text(), re.M))
         for diff in diffs:
             with self.subTest(diff.name):
+                added = [line for line in diff.read_text().split("\n") if line.startswith("+") and not line.startswith("+++")]
+                self.assertEqual(said[diff.stem], str(len(added)), "docs/extending/README.md: lines")
                 tried = subprocess.run(["git", "apply", "--check", diff], cwd=ROOT, capture_output=True, text=True)
                 self.assertEqual(tried.returncode, 0, tried.stderr)
 

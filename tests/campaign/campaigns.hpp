@@ -38,7 +38,7 @@ inline std::string pendulums(int runs) {
 }
 
 inline Campaign campaign_of(const Bench& bench, const std::string& text) {
-    return load_campaign(bench.write("x.yaml", text).string(), LIMPET_SHIPPED_DIR);
+    return load_campaign(bench.write("x.yaml", text).string(), LIMPET_SOURCE_DIR "/data");
 }
 
 /// All rows, every cell as text.

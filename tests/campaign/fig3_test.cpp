@@ -23,7 +23,7 @@ struct Bin {
 };
 
 std::map<double, Bin> fly_all_trials() {
-    const Campaign campaign = load_campaign("fig3", LIMPET_SHIPPED_DIR);
+    const Campaign campaign = load_campaign("fig3", LIMPET_SOURCE_DIR "/data");
     EXPECT_EQ(campaign.runs, 253U);  // paper, III.B
     std::map<double, Bin> bins;
     for (std::uint32_t run = 0; run < campaign.runs; ++run) {
@@ -67,7 +67,8 @@ TEST(Fig3, NoneBelowFourTenthsAndNowhereBetterThanFromOneOn) {
 /// (baseline.md) and the surface's own distribution, within three standard deviations a bin.
 TEST(Fig3, ForceAloneIsBinomialAboutTheTwoMassReference) {
     const suction::Surface surface =
-        scenario::load_scenario("pendulum_concrete", {{}, {}, LIMPET_SHIPPED_DIR}).wall.surface;
+        scenario::load_scenario("pendulum_concrete", {{}, {}, LIMPET_SOURCE_DIR "/data"})
+            .wall.surface;
     const std::map<double, double> peak_N = {{0.2, 11.9}, {0.4, 18.9}, {0.6, 25.7}, {0.8, 32.5},
                                              {1.0, 39.1}, {1.1, 42.3}, {1.2, 45.8}};
     int compared = 0;

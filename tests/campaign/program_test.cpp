@@ -432,7 +432,8 @@ TEST(StudyProgram, ASayingOfTheCommandLineIsAnsweredInItsTerms) {
                                    "--out", "study"});
         return bench.run(more);
     };
-    (void)bench.write("p q.yaml", text_of(LIMPET_SHIPPED_DIR "/scenarios/pendulum_concrete.yaml"));
+    (void)bench.write("p q.yaml",
+                      text_of(LIMPET_SOURCE_DIR "/data/scenarios/pendulum_concrete.yaml"));
     const std::string speed = "pendulum.impact_speed_m_s=0.9..1.2";
     const std::pair<std::vector<std::string>, std::string> bad[] = {
         {{"--vary", speed, "--vary", speed},
@@ -456,9 +457,10 @@ TEST(StudyProgram, ASayingOfTheCommandLineIsAnsweredInItsTerms) {
 }
 
 TEST(CampaignProgram, ShippedCampaignsLoad) {
-    for (const auto& file : fs::directory_iterator(fs::path(LIMPET_SHIPPED_DIR) / "campaigns")) {
+    for (const auto& file :
+         fs::directory_iterator(fs::path(LIMPET_SOURCE_DIR "/data") / "campaigns")) {
         if (file.path().extension() == ".yaml") {
-            EXPECT_NO_THROW((void)load_campaign(file.path().string(), LIMPET_SHIPPED_DIR))
+            EXPECT_NO_THROW((void)load_campaign(file.path().string(), LIMPET_SOURCE_DIR "/data"))
                 << file.path();
         }
     }

@@ -40,7 +40,7 @@ CompanionConfig load(const std::string& text, const std::vector<std::string>& ov
     fs::create_directories(folder);
     const fs::path file = folder / "c.yaml";
     std::ofstream(file) << text;
-    return load_companion(file.string(), overrides, LIMPET_SHIPPED_DIR);
+    return load_companion(file.string(), overrides, LIMPET_SOURCE_DIR "/data");
 }
 
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -60,14 +60,16 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 TEST(CompanionConfig, ShippedOnesAreGood) {
     int count = 0;
-    for (const auto& file : fs::directory_iterator(fs::path(LIMPET_SHIPPED_DIR) / "companions")) {
-        const CompanionConfig config = load_companion(file.path().string(), {}, LIMPET_SHIPPED_DIR);
+    for (const auto& file :
+         fs::directory_iterator(fs::path(LIMPET_SOURCE_DIR "/data") / "companions")) {
+        const CompanionConfig config =
+            load_companion(file.path().string(), {}, LIMPET_SOURCE_DIR "/data");
         EXPECT_FALSE(config.description.empty()) << file.path();
         EXPECT_GE(describe(config).size(), 8U);
         ++count;
     }
     EXPECT_EQ(count, 2);
-    EXPECT_EQ(load_companion("simulation", {}, LIMPET_SHIPPED_DIR).name, "simulation");
+    EXPECT_EQ(load_companion("simulation", {}, LIMPET_SOURCE_DIR "/data").name, "simulation");
 }
 
 TEST(CompanionConfig, HasTheDefaultsThatItsFilesName) {
@@ -84,7 +86,7 @@ TEST(CompanionConfig, HasTheDefaultsThatItsFilesName) {
     EXPECT_FALSE(config.task.take_off);
     EXPECT_TRUE(has_serial(config));
     EXPECT_EQ(load(kGood + "sensors: {address: udp:14700}\n").sensors->port, 14700) << "named";
-    EXPECT_EQ(load_companion("simulation", {}, LIMPET_SHIPPED_DIR).sensors->port, 14600);
+    EXPECT_EQ(load_companion("simulation", {}, LIMPET_SOURCE_DIR "/data").sensors->port, 14600);
 }
 
 TEST(CompanionConfig, DerivesGuidanceFromTheVehicleAsAScenarioDoes) {

@@ -15,7 +15,7 @@ namespace limpet::companion {
 /// The shipped companion for a simulation, on ports that the kernel chooses.
 inline CompanionConfig rehearsal_config(const std::vector<std::string>& overrides = {}) {
     CompanionConfig config =
-        load_companion(LIMPET_SHIPPED_DIR "/companions/simulation.yaml", overrides);
+        load_companion(LIMPET_SOURCE_DIR "/data/companions/simulation.yaml", overrides);
     config.autopilot.port = 0;
     config.sensors->port = 0;
     return config;

@@ -175,7 +175,7 @@ CompanionResult replayed(const record::Recording& recording, const scenario::Sce
 TEST(Replay, OfASimulatedFlightGivesTheSameDecisions) {
     for (const char* name : {"perch_concrete", "perch_metal_valve", "failed_perch"}) {
         const scenario::Scenario scenario =
-            scenario::load_scenario(name, {.data_root = LIMPET_SHIPPED_DIR});
+            scenario::load_scenario(name, {.data_root = LIMPET_SOURCE_DIR "/data"});
         const std::filesystem::path file =
             std::filesystem::path(testing::TempDir()) / (std::string("replay_") + name + ".mcap");
         const simulation::FlightResult flown =

@@ -34,7 +34,7 @@ std::string complaint(const std::string& text) {
 
 TEST(PropellerFile, GivesTableOneBack) {
     const auto rows =
-        read_propeller_file(fs::path(LIMPET_SHIPPED_DIR) / "samples/propeller_static.txt");
+        read_propeller_file(fs::path(LIMPET_SOURCE_DIR) / "data/samples/propeller_static.txt");
     EXPECT_EQ(rows.size(), 12U);
     const RotorConstants fit = fitted_constants(rows, 0.3048, kAirDensity_kg_m3);
     EXPECT_NEAR(fit.motor_constant_kg_m, 2.5e-5, 1e-9);

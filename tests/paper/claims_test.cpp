@@ -74,8 +74,9 @@ TEST(Judge, DifferencesAreSimulatedLessPaper) {
 }
 
 std::vector<PaperStatement> statements() {
-    return load_statements(std::filesystem::path(LIMPET_SHIPPED_DIR) / "paper" / "statements.yaml",
-                           measured_names());
+    return load_statements(
+        std::filesystem::path(LIMPET_SOURCE_DIR "/data") / "paper" / "statements.yaml",
+        measured_names());
 }
 
 TEST(Statements, AreCompleteAndAppearOnce) {

@@ -237,7 +237,7 @@ TEST_F(BadInput, AMountThatTheStepCannotHold) {
                                            "press_rig.damping=2"});
         return error_of([&] {
             return load_scenario("press_concrete",
-                                 {.overrides = overrides, .data_root = LIMPET_SHIPPED_DIR});
+                                 {.overrides = overrides, .data_root = LIMPET_SOURCE_DIR "/data"});
         });
     };
     EXPECT_THAT(error({}), testing::HasSubstr("simulation.step_s: 0.001 s is unstable for this "

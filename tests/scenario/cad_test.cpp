@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(LIMPET_SHIPPED_DIR) / "vehicles/cad_uav";
+const fs::path kFolder = fs::path(LIMPET_SOURCE_DIR) / "data/vehicles/cad_uav";
 
 std::string text_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);

@@ -95,10 +95,10 @@ TEST(DataRoot, IsWhereTheEnvironmentSays) {
     EXPECT_EQ(error_of([] { return data_root(); }),
               "LIMPET_DATA=/no/such/folder: holds no surfaces.yaml");
     ::unsetenv("LIMPET_DATA");
-    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SHIPPED_DIR));
+    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SOURCE_DIR "/data"));
     const std::filesystem::path before = std::filesystem::current_path();
     std::filesystem::current_path(data.root());  // which holds data, and is not asked
-    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SHIPPED_DIR));
+    EXPECT_EQ(data_root(), std::filesystem::path(LIMPET_SOURCE_DIR "/data"));
     std::filesystem::current_path(before);
 }
 

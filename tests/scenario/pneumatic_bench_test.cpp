@@ -29,7 +29,7 @@ protected:
     /// A cup with the shipped pump, pressed on a shipped surface by hand.
     static identification::PressureTrace press_and_release(double step_s) {
         const TableTwo& row = GetParam();
-        suction::Surface surface = load_surface(row.name, LIMPET_SHIPPED_DIR);
+        suction::Surface surface = load_surface(row.name, LIMPET_SOURCE_DIR "/data");
         surface.seal_threshold_median_N = 10.0;
         surface.seal_threshold_sigma = 0.0;
         suction::CupModel model;
@@ -91,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(TableII, PneumaticBench,
 TEST(PneumaticSurfaces, OnlyMetalPassesTheVacuumSwitch) {
     const suction::PneumaticParameters parameters;
     for (const char* name : {"porous_concrete", "cinder_block", "turbine_blade", "metal"}) {
-        const suction::CupAir cup =
-            sealed_cup(parameters, load_surface(name, LIMPET_SHIPPED_DIR), 0.04, kPress_N, false);
+        const suction::CupAir cup = sealed_cup(
+            parameters, load_surface(name, LIMPET_SOURCE_DIR "/data"), 0.04, kPress_N, false);
         double pressure_Pa = kAtmosphere_Pa;
         for (int k = 0; k < 10000; ++k) {
             pressure_Pa = pressure_after(pump_of(parameters, true), cup, pressure_Pa, 1e-3);

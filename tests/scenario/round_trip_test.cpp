@@ -101,7 +101,7 @@ TEST(RoundTrip, AReplayDerivesAnew) {
 }
 
 TEST(RoundTrip, OfShippedScenarios) {
-    const std::filesystem::path root = LIMPET_SHIPPED_DIR;
+    const std::filesystem::path root = LIMPET_SOURCE_DIR "/data";
     for (const char* name : {"perch_concrete", "perch_metal_valve", "failed_perch", "hover"}) {
         SCOPED_TRACE(name);
         const Scenario first = load_scenario(name, {{}, {}, root});

@@ -14,7 +14,7 @@
 namespace limpet::scenario {
 namespace {
 
-const std::filesystem::path kRoot = LIMPET_SHIPPED_DIR;
+const std::filesystem::path kRoot = LIMPET_SOURCE_DIR "/data";
 
 Scenario shipped(const std::string& name) {
     return load_scenario(name, {{}, {}, kRoot});

@@ -10,7 +10,7 @@ namespace {
 TEST(CadFlight, EndsAsThatOfTheVehicleThatItWasMadeFrom) {
     const FlightResult made = fly(model_of("perch_concrete"));
     const FlightResult cad = fly(model_of(
-        "perch_concrete", {"vehicle=" LIMPET_SHIPPED_DIR "/vehicles/cad_uav/cad_uav.yaml"}));
+        "perch_concrete", {"vehicle=" LIMPET_SOURCE_DIR "/data/vehicles/cad_uav/cad_uav.yaml"}));
     EXPECT_EQ(cad.outcome, Outcome::released);
     ASSERT_EQ(cad.events.size(), made.events.size());
     for (std::size_t i = 0; i < made.events.size(); ++i) {

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "adapters/gazebo/suction_cup_plugin.hpp"
-#include "limpet/core/errors.hpp"
 #include "adapters/ros/gazebo/join_ros.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/topics.hpp"
+#include "limpet/core/errors.hpp"
 
 namespace limpet::ros {
 

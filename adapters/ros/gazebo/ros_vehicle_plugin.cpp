@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "adapters/gazebo/vehicle_plugin.hpp"
-#include "limpet/core/errors.hpp"
-#include "limpet/scenario/yaml_reader.hpp"
 #include "adapters/ros/gazebo/join_ros.hpp"
 #include "adapters/ros/src/ros_vehicle.hpp"
 #include "adapters/ros/src/setup.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::ros {
 namespace {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "adapters/ros/src/convert.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/suction/cup.hpp"
-#include "adapters/ros/src/convert.hpp"
 
 namespace limpet::ros {
 

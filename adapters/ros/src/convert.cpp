@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "adapters/ros/src/geometry.hpp"
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/scene.hpp"
-#include "adapters/ros/src/geometry.hpp"
 
 namespace limpet::ros {
 namespace {

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "adapters/ros/src/vehicle_mode.hpp"
 #include "limpet/core/signals/estimate.hpp"
 #include "limpet/core/signals/event.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/guidance/perching.hpp"
-#include "adapters/ros/src/vehicle_mode.hpp"
 
 namespace limpet::ros {
 

@@ -12,10 +12,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "limpet/companion/mechanism_out.hpp"
-#include "limpet/companion/session.hpp"
-#include "limpet/core/errors.hpp"
-#include "limpet/scenario/yaml_reader.hpp"
 #include "adapters/ros/src/autopilot_calls.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/diagnostics.hpp"
@@ -24,6 +20,10 @@
 #include "adapters/ros/src/setup.hpp"
 #include "adapters/ros/src/topics.hpp"
 #include "adapters/ros/src/vehicle_mode.hpp"
+#include "limpet/companion/mechanism_out.hpp"
+#include "limpet/companion/session.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::ros {
 namespace {

@@ -8,9 +8,9 @@
 #include <chrono>
 #include <utility>
 
+#include "adapters/ros/src/topics.hpp"
 #include "limpet/mavlink/translate.hpp"
 #include "limpet_ros/State.h"
-#include "adapters/ros/src/topics.hpp"
 
 namespace limpet::ros {
 namespace {

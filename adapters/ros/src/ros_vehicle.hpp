@@ -19,14 +19,14 @@
 #include <string>
 #include <vector>
 
-#include "limpet/core/time.hpp"
-#include "limpet/scenario/scenario.hpp"
-#include "limpet/simulation/flight.hpp"
 #include "adapters/ros/src/apart_lip.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/diagnostics.hpp"
 #include "adapters/ros/src/heard.hpp"
 #include "adapters/ros/src/scene_topics.hpp"
+#include "limpet/core/time.hpp"
+#include "limpet/scenario/scenario.hpp"
+#include "limpet/simulation/flight.hpp"
 
 namespace limpet::ros {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "adapters/ros/src/scene_topics.hpp"
 
-#include "limpet/simulation/flight_log.hpp"
 #include "adapters/ros/src/description.hpp"
 #include "adapters/ros/src/geometry.hpp"
 #include "adapters/ros/src/topics.hpp"
+#include "limpet/simulation/flight_log.hpp"
 
 namespace limpet::ros {
 namespace {

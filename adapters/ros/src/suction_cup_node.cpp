@@ -7,12 +7,12 @@
 #include <limpet_ros/PerchingEvent.h>
 #include <std_srvs/SetBool.h>
 
-#include "limpet/core/errors.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/diagnostics.hpp"
 #include "adapters/ros/src/setup.hpp"
 #include "adapters/ros/src/suction_cup.hpp"
 #include "adapters/ros/src/topics.hpp"
+#include "limpet/core/errors.hpp"
 
 namespace limpet::ros {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <atomic>
 
+#include "adapters/ros/src/ros_vehicle.hpp"
+#include "adapters/ros/src/setup.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/result_json.hpp"
-#include "adapters/ros/src/ros_vehicle.hpp"
-#include "adapters/ros/src/setup.hpp"
 
 namespace limpet::ros {
 namespace {

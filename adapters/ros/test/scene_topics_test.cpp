@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "limpet/scenario/loader.hpp"
-#include "limpet/simulation/flight_log.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/diagnostics.hpp"
+#include "limpet/scenario/loader.hpp"
+#include "limpet/simulation/flight_log.hpp"
 
 namespace limpet::ros {
 namespace {

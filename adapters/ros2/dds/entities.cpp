@@ -25,8 +25,8 @@
 #include <set>
 #include <utility>
 
-#include "limpet/core/errors.hpp"
 #include "adapters/ros2/dds/fast_dds.hpp"
+#include "limpet/core/errors.hpp"
 
 namespace limpet::ros2::dds {
 namespace {

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "adapters/ros2/dds/parameters.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
-#include "adapters/ros2/dds/parameters.hpp"
 
 namespace ros {
 namespace {

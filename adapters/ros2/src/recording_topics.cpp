@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
+#include "adapters/ros/src/heard.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/schema.hpp"
 #include "limpet/record/topics.hpp"
-#include "adapters/ros/src/heard.hpp"
 
 namespace limpet::ros {
 namespace {

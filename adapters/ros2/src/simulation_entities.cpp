@@ -8,10 +8,10 @@
 #include <regex>
 #include <utility>
 
-#include "limpet/record/ros_frames.hpp"
-#include "limpet/record/scene.hpp"
 #include "adapters/ros/src/convert.hpp"
 #include "adapters/ros/src/geometry.hpp"
+#include "limpet/record/ros_frames.hpp"
+#include "limpet/record/scene.hpp"
 
 namespace limpet::ros {
 namespace {

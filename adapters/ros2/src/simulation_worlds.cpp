@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "adapters/ros2/src/simulation_entities.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
-#include "adapters/ros2/src/simulation_entities.hpp"
 
 namespace limpet::ros {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "adapters/ros/src/ros_vehicle.hpp"
+#include "adapters/ros/src/setup.hpp"
 #include "limpet/record/message_sink.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/flight_log.hpp"
 #include "limpet/simulation/pace.hpp"
-#include "adapters/ros/src/ros_vehicle.hpp"
-#include "adapters/ros/src/setup.hpp"
 
 namespace limpet::ros {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated vehicle as a node of ROS 2, and the simulator as simulation_interfaces have it. It
-// hovers before the wall until somebody flies it. ROS 1's is adapters/ros/src/vehicle_node.cpp, which
-// Gazebo's services stand beside.
-#include "limpet/scenario/yaml_reader.hpp"
+// hovers before the wall until somebody flies it. ROS 1's is adapters/ros/src/vehicle_node.cpp,
+// which Gazebo's services stand beside.
 #include "adapters/ros2/src/recording_topics.hpp"
 #include "adapters/ros2/src/simulation_services.hpp"
 #include "adapters/ros2/src/simulator.hpp"
+#include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::ros {
 namespace {

@@ -13,10 +13,10 @@
 #include <map>
 #include <mutex>
 
-#include "peer.h"
 #include "adapters/ros2/dds/node.hpp"
 #include "adapters/ros2/test/peer.hpp"
 #include "adapters/ros2/test/process.hpp"
+#include "peer.h"
 
 namespace limpet::ros2 {
 namespace {

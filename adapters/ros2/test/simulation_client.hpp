@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "peer.h"
 #include "adapters/ros2/test/peer.hpp"
 #include "adapters/ros2/test/process.hpp"
+#include "peer.h"
 
 namespace limpet::ros2 {
 

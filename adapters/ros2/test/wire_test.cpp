@@ -17,10 +17,10 @@
 #include <mutex>
 #include <set>
 
-#include "peer.h"
 #include "adapters/ros2/dds/node.hpp"
 #include "adapters/ros2/dds/parameters.hpp"
 #include "adapters/ros2/test/peer.hpp"
+#include "peer.h"
 
 namespace limpet::ros2 {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// In place of adapters/ros/src/topics.hpp: what is ROS 1's own there (sums of definitions) means nothing to
-// ROS 2. Found first, see adapters/ros2/CMakeLists.txt.
+// In place of adapters/ros/src/topics.hpp: what is ROS 1's own there (sums of definitions) means
+// nothing to ROS 2. Found first, see adapters/ros2/CMakeLists.txt.
 
 #include <ros/ros.h>
 
