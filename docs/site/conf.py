@@ -43,7 +43,7 @@ CHAPTERS = {
     "Around it": ["docs/px4", "docs/companion", "docs/gazebo", "adapters/ros/README", "docs/ros2", "docs/live", "docs/lab", "docs/scaling", "docs/security"],
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
-    "Reference": ["docs/site/cpp", "docs/site/python"],
+    "Reference": ["docs/glossary", "docs/site/cpp", "docs/site/python"],
     "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions/README", "docs/CHANGELOG"],
 }
 
