@@ -2,7 +2,7 @@
 #pragma once
 
 /// Limpet, a multirotor that perches on walls with a suction cup: all that a program of your own
-/// includes. examples/ begins with five lines that fly; from there
+/// includes. docs/examples/ begins with five lines that fly; from there
 ///
 ///   scenario.hpp   load what to fly, change keys
 ///   flight.hpp     fly it, step it, save and branch it, put stations of your own in its loop

@@ -6,7 +6,7 @@
 #include "limpet/core/version.hpp"
 
 /// Of these headers: kVersion. Before 1.0 a minor version may change what an outsider implements or
-/// calls, and docs/CHANGELOG.md says how; a patch never does.
+/// calls, and CHANGELOG.md says how; a patch never does.
 namespace limpet {
 
 /// Of the library that is linked, to be held against kVersion.

@@ -19,7 +19,7 @@ extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 root_doc = "README"
 include_patterns = ["*.md", "docs/*.md", "docs/decisions/*.md", "docs/reference/*.md", "docs/site/*.md", "data/scenarios/README.md",
                     "data/campaigns/README.md", "adapters/python/README.md", "data/samples/README.md", "adapters/ros/README.md"]
-exclude_patterns = ["build", "out", ".git", "adapters/web", "adapters/cli", "tests", "limpet", "adapters/gazebo", "adapters/ros2"]
+exclude_patterns = ["build", "out", ".git", "adapters/web", "apps/limpet", "tests", "limpet", "adapters/gazebo", "adapters/ros2"]
 source_suffix = {".md": "markdown"}
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]
@@ -44,7 +44,7 @@ CHAPTERS = {
     "What it computes": ["docs/from_paper_to_code", "docs/models", "docs/parameters", "docs/evidence", "docs/validation", "docs/wind", "docs/faults",
                          "docs/reference/README"],
     "Reference": ["docs/glossary", "docs/site/cpp", "docs/site/python"],
-    "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions/README", "docs/CHANGELOG"],
+    "How it is built": ["docs/design", "docs/conventions", "docs/CONTRIBUTING", "docs/decisions/README", "CHANGELOG"],
 }
 
 

@@ -1,4 +1,4 @@
-# Sourced by ./run, ./test and tests/ci/run: installs what is missing, configures, builds.
+# Sourced by ./run, ./test and .ci/run: installs what is missing, configures, builds.
 # Quiet when all is there: a second run takes seconds.
 
 limpet_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

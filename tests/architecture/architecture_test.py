@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODULES = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
 MOST_LINES = 4000
 PAGE_LINES = 20
-MOST_ENTRIES = 16  # of the repository's top
+MOST_ENTRIES = 16  # of the repository's top, as `ls` shows it
 # A header of core's kind that lies with the bodies it speaks of: plant.hpp needs core alone.
 GRANTED = {("sensors", "plant/plant.hpp")}
 
@@ -63,7 +63,7 @@ def below(module, seen=None):
 
 class Architecture(unittest.TestCase):
     def test_every_module_opens_with_a_page(self):
-        for folder in [*MODULES.values(), ROOT / "adapters/cli", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
+        for folder in [*MODULES.values(), ROOT / "apps/limpet", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent == ROOT / "limpet":
@@ -74,7 +74,7 @@ class Architecture(unittest.TestCase):
                     self.assertTrue((folder / name).exists(), f"{name} is not there")
 
     def test_the_top_is_short(self):
-        top = {name.split("/")[0] for name in tracked()}
+        top = {name.split("/")[0] for name in tracked() if not name.startswith(".")}
         self.assertLessEqual(len(top), MOST_ENTRIES, sorted(top))
 
     def test_every_module_stands_in_both_tables_under_the_same_wing(self):
@@ -149,7 +149,7 @@ class Architecture(unittest.TestCase):
                         self.assertTrue(f"{opened}::".startswith(f"{name}::"), opened)
 
     def test_documents_name_sources_that_are_there(self):
-        tops = ("limpet", "adapters", "tests", "docs/examples")
+        tops = ("limpet", "apps", "adapters", "bench", "tests", "docs/examples")
         there = [f"/{path.relative_to(ROOT)}" for top in tops for path in sources(ROOT / top)]
         pages = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "docs/decisions").glob("*.md"),
                  ROOT / "adapters/ros/README.md"]
@@ -177,14 +177,14 @@ class Architecture(unittest.TestCase):
     def test_the_version_stands_in_one_place_and_others_say_the_same(self):
         version = re.search(r'kVersion = "([\d.]+)"', (ROOT / "limpet/core/version.hpp").read_text())[1]
         minor = version.rsplit(".", 1)[0]
-        for file, said in (("docs/CITATION.cff", f"\nversion: {version}\n"), ("docs/CHANGELOG.md", f"\n## {version}"),
+        for file, said in (("docs/CITATION.cff", f"\nversion: {version}\n"), ("CHANGELOG.md", f"\n## {version}"),
                            ("adapters/ros/package.xml", f"<version>{version}</version>"), ("adapters/ros/CMakeLists.txt", f"VERSION {version} "),
                            ("docs/examples/CMakeLists.txt", f"find_package(limpet {minor} "), ("docs/install.md", f"`liblimpet{minor}`")):
             with self.subTest(file):
                 self.assertIn(said, (ROOT / file).read_text())
 
     def test_the_log_of_changes_is_by_release_and_area(self):
-        releases = re.split(r"^## ", (ROOT / "docs/CHANGELOG.md").read_text(), flags=re.M)[1:]
+        releases = re.split(r"^## ", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)[1:]
         newest = releases[0]
         self.assertIn("> **What breaks", newest)
         before, *areas = re.split(r"^### ", newest, flags=re.M)

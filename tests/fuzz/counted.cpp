@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands before a reader and counts what it is given to read; `tests/ci/fuzz` calls the reader
+// Stands before a reader and counts what it is given to read; `.ci/fuzz` calls the reader
 // `read_one`.
 #undef LLVMFuzzerTestOneInput
 #include <cinttypes>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes through the parser, in pieces, then through every decoder and the check of signatures.
-// fuzz_test.cpp drives it with mutated frames under any compiler; tests/ci/run with libFuzzer, from
+// fuzz_test.cpp drives it with mutated frames under any compiler; .ci/run with libFuzzer, from
 // the seeds in corpus/, whose first byte says in what pieces the rest arrives.
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 //
 // What docs/scaling.md counts with. Alone: what a run costs a processor, and what a row costs the
 // file of results. As two ranks: what its message costs.
-//   build/release/tests/bench/scaling_bench [ROWS]
-//   mpirun -n 2 build/release/tests/bench/scaling_bench
+//   build/release/bench/scaling_bench [ROWS]
+//   mpirun -n 2 build/release/bench/scaling_bench
 
 #include <dlfcn.h>
 #include <fmt/core.h>

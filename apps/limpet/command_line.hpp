@@ -134,7 +134,7 @@ template <class Options, class Run>
             {}};
 }
 
-/// Every verb of the program, in the order of --help; adapters/cli/CMakeLists.txt lists them.
+/// Every verb of the program, in the order of --help; apps/limpet/CMakeLists.txt lists them.
 [[nodiscard]] std::vector<Verb> all_verbs();
 
 /// The program as a whole.

@@ -3,7 +3,7 @@
 // Free flight with motor lag alone, what simulators for learning do: rotors that follow commands,
 // their forces, rigid bodies; no sensors, no control, nothing to touch. Steps a second of one core,
 // alone and as many side by side as the machine's vectors hold, without and with slider and cup.
-//   build/release/tests/bench/free_flight_bench
+//   build/release/bench/free_flight_bench
 
 #include <fmt/core.h>
 

@@ -2,9 +2,9 @@
 //
 // What a whole perch_concrete flight costs: the bare physics, the loop around it, the recording of
 // it, and the loop on MuJoCo. Runs them interleaved and prints medians and their ratios;
-// instructions, station by station, are tests/bench/instructions'.
-//   build/release/tests/bench/flight_bench
-//   build/release/tests/bench/flight_bench --benchmark_repetitions=21
+// instructions, station by station, are bench/instructions'.
+//   build/release/bench/flight_bench
+//   build/release/bench/flight_bench --benchmark_repetitions=21
 
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>

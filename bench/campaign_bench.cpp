@@ -2,7 +2,7 @@
 //
 // What two workers gain over one on a campaign of whole perch_concrete flights, database and all.
 // Runs them in turn and compares the best of each; meaningful only while the cores are free:
-//   build/release/tests/bench/campaign_bench
+//   build/release/bench/campaign_bench
 
 #include <fmt/core.h>
 
