@@ -6,7 +6,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/paper/parallel.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/plant/reduced_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"

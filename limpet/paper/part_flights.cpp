@@ -6,8 +6,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/paper/flights.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/record/story.hpp"

@@ -10,9 +10,9 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "limpet/mavlink/telemetry_messages.hpp"
+#include "limpet/ground_station/telemetry_messages.hpp"
 #include "limpet/wire/transport.hpp"
 
 namespace limpet::px4 {
@@ -19,8 +19,8 @@ mavlink::Link open_hil(const StandInOptions& options) {
             {.system = options.system, .component = mavlink::kAutopilotComponent}};
 }
 
-std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& rows) {
-    std::vector<mavlink::ServedParameter> parameters;
+std::vector<ground_station::ServedParameter> served(const std::vector<BoundParameter>& rows) {
+    std::vector<ground_station::ServedParameter> parameters;
     for (const BoundParameter& row : rows) {
         parameters.push_back({.name = std::string(row.name),
                               .value = row.value.get(),
@@ -34,7 +34,7 @@ std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& 
 
 mavlink::AutopilotVersion version_of_stand_in() {
     constexpr std::uint32_t kBehavesAs = 0x010F01FF;  // PX4 1.15.1, released
-    mavlink::AutopilotVersion version = mavlink::autopilot_version(kBehavesAs);
+    mavlink::AutopilotVersion version = ground_station::autopilot_version(kBehavesAs);
     static_assert(kStandInMark.size() == sizeof(version.flight_custom_version));
     std::copy(kStandInMark.begin(), kStandInMark.end(), version.flight_custom_version.begin());
     return version;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "limpet/ground_station/parameter_server.hpp"
 #include "limpet/mavlink/link.hpp"
-#include "limpet/mavlink/parameter_server.hpp"
 #include "limpet/px4/instance.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 #include "limpet/px4/stand_in_streams.hpp"
@@ -86,7 +86,7 @@ private:
 
     StandInOptions options_;
     autopilot::AutopilotModel model_;
-    mavlink::ParameterServer parameters_;
+    ground_station::ParameterServer parameters_;
     mavlink::Link hil_;
     std::optional<mavlink::Link> onboard_;
     StandInFlight flight_;

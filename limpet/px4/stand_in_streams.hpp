@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "limpet/ground_station/stream_timing.hpp"
 #include "limpet/mavlink/link.hpp"
-#include "limpet/mavlink/stream_timing.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 
 /// What the stand-in tells of itself, at rates that a peer may change. Simulated time.
@@ -15,7 +15,7 @@ namespace limpet::px4 {
 struct TelemetryStreams {
     struct Stream {
         std::uint32_t id = 0;
-        mavlink::StreamTiming timing;
+        ground_station::StreamTiming timing;
     };
     std::array<Stream, 5> streams;
     TelemetryStreams();
