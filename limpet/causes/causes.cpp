@@ -212,15 +212,14 @@ stability::Overrides overrides_of(const CausePoint& point) {
     return all;
 }
 
-PointSwing swing_of(const CausePoint& point) {
-    try {
-        const stability::Mode mode = stability::linear_swing(kMetal, overrides_of(point));
-        return is_swing(mode) || mode.growth_1_s > 0.0
-                   ? PointSwing{true, mode.growth_1_s, mode.frequency_Hz}
-                   : PointSwing{.rests = true};
-    } catch (const InternalError&) {  // no rest
+PointSwing swing_of(const CausePoint& point, const stability::SwingOf& linear) {
+    const std::optional<stability::Mode> mode = linear(kMetal, overrides_of(point));
+    if (!mode) {
         return {};
     }
+    return is_swing(*mode) || mode->growth_1_s > 0.0
+               ? PointSwing{true, mode->growth_1_s, mode->frequency_Hz}
+               : PointSwing{.rests = true};
 }
 
 }  // namespace limpet::causes

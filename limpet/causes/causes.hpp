@@ -58,7 +58,9 @@ struct PointSwing {
     double growth_1_s = kNone_1_s;
     double frequency_Hz = 0.0;
 };
-[[nodiscard]] PointSwing swing_of(const CausePoint& point);
+/// @param linear  in place of the linearised loop
+[[nodiscard]] PointSwing swing_of(const CausePoint& point,
+                                  const stability::SwingOf& linear = stability::linear_swing);
 
 /// How large the swing becomes: it begins at `start_deg`, is pushed by the wall's air, and grows.
 /// A flight's is that with a factor exp(scatter z), z standard normal.

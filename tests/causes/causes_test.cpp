@@ -42,8 +42,8 @@ TEST(Causes, ADrawsSwingsAreTheLinearisedLoops) {
                 return stability::linear_swing("perch_metal", overrides_of(draw.point));
             };
             if (!draw.swing.rests) {
-                EXPECT_THROW((void)linear(), InternalError) << set;
-            } else if (const stability::Mode mode = linear();
+                EXPECT_FALSE(linear()) << set;
+            } else if (const stability::Mode mode = linear().value();
                        is_swing(mode) || mode.growth_1_s > 0.0) {
                 EXPECT_EQ(draw.swing.growth_1_s, mode.growth_1_s) << set;
                 EXPECT_EQ(draw.swing.frequency_Hz, mode.frequency_Hz) << set;
@@ -57,6 +57,18 @@ TEST(Causes, ADrawsSwingsAreTheLinearisedLoops) {
     // As simulated it swings with neither motors nor air.
     constexpr std::size_t kMotorsAndAir = 0b100001;
     EXPECT_EQ(prior[kMotorsAndAir][1].simulated.growth_1_s, prior[0][1].swing.growth_1_s);
+}
+
+TEST(Causes, AFaultComesOutAndNoRestIsNone) {
+    const auto with = [](const stability::SwingOf& linear) {
+        return swing_of(as_simulated(), linear);
+    };
+    EXPECT_THROW((void)with([](const auto&, const auto&) -> std::optional<stability::Mode> {
+                     throw InternalError("a broken promise");
+                 }),
+                 InternalError);
+    EXPECT_FALSE(with([](const auto&, const auto&) { return std::nullopt; }).rests);
+    EXPECT_TRUE(swing_of(as_simulated()).rests);
 }
 
 /// Where nothing is pushed and nothing grows the swing stays; a constant density adds up.
