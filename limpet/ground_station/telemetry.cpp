@@ -16,9 +16,6 @@ namespace {
 
 constexpr int kFramesAnUpdate = 100;  // a peer that floods must not stop the flight
 
-// MAV_CMD
-constexpr std::uint16_t kRequestAutopilotCapabilities = 520;
-
 Severity severity_of(EventName name) {
     const bool amiss = name == EventName::contact_lost || name == EventName::retreat_started ||
                        name == EventName::aborted;
@@ -144,11 +141,11 @@ void Telemetry::handle(const Frame& frame, const VehicleView& vehicle) {
 
 void Telemetry::answer(const CommandLong& command, const Frame& frame, const VehicleView& vehicle) {
     std::uint8_t result = MavResult::unsupported;
-    if (command.command == kCommandRequestMessage) {
+    if (command.command == MavCmd::request_message) {
         result = request_message(command.param1, vehicle);
-    } else if (command.command == kRequestAutopilotCapabilities) {
+    } else if (command.command == MavCmd::request_autopilot_capabilities) {
         result = request_message(AutopilotVersion::kId, vehicle);
-    } else if (command.command == kCommandMessageInterval) {
+    } else if (command.command == MavCmd::set_message_interval) {
         result = set_interval(command.param1, command.param2);
     }
     post(acknowledgement(command, result, frame));

@@ -10,22 +10,11 @@ namespace {
 constexpr std::uint16_t kNoCell = 65535;
 constexpr std::int16_t kUnknownTemperature = 32767;
 constexpr double kSilence_s = 1.0;  // assumed: slower than every sensor here, GPS at 5 Hz
-/// MAV_PROTOCOL_CAPABILITY: parameters by their bytes 16 (all of ours are floats), MAVLink 2
-constexpr std::uint64_t kCapabilities = 16 + 8192;
+/// Parameters by their bytes (all of ours are floats), MAVLink 2.
+constexpr std::uint64_t kCapabilities =
+    MavProtocolCapability::param_encode_bytewise | MavProtocolCapability::mavlink2;
 
-/// MAV_SYS_STATUS_SENSOR
-enum SensorBit : std::uint32_t {
-    kGyro = 0x1,
-    kAccelerometer = 0x2,
-    kMagnetometer = 0x4,
-    kBarometer = 0x8,
-    kGps = 0x20,
-    kVisionPosition = 0x80,
-    kLaserPosition = 0x100,
-    kMotors = 0x8000,
-    kEstimator = 0x200000,
-    kBattery = 0x2000000,
-};
+using Bit = MavSysStatusSensor;
 
 struct Sensors {
     std::uint32_t present = 0;
@@ -47,7 +36,8 @@ Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mo
                                               : rotors == 12 ? MavType::dodecarotor
                                                              : MavType::quadrotor),
             .autopilot = MavAutopilot::px4,
-            .base_mode = static_cast<std::uint8_t>(mode_flags | (armed ? kArmedFlag : 0)),
+            .base_mode =
+                static_cast<std::uint8_t>(mode_flags | (armed ? MavModeFlag::safety_armed : 0)),
             .custom_mode = custom_mode,
             .system_status = armed ? MavState::active : MavState::standby,
             .mavlink_version = kMavlinkVersion};
@@ -56,17 +46,17 @@ Heartbeat heartbeat(bool armed, std::uint8_t mode_flags, std::uint32_t custom_mo
 SysStatus sys_status(const VehicleView& vehicle, std::uint64_t damaged) {
     const Readings& readings = vehicle.readings;
     const double now_s = vehicle.time_s;
-    Sensors sensors{.present = kMotors | kEstimator,
-                    .healthy = kMotors | (vehicle.estimate.valid ? kEstimator : 0U)};
-    sensors.add(kGyro | kAccelerometer, readings.imu, now_s);
-    sensors.add(kMagnetometer, readings.magnetometer, now_s);
-    sensors.add(kBarometer, readings.barometer, now_s);
-    sensors.add(kGps, readings.gps, now_s);
-    sensors.add(kVisionPosition, readings.motion_capture, now_s);
+    Sensors sensors{.present = Bit::motor_outputs | Bit::ahrs,
+                    .healthy = Bit::motor_outputs | (vehicle.estimate.valid ? Bit::ahrs : 0U)};
+    sensors.add(Bit::sensor_3d_gyro | Bit::sensor_3d_accel, readings.imu, now_s);
+    sensors.add(Bit::sensor_3d_mag, readings.magnetometer, now_s);
+    sensors.add(Bit::absolute_pressure, readings.barometer, now_s);
+    sensors.add(Bit::gps, readings.gps, now_s);
+    sensors.add(Bit::vision_position, readings.motion_capture, now_s);
     // One bit for two: both must speak. No echo is no fault.
-    sensors.add(kLaserPosition, readings.lidar_left, now_s,
+    sensors.add(Bit::laser_position, readings.lidar_left, now_s,
                 readings.lidar_right.fresh(now_s, kSilence_s));
-    sensors.add(kBattery, readings.battery, now_s);
+    sensors.add(Bit::battery, readings.battery, now_s);
     const BatteryReading& battery = readings.battery.value;
     const bool known = readings.battery.ever();
     return {.onboard_control_sensors_present = sensors.present,

@@ -83,7 +83,7 @@ void StandIn::boot() {
     // PX4 asks for the truth, and needs no answer
     constexpr float kTruthInterval_us = 5000.0F;
     (void)hil_.send(
-        mavlink::CommandLong{.command = mavlink::kCommandMessageInterval,
+        mavlink::CommandLong{.command = mavlink::MavCmd::set_message_interval,
                              .param1 = static_cast<float>(mavlink::HilStateQuaternion::kId),
                              .param2 = kTruthInterval_us});
     (void)hil_.send(heartbeat(flight_));
@@ -196,14 +196,14 @@ void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::F
         return;
     }
     CommandResult result = CommandResult::unsupported;
-    if (command.command == mavlink::kCommandMessageInterval) {
+    if (command.command == mavlink::MavCmd::set_message_interval) {
         result = set_interval(streams_, command.param1, command.param2) ? CommandResult::accepted
                                                                         : CommandResult::failed;
-    } else if (command.command == mavlink::kCommandRequestMessage &&
+    } else if (command.command == mavlink::MavCmd::request_message &&
                command.param1 == static_cast<float>(mavlink::AutopilotVersion::kId)) {
         (void)link.send(version_of_stand_in());
         result = CommandResult::accepted;
-    } else if (command.command == mavlink::kCommandRequestMessage &&
+    } else if (command.command == mavlink::MavCmd::request_message &&
                command.param1 == static_cast<float>(mavlink::GpsGlobalOrigin::kId)) {
         result = tell_origin(link) ? CommandResult::accepted : CommandResult::denied;
     } else if (const auto obeyed = obey(options_.parameters, flight_, command)) {

@@ -180,12 +180,12 @@ void hear(StandInFlight& flight, const mavlink::SetAttitudeTarget& message) {
 std::optional<CommandResult> obey(const StandInParameters& parameters, StandInFlight& flight,
                                   const mavlink::CommandLong& message) {
     const Situation now = situation(flight);
-    if (message.command == mavlink::kCommandArm) {
+    if (message.command == mavlink::MavCmd::component_arm_disarm) {
         const bool by_force = message.param2 == mavlink::kForce;
         return message.param1 == 1.0F ? arm(parameters, flight.manners, now, by_force)
                                       : disarm(flight.manners, now, by_force);
     }
-    if (message.command != mavlink::kCommandSetMode) {
+    if (message.command != mavlink::MavCmd::do_set_mode) {
         return std::nullopt;
     }
     const bool hold =

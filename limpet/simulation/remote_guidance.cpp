@@ -103,12 +103,9 @@ void RemoteGuidance::send_heartbeat() {
     constexpr int kHeartbeat_Hz = 1;
     if (due(clock_ - 1, kHeartbeat_Hz)) {  // at once: who listens learns where we are
         mavlink::Heartbeat heartbeat;
-        constexpr std::uint8_t kOnboardController = 18;  // MAV_TYPE
-        constexpr std::uint8_t kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
-        constexpr std::uint8_t kActive = 4;              // MAV_STATE
-        heartbeat.type = kOnboardController;
-        heartbeat.autopilot = kNoAutopilot;
-        heartbeat.system_status = kActive;
+        heartbeat.type = mavlink::MavType::onboard_controller;
+        heartbeat.autopilot = mavlink::MavAutopilot::invalid;
+        heartbeat.system_status = mavlink::MavState::active;
         (void)wires_.sensors->send(heartbeat, kNoWait);
     }
 }
@@ -143,8 +140,6 @@ void RemoteGuidance::end(Outcome outcome, std::string_view reason) {
 
 void RemoteGuidance::hear_command(const mavlink::Frame& frame,
                                   const mavlink::CommandLong& command) {
-    constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
-    constexpr std::uint8_t kUnsupported = 3;
     const auto wanted = mavlink::mechanism_command(command, mechanism_);
     if (wanted && wires_.mechanism == nullptr) {
         mechanism_ = *wanted;
@@ -155,7 +150,7 @@ void RemoteGuidance::hear_command(const mavlink::Frame& frame,
     }
     mavlink::CommandAck ack;
     ack.command = command.command;
-    ack.result = wanted ? kAccepted : kUnsupported;
+    ack.result = wanted ? mavlink::MavResult::accepted : mavlink::MavResult::unsupported;
     ack.target_system = frame.system;
     ack.target_component = frame.component;
     (void)wires_.sensors->send(ack, kNoWait);
@@ -192,7 +187,7 @@ void RemoteGuidance::hear(const mavlink::Frame& frame, double time_s,
             state_since_s_ = time_s;
         }
     } else if (const auto heartbeat = mavlink::decode<mavlink::Heartbeat>(frame)) {
-        if (heartbeat->system_status == mavlink::kStatePowerOff) {
+        if (heartbeat->system_status == mavlink::MavState::poweroff) {
             end(Outcome::timed_out, last_words_);
         }
     }

@@ -124,7 +124,7 @@ TEST_F(RemoteGuidanceOverMavlink, PumpAndValveObeyAreAnsweredAndKeepTheirStateIn
     EXPECT_FALSE(guidance.setpoint.valve_open);
     const auto ack = answer();
     ASSERT_TRUE(ack);
-    EXPECT_EQ(ack->command, mavlink::kCommandSetActuator);
+    EXPECT_EQ(ack->command, mavlink::MavCmd::do_set_actuator);
     EXPECT_EQ(ack->result, 0);
     EXPECT_EQ(ack->target_component, kCompanion.component);
 
@@ -173,7 +173,7 @@ TEST_F(RemoteGuidanceOverMavlink, ACompanionThatHandsBackEndsItWithItsLastWords)
     mavlink::set_text(words.text, "handed back: pose stale, in the air");
     (void)companion.link.send(words);
     mavlink::Heartbeat last;
-    last.system_status = mavlink::kStatePowerOff;
+    last.system_status = mavlink::MavState::poweroff;
     (void)companion.link.send(last);
     EXPECT_TRUE(until([&] { return guidance.ending.has_value(); }));
     EXPECT_EQ(guidance.ending->outcome, Outcome::timed_out);
