@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/simulation/remote_guidance.hpp"
+#include "limpet/surroundings/remote_guidance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
 
-namespace limpet::simulation {
+namespace limpet::surroundings {
 namespace {
 
 using mavlink::Frame;
@@ -245,4 +245,4 @@ std::string RemoteGuidance::obstacle() const {
     return {};
 }
 
-}  // namespace limpet::simulation
+}  // namespace limpet::surroundings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/simulation/remote_guidance.hpp"
+#include "limpet/surroundings/remote_guidance.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include "limpet/mavlink/translate.hpp"
 #include "limpet/wire/transport.hpp"
 
-namespace limpet::simulation {
+namespace limpet::surroundings {
 namespace {
 
 using namespace std::chrono_literals;
@@ -280,4 +280,4 @@ TEST(RemoteGuidanceOverDevices, LidarsAndMechanismHangOnSerialPorts) {
 }
 
 }  // namespace
-}  // namespace limpet::simulation
+}  // namespace limpet::surroundings

@@ -15,7 +15,7 @@
 #include "limpet/sensors/registry.hpp"
 #include "limpet/simulation/outside.hpp"
 
-namespace limpet::simulation {
+namespace limpet::surroundings {
 
 /// The wires of a companion computer, held from outside. What is null goes over
 /// `sensors`; force and pressure go there always, over the mechanism's line too.
@@ -47,7 +47,7 @@ struct OutsideCount {
 /// the autopilot by itself. Each new reading goes out once; pump and valve come back, and keep
 /// their state while nobody speaks; what the companion tells of its mission (mission_report.hpp)
 /// becomes guidance's state and events.
-class RemoteGuidance final : public ExternalGuidance {
+class RemoteGuidance final : public simulation::ExternalGuidance {
 public:
     RemoteGuidance(OutsideWires wires, const OutsideOptions& options);
 
@@ -94,4 +94,4 @@ private:
     OutsideCount count_;
 };
 
-}  // namespace limpet::simulation
+}  // namespace limpet::surroundings
