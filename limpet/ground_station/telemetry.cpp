@@ -25,7 +25,7 @@ Severity severity_of(EventName name) {
 }  // namespace
 
 /// Without a valid estimate no position, as PX4 does. Landed when disarmed: so would PX4 say on a
-/// wall, with thrust 0 (px4.md).
+/// wall, with thrust 0 (px4.md "Perched").
 const std::array<Telemetry::Stream, 10> Telemetry::kStreams = {{
     {Heartbeat::kId, 1.0,
      [](Telemetry& t, const VehicleView& vehicle) {

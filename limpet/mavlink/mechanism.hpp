@@ -8,7 +8,7 @@
 #include "limpet/mavlink/messages.hpp"
 
 /// Pump and valve over MAVLink: between a companion and the perching mechanism, not through the
-/// autopilot, whose outputs drop to 0 when it disarms (px4.md).
+/// autopilot, whose outputs drop to 0 when it disarms (px4.md "Perched").
 namespace limpet::mavlink {
 
 /// The mechanism's component id in the vehicle's system.

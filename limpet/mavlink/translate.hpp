@@ -58,8 +58,8 @@ inline constexpr std::uint32_t kBarometerFields = HilSensorUpdatedFlags::abs_pre
 /// The other way: what `fields_updated` names becomes a new sample of `readings`.
 void take(const HilSensor& message, double time_s, Readings& readings);
 
-/// Azimuthal equidistant projection on a sphere, as PX4 undoes it. Source: PX4, lib/geo; facts on
-/// units: px4.md. Quantised to 1e-7 deg (11 mm), mm and cm/s.
+/// Azimuthal equidistant projection on a sphere, as PX4 undoes it. Source: PX4, lib/geo; units:
+/// px4.md "Simulator link". Quantised to 1e-7 deg (11 mm), mm and cm/s.
 [[nodiscard]] HilGps hil_gps(const GpsReading& gps, const GeographicOrigin& origin,
                              std::uint64_t time_usec);
 /// @return nothing without a 3D fix
@@ -84,7 +84,7 @@ void take(const HilSensor& message, double time_s, Readings& readings);
 /// As PX4 v1.15 sends it: velocity in W. Quality 100, or -1 when not valid.
 [[nodiscard]] Odometry odometry(const Estimate& estimate, std::uint64_t time_usec);
 
-/// SET_POSITION_TARGET_LOCAL_NED::type_mask, a bit set: ignored. Source: px4.md, "Offboard"
+/// SET_POSITION_TARGET_LOCAL_NED::type_mask, a bit set: ignored. Source: px4.md "Offboard"
 namespace ignored {
 inline constexpr std::uint16_t kPosition = PositionTargetTypemask::x_ignore |
                                            PositionTargetTypemask::y_ignore |

@@ -73,7 +73,8 @@ Situation situation(const StandInFlight& flight) {
             .estimate_valid = flight.valid() && flight.time_s >= flight.unsettled_until_s};
 }
 
-/// Where it is now; without an origin PX4 holds over (0, 0) of its own. Source: px4.md
+/// Where it is now; without an origin PX4 holds over (0, 0) of its own. Source: px4.md "Motion
+/// capture"
 void hold_here(StandInFlight& flight) {
     const Estimate& estimate = flight.autopilot.estimate;
     flight.hold = {.p_W_m = estimate.p_WB_m,

@@ -11,7 +11,7 @@
 /// What the stand-in tells of itself, at rates that a peer may change. Simulated time.
 namespace limpet::px4 {
 
-/// Rates of PX4's onboard mode where px4.md or a peer does not say otherwise.
+/// Rates of PX4's onboard mode where px4.md "Offboard" or a peer does not say otherwise.
 struct TelemetryStreams {
     struct Stream {
         std::uint32_t id = 0;

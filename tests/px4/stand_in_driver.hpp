@@ -11,7 +11,7 @@
 namespace limpet::px4 {
 
 /// Simulator and companion of a stand-in over real sockets, in one thread: a vehicle that is
-/// clamped where it is, as those of px4.md were. What the stand-in says is gathered.
+/// clamped where it is, as those of px4.md "Perched" were. What the stand-in says is gathered.
 class StandInDriver {
 public:
     static constexpr double kStep_s = 0.004;
