@@ -5,7 +5,7 @@
 
 namespace limpet::causes {
 
-/// Places in cause_inputs().
+/// Places of the inputs in a point, in the order of cause_inputs().
 enum CausePlace : Eigen::Index {
     kLag = 0,
     kRatio,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "limpet/causes/cause_places.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/stability/map.hpp"
 #include "limpet/study/posterior.hpp"
@@ -30,6 +31,7 @@ inline constexpr std::size_t kCauses = 6;
 
 /// A number that the paper does not publish.
 struct CauseInput {
+    CausePlace place;               ///< in a point
     std::string name;               ///< for people, with its unit
     std::vector<std::string> keys;  ///< of a scenario, that it is set to; empty: not the loop's
     Cause cause;

@@ -12,7 +12,7 @@ namespace limpet::ground_station {
 
 /// What stays as it is during a flight.
 struct TelemetrySetup {
-    GeographicOrigin origin{};
+    mavlink::GeographicOrigin origin{};
     int battery_cells = 1;         ///< 1 .. 14
     double lidar_minimum_m = 0.0;  ///< range of both
     double lidar_maximum_m = 0.0;
