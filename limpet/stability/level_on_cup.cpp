@@ -80,7 +80,7 @@ void LevelOnCup::period() {
     for (int left = ticks_; left > 0; left -= stride.ticks) {
         const RotorList<double> before_rad_s = state_.rotors.speed_rad_s;
         step(model_->airframe.rotor, model_->rotor_lag, state_.rotors, state_.command,
-             vehicle::hover_drive_share(model_->airframe), nullptr, stride.ticks);
+             {.battery_share = vehicle::hover_drive_share(model_->airframe)}, stride.ticks);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
         advance(*model_, state_, plant_, stride,
                 stride.ticks > 1 ? before_rad_s : state_.rotors.speed_rad_s, report);
