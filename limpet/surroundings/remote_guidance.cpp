@@ -195,7 +195,7 @@ void RemoteGuidance::hear(const mavlink::Frame& frame, double time_s,
 
 void RemoteGuidance::hear_sensors(double time_s, guidance::PerchingMemory& guidance,
                                   guidance::EventList& events) {
-    for (int i = 0; i < kMostFrames && events.count < kMostEvents; ++i) {
+    for (int i = 0; i < kMostFrames && events.count < simulation::kMostEvents; ++i) {
         const auto frame = wires_.sensors->receive();
         if (!frame) {
             return;

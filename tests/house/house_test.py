@@ -100,6 +100,15 @@ class House(unittest.TestCase):
                     for heading in re.findall(r'"([^"\\]+)\\?"', what):
                         self.assertIn(heading, known)
 
+    def test_a_fault_of_ours_is_no_answer(self):
+        """InternalError is caught where it becomes a run's outcome, or another error, and nowhere else."""
+        may = {"limpet/campaign/workers.cpp", "limpet/campaign/px4_crew.cpp", "limpet/lab/learn.cpp",  # outcome `fault`
+               "limpet/draw/stage.cpp"}  # MuJoCo's: what to install
+        catching = {str(path.relative_to(ROOT)) for path in tracked(".cpp", ".hpp")
+                    if path.parts[len(ROOT.parts)] in ("limpet", "apps", "python")
+                    and re.search(r"catch \((const )?InternalError", path.read_text())}
+        self.assertEqual(catching, may)
+
     def test_no_table_is_cut_in_two(self):
         for page in tracked(".md"):
             lines = page.read_text().split("\n")
