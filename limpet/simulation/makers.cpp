@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/makers.hpp"
+#include "limpet/simulation/makers.hpp"
 
 #include <fmt/format.h>
 
 #include "limpet/scenario/derived.hpp"
 
-namespace limpet::scenario {
+namespace limpet::simulation {
 namespace {
 
 struct Note {
@@ -14,7 +14,7 @@ struct Note {
 };
 
 /// On the surface on which it is to rest.
-Note lateral(const Scenario& scenario) {
+Note lateral(const scenario::Scenario& scenario) {
     const suction::Surface surface = surfaces_met(scenario).back();
     const double ambient_Pa = scenario.cup.ambient_Pa;
     const double has = lateral_safety(surface, scenario.cup.lip.radius_m,
@@ -27,7 +27,7 @@ Note lateral(const Scenario& scenario) {
                         hectopascals(ambient_Pa - surface.vacuum_pressure_Pa), asked)};
 }
 
-std::vector<Note> notes(const Scenario& scenario) {
+std::vector<Note> notes(const scenario::Scenario& scenario) {
     if (!scenario.wall.present || !scenario.airframe.has_cup) {
         return {};
     }
@@ -43,7 +43,7 @@ std::vector<Note> notes(const Scenario& scenario) {
     return all;
 }
 
-std::vector<std::string> texts(const Scenario& scenario, bool warnings_alone) {
+std::vector<std::string> texts(const scenario::Scenario& scenario, bool warnings_alone) {
     std::vector<std::string> said;
     for (const Note& note : notes(scenario)) {
         if (note.warns || !warnings_alone) {
@@ -55,12 +55,12 @@ std::vector<std::string> texts(const Scenario& scenario, bool warnings_alone) {
 
 }  // namespace
 
-std::vector<std::string> makers_notes(const Scenario& scenario) {
+std::vector<std::string> makers_notes(const scenario::Scenario& scenario) {
     return texts(scenario, false);
 }
 
-std::vector<std::string> makers_warnings(const Scenario& scenario) {
+std::vector<std::string> makers_warnings(const scenario::Scenario& scenario) {
     return texts(scenario, true);
 }
 
-}  // namespace limpet::scenario
+}  // namespace limpet::simulation

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/scenario/makers.hpp"
+#include "limpet/simulation/makers.hpp"
 
 #include <gmock/gmock.h>
 
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet::scenario {
+namespace limpet::simulation {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Scenario with(const std::string& name, std::vector<std::string> overrides) {
-    return load_scenario(name, {.overrides = std::move(overrides)});
+scenario::Scenario with(const std::string& name, std::vector<std::string> overrides) {
+    return scenario::load_scenario(name, {.overrides = std::move(overrides)});
 }
 
 TEST(Makers, AreContentWithThePapersWalls) {
@@ -46,7 +46,7 @@ TEST(Makers, AWallRounderThanTheLipFollowsIsTold) {
 }
 
 TEST(Makers, AConditionIsOfEveryTouch) {
-    const Scenario dusty = with("failed_perch", {"wall.condition=dusty"});
+    const scenario::Scenario dusty = with("failed_perch", {"wall.condition=dusty"});
     for (const suction::Surface& surface : surfaces_met(dusty)) {
         EXPECT_EQ(surface.friction, 0.2);
     }
@@ -54,4 +54,4 @@ TEST(Makers, AConditionIsOfEveryTouch) {
 }
 
 }  // namespace
-}  // namespace limpet::scenario
+}  // namespace limpet::simulation
