@@ -14,10 +14,10 @@
 #include <thread>
 
 #include "limpet/campaign/merge.hpp"
-#include "limpet/campaign/rank_link.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/gnuplot.hpp"
+#include "limpet/ranks/rank_link.hpp"
 
 namespace limpet {
 namespace {
@@ -96,7 +96,7 @@ void count_rows(const fs::path& folder, std::uint32_t rows) {
 }
 
 /// @param bytes  of a message, about those of a row
-void count_messages(campaign::RankLink& link, std::size_t bytes) {
+void count_messages(ranks::RankLink& link, std::size_t bytes) {
     if (link.rank() == 1) {
         const std::string message(bytes, 'x');
         for (int i = 0; i < kMessages; ++i) {
@@ -120,12 +120,11 @@ void count_messages(campaign::RankLink& link, std::size_t bytes) {
 void measure(int argc, char** argv) {
     if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr) {
         void* module = dlopen(LIMPET_MPI_MODULE, RTLD_NOW | RTLD_GLOBAL);
-        void* open = module != nullptr ? dlsym(module, campaign::kOpenRankLink) : nullptr;
+        void* open = module != nullptr ? dlsym(module, ranks::kOpenRankLink) : nullptr;
         if (open == nullptr) {
             throw InputError(dlerror());
         }
-        const std::unique_ptr<campaign::RankLink> link(
-            reinterpret_cast<campaign::OpenRankLink*>(open)());
+        const std::unique_ptr<ranks::RankLink> link(reinterpret_cast<ranks::OpenRankLink*>(open)());
         count_messages(*link, 64);
         count_messages(*link, 512);
         link->leave();

@@ -10,12 +10,12 @@
 #include "command_line.hpp"
 #include "launch.hpp"
 #include "limpet/campaign/px4_crew.hpp"
-#include "limpet/campaign/ranks.hpp"
 #include "limpet/campaign/summary.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/ranks/ranks.hpp"
 #include "limpet/rare/rare_campaign.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
@@ -183,7 +183,7 @@ struct Place {
 /// Flies what is missing.
 /// @param link  to the other ranks; null: there are none
 ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
-                     campaign::RankLink* link) {
+                     ranks::RankLink* link) {
     const campaign::Campaign& campaign = place.results.campaign();
     Terminal terminal(options.quiet     ? Terminal::Voice::quiet
                       : link != nullptr ? Terminal::Voice::relayed  // mpirun lends a terminal
@@ -203,7 +203,7 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
 }
 
 /// One of several ranks. Where one cannot fly the campaign, none does, and the first says why.
-ExitCode fly_as_rank(const CampaignOptions& options, int jobs, campaign::RankLink& link) {
+ExitCode fly_as_rank(const CampaignOptions& options, int jobs, ranks::RankLink& link) {
     std::optional<campaign::Campaign> campaign;
     std::string why_not;
     try {
@@ -218,7 +218,7 @@ ExitCode fly_as_rank(const CampaignOptions& options, int jobs, campaign::RankLin
     }
     std::optional<Place> place;
     try {
-        muster_ranks(link, loaded, why_not);
+        gather_ranks(link, loaded, why_not);
         place.emplace(*campaign, options, campaign::Shard{});
         place->require_plain();
     } catch (...) {
@@ -265,7 +265,7 @@ ExitCode fly_campaign(const CampaignOptions& options, const Given& given) {
             return ExitCode::ok;
         }
     } else if (options.shard.empty()) {  // who gives each its shard has them fly by themselves
-        if (campaign::RankLink* link = ranks_started()) {
+        if (ranks::RankLink* link = ranks_started()) {
             return fly_as_rank(options, given("--jobs") ? options.jobs : link->processors(), *link);
         }
     }

@@ -20,9 +20,9 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/makers.hpp"
 #include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/suggestion.hpp"
+#include "limpet/simulation/makers.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
 
@@ -84,7 +84,7 @@ void check_scenario(const Checked& it) {
     const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
     fmt::print("{}: a good scenario: {}\n", it.name, scenario.description);
-    for (const std::string& note : scenario::makers_notes(scenario)) {
+    for (const std::string& note : simulation::makers_notes(scenario)) {
         fmt::print("  {}\n", note);
     }
 }

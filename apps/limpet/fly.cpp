@@ -76,6 +76,60 @@ scenario::Scenario load(const FlyOptions& options, const Given& given) {
     return scenario::load_scenario(options.scenario, {.overrides = overrides});
 }
 
+/// Who looks on at a flight, or works in it.
+struct Company {
+    std::optional<live::LiveFlight> live;
+    std::optional<Px4Link> px4;
+    std::optional<GroundStation> ground;
+};
+
+void open_live(const FlyOptions& options, const simulation::FlightModel& model,
+               const std::atomic<bool>& stop, Terminal& terminal, Company& company) {
+    if (options.live.wanted) {
+        const bool tunes = options.autopilot == "builtin" && !options.ground.wanted;
+        company.live.emplace(
+            live::LiveFlightOptions{port_of(options.live), options.live.wait, tunes},
+            *model.scenario, stop);
+        tell_address(company.live->live(), terminal);
+    }
+}
+
+/// @param folder  for its log
+void open_px4(const FlyOptions& options, const simulation::FlightModel& model,
+              const std::filesystem::path& folder, Terminal& terminal, Company& company,
+              simulation::FlightConduct& conduct) {
+    if (options.autopilot != "px4") {
+        return;
+    }
+    Px4LinkOptions link = options.px4;
+    if (options.live.wanted && link.speed.empty()) {
+        link.speed = "1";
+    }
+    company.px4.emplace(link, model, true, folder, terminal, conduct.stop);
+    conduct.outside.autopilot = &company.px4->autopilot();
+    conduct.speed = company.px4->speed();
+    conduct.on_obstacle = [&terminal](const std::string& obstacle) {
+        terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
+    };
+}
+
+/// @param company  outlives what is returned
+simulation::FlightWatch watch_with(Company& company, Terminal& terminal) {
+    simulation::FlightWatch watched = watch(terminal);
+    if (company.ground || company.live) {
+        watched.on_tick = [&company](simulation::Flight& flight,
+                                     const guidance::EventList& events) {
+            if (company.ground) {
+                company.ground->tick(flight, events);
+            }
+            if (company.live) {
+                company.live->tick(flight);
+            }
+        };
+    }
+    return watched;
+}
+
 ExitCode fly_one(const FlyOptions& options, const Given& given) {
     const std::atomic<bool>* stop = stop_on_signals();
     check_together(given, options);
@@ -89,13 +143,8 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     const auto model = simulation::build_model(scenario);
 
     Terminal terminal(options.voice());
-    std::optional<live::LiveFlight> live;
-    if (options.live.wanted) {
-        const bool tunes = options.autopilot == "builtin" && !options.ground.wanted;
-        live.emplace(live::LiveFlightOptions{port_of(options.live), options.live.wait, tunes},
-                     *model->scenario, *stop);
-        tell_address(live->live(), terminal);
-    }
+    Company company;
+    open_live(options, *model, *stop, terminal, company);
     std::optional<OutFolder> folder;
     std::filesystem::path recording;
     if (!options.no_record) {
@@ -104,46 +153,24 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     }
     introduce(scenario, terminal);
     simulation::FlightConduct conduct{
-        .speed = speed, .stop = stop, .beside = live ? &live->live() : nullptr};
-    std::optional<Px4Link> px4;
-    if (options.autopilot == "px4") {
-        Px4LinkOptions link = options.px4;
-        if (options.live.wanted && link.speed.empty()) {
-            link.speed = "1";
-        }
-        px4.emplace(link, *model, true, recording.parent_path(), terminal, stop);
-        conduct.outside.autopilot = &px4->autopilot();
-        conduct.speed = px4->speed();
-        conduct.on_obstacle = [&terminal](const std::string& obstacle) {
-            terminal.line(terminal.dim("          " + (obstacle.empty() ? "armed" : obstacle)));
-        };
-    }
-    simulation::FlightWatch watched = watch(terminal);
-    std::optional<GroundStation> ground;
+        .speed = speed, .stop = stop, .beside = company.live ? &company.live->live() : nullptr};
+    open_px4(options, *model, recording.parent_path(), terminal, company, conduct);
     if (options.ground.wanted) {
-        ground.emplace(options.ground, *model, terminal);
-    }
-    if (ground || live) {
-        watched.on_tick = [&](simulation::Flight& flight, const guidance::EventList& events) {
-            if (ground) {
-                ground->tick(flight, events);
-            }
-            if (live) {
-                live->tick(flight);
-            }
-        };
+        company.ground.emplace(options.ground, *model, terminal);
     }
     terminal.line(terminal.dim(simulation::event_head()));
-    const simulation::FlightResult result = fly(model, recording, watched, 0, conduct);
-    if (ground) {
-        ground->end(result);
+    const simulation::FlightResult result =
+        fly(model, recording, watch_with(company, terminal), 0, conduct);
+    if (company.ground) {
+        company.ground->end(result);
     }
-    if (live) {
-        live->end(result);
-        terminal.line("live", live->live().report());
+    if (company.live) {
+        company.live->end(result);
+        terminal.line("live", company.live->live().report());
     }
-    return conclude(options, result, *stop, "ground", ground ? ground->report() : "",
-                    px4 ? &*px4 : nullptr, terminal);
+    return conclude(options, result, *stop, "ground",
+                    company.ground ? company.ground->report() : "",
+                    company.px4 ? &*company.px4 : nullptr, terminal);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ std::uint32_t software_version() {
     return version << 8U;
 }
 
-mavlink::TelemetrySetup setup(const simulation::FlightModel& model) {
+ground_station::TelemetrySetup setup(const simulation::FlightModel& model) {
     const scenario::Scenario& scenario = *model.scenario;
     return {.battery_cells = scenario.airframe.battery.cells,
             .lidar_minimum_m = scenario.sensors.lidar_range_min_m,
@@ -87,8 +87,8 @@ GroundStation::GroundStation(const GroundStationOptions& options,
                                options.signing_key.empty() ? "" : ", signed"));
 }
 
-std::vector<mavlink::ServedParameter> GroundStation::served() {
-    std::vector<mavlink::ServedParameter> parameters;
+std::vector<ground_station::ServedParameter> GroundStation::served() {
+    std::vector<ground_station::ServedParameter> parameters;
     for (const auto& row : autopilot::autopilot_table()) {
         if (row.name.size() <= kLongestName) {
             parameters.push_back({.name = std::string(row.name),
@@ -140,7 +140,7 @@ void GroundStation::tell_of_refusals() {
 
 void GroundStation::end(const simulation::FlightResult& result) {
     const bool amiss = result.outcome == Outcome::crashed || result.outcome == Outcome::timed_out;
-    telemetry_.text(amiss ? mavlink::Severity::error : mavlink::Severity::info,
+    telemetry_.text(amiss ? ground_station::Severity::error : ground_station::Severity::info,
                     fmt::format("{}: {}", to_string(result.outcome), result.reason));
 }
 

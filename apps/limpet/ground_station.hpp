@@ -5,7 +5,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "limpet/mavlink/telemetry.hpp"
+#include "limpet/ground_station/telemetry.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "terminal.hpp"
 
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::string report() const;
 
 private:
-    [[nodiscard]] std::vector<mavlink::ServedParameter> served();
+    [[nodiscard]] std::vector<ground_station::ServedParameter> served();
     void set(std::string_view name, double value);
     void tell_of_refusals();
 
@@ -47,7 +47,7 @@ private:
     bool changed_ = false;
     bool refusals_told_ = false;
     mavlink::Link link_;
-    mavlink::Telemetry telemetry_;
+    ground_station::Telemetry telemetry_;
 };
 
 }  // namespace limpet::app

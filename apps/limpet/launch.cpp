@@ -38,26 +38,26 @@ Launch launch() {
 }
 
 /// The module outlives all that comes of it: it stays loaded.
-campaign::OpenRankLink* module_of_mpi(const Launch& launch) {
+ranks::OpenRankLink* module_of_mpi(const Launch& launch) {
     void* module = dlopen(kModule, RTLD_NOW | RTLD_GLOBAL);
-    void* open = module != nullptr ? dlsym(module, campaign::kOpenRankLink) : nullptr;
+    void* open = module != nullptr ? dlsym(module, ranks::kOpenRankLink) : nullptr;
     if (open == nullptr) {
         throw InputError(fmt::format(
             "{} started {} of these, but MPI is not there to tie them together ({}): install Open "
             "MPI and build anew, or fly a --shard each",
             launch.by, launch.ranks, dlerror()));
     }
-    return reinterpret_cast<campaign::OpenRankLink*>(open);
+    return reinterpret_cast<ranks::OpenRankLink*>(open);
 }
 
 }  // namespace
 
-campaign::RankLink* ranks_started() {
+ranks::RankLink* ranks_started() {
     const Launch started = launch();
     if (started.ranks < 2) {
         return nullptr;
     }
-    static const std::unique_ptr<campaign::RankLink> link(module_of_mpi(started)());
+    static const std::unique_ptr<ranks::RankLink> link(module_of_mpi(started)());
     if (link->ranks() < 2) {
         link->leave();
         throw InputError(fmt::format(
@@ -69,7 +69,7 @@ campaign::RankLink* ranks_started() {
 }
 
 bool sent_home(const std::string& why) {
-    campaign::RankLink* link = ranks_started();
+    ranks::RankLink* link = ranks_started();
     if (link == nullptr) {
         return false;
     }

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "limpet/campaign/rank_link.hpp"
+#include "limpet/ranks/rank_link.hpp"
 
 namespace limpet::app {
 
@@ -11,7 +11,7 @@ namespace limpet::app {
 /// alone. MPI is loaded only where there are several. To be asked once. It lasts until the process
 /// ends: who breaks off without leaving it has said why before it takes the others along.
 /// @throws InputError when there are several that nothing ties together: each would do all the work
-[[nodiscard]] campaign::RankLink* ranks_started();
+[[nodiscard]] ranks::RankLink* ranks_started();
 
 /// For what flies in one process alone: where there are several, they part.
 /// @return whether this one has nothing to say

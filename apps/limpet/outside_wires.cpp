@@ -112,10 +112,10 @@ OptionList options_of(OutsideWireOptions& options) {
              "pump, valve, force and pressure as lines on such a device"}};
 }
 
-simulation::OutsideWires open_wires(const OutsideWireOptions& options) {
+surroundings::OutsideWires open_wires(const OutsideWireOptions& options) {
     const wire::TransportAddress sensors =
         address_of("--sensors", options.sensors, {wire::Medium::udp});
-    simulation::OutsideWires wires;
+    surroundings::OutsideWires wires;
     wires.sensors = std::make_unique<mavlink::Link>(
         open_transport(sensors, wire::Role::connect),
         mavlink::Sender{.system = static_cast<std::uint8_t>(options.system),
@@ -127,8 +127,8 @@ simulation::OutsideWires open_wires(const OutsideWireOptions& options) {
     return wires;
 }
 
-simulation::OutsideOptions outside_options(const OutsideWireOptions& options,
-                                           const scenario::Scenario& scenario) {
+surroundings::OutsideOptions outside_options(const OutsideWireOptions& options,
+                                             const scenario::Scenario& scenario) {
     return {
         .axes = options.axes,
         .rigid_body = options.rigid_body,

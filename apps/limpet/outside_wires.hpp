@@ -5,7 +5,7 @@
 
 #include "command_line.hpp"
 #include "limpet/scenario/scenario.hpp"
-#include "limpet/simulation/remote_guidance.hpp"
+#include "limpet/surroundings/remote_guidance.hpp"
 
 namespace limpet::app {
 
@@ -31,9 +31,9 @@ struct OutsideWireOptions {
 
 /// @param options  resolved
 /// @throws InputError when an address is none, or a wire cannot be opened
-[[nodiscard]] simulation::OutsideWires open_wires(const OutsideWireOptions& options);
-[[nodiscard]] simulation::OutsideOptions outside_options(const OutsideWireOptions& options,
-                                                         const scenario::Scenario& scenario);
+[[nodiscard]] surroundings::OutsideWires open_wires(const OutsideWireOptions& options);
+[[nodiscard]] surroundings::OutsideOptions outside_options(const OutsideWireOptions& options,
+                                                           const scenario::Scenario& scenario);
 /// Whether something on them keeps its own time.
 [[nodiscard]] bool has_serial(const OutsideWireOptions& options);
 

@@ -40,7 +40,7 @@ OptionList options_of(SimIoOptions& options) {
          options_of(options.live, false)});
 }
 
-void say_wires(const simulation::OutsideWires& wires, Terminal& terminal) {
+void say_wires(const surroundings::OutsideWires& wires, Terminal& terminal) {
     terminal.line("sensors", wires.sensors->transport().describe());
     const auto say = [&terminal](const char* what, const auto& wire) {
         if (wire != nullptr) {
@@ -53,7 +53,7 @@ void say_wires(const simulation::OutsideWires& wires, Terminal& terminal) {
     say("mechanism", wires.mechanism);
 }
 
-std::string report_line(const simulation::OutsideCount& count) {
+std::string report_line(const surroundings::OutsideCount& count) {
     return fmt::format("{} poses, {} ranges, {} loads out; {} commands to pump and valve in",
                        count.poses, count.ranges, count.loads, count.commands);
 }
@@ -80,8 +80,8 @@ ExitCode sim_io(SimIoOptions options) {
         scenario::load_scenario(options.scenario, {.overrides = options.overrides});
     check(options.px4, scenario);
     const auto model = simulation::build_model(scenario);
-    simulation::RemoteGuidance guidance(open_wires(options.wires),
-                                        outside_options(options.wires, scenario));
+    surroundings::RemoteGuidance guidance(open_wires(options.wires),
+                                          outside_options(options.wires, scenario));
     Terminal terminal(options.voice());
     // Guidance is elsewhere, so it is watched alone.
     scenario::Scenario shown = scenario;

@@ -27,14 +27,6 @@ double number(const YamlNode& node, double minimum = -kHuge, double maximum = kH
     return read_number(node, {{}, "-", minimum, maximum, &value, {}, {}});
 }
 
-const YamlNode& needed(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
-    if (node == nullptr) {
-        fail(map, fmt::format("{}: is missing", key));
-    }
-    return *node;
-}
-
 const YamlNode& section(const YamlNode& node, std::string_view example) {
     if (node.kind != YamlNode::Kind::map) {
         fail(node, fmt::format("must be written as {}", example));

@@ -4,15 +4,15 @@
 #include <chrono>
 #include <mutex>
 
-#include "limpet/campaign/dealer.hpp"
+#include "limpet/campaign/run_source.hpp"
 #include "limpet/campaign/workers.hpp"
 
 namespace limpet::campaign {
 
-/// Deals what is missing from the results. Who has landed writes its row before it goes on: a slow
-/// disk slows the flights down, memory does not grow, and a kill costs no more than the flights in
-/// the air.
-class Ledger final : public Dealer {
+/// Assigns the runs that are missing from the results. A thread writes its row before it flies the
+/// next run: a slow disk slows the flights down, memory does not grow, and a kill costs no more
+/// than the flights in the air.
+class Ledger final : public RunSource {
 public:
     /// @param ranks  number of processes; 0: one, of which nothing is counted
     Ledger(Results& results, const CampaignWatch& watch, int ranks = 0);

@@ -77,20 +77,20 @@ private:
     const std::atomic<bool>* stop_;
 };
 
-void fly_dealt(const Seat& seat, const Campaign& campaign, Dealer& dealer,
-               const std::atomic<bool>* stop) noexcept {
+void fly_assigned(const Seat& seat, const Campaign& campaign, RunSource& source,
+                  const std::atomic<bool>* stop) noexcept {
     try {
-        while (const auto run = dealer.next()) {
+        while (const auto run = source.next()) {
             RunRow row = row_to_fly(campaign, *run);
             seat.fly(row);
             if (stop != nullptr && *stop) {
                 return;
             }
-            dealer.land(row);
+            source.land(row);
         }
     } catch (const Interrupted&) {  // the ledger tells how far it has come
     } catch (...) {
-        dealer.fail(std::current_exception());
+        source.fail(std::current_exception());
     }
 }
 
@@ -115,7 +115,7 @@ Progress run_campaign_on_px4(Results& results, const Px4Crew& crew, const Campai
         for (int number = 0; number < crew.instances; ++number) {
             seats.emplace_back([&, number] {
                 const Seat seat(results.campaign(), crew, number, watch.stop);
-                fly_dealt(seat, results.campaign(), ledger, watch.stop);
+                fly_assigned(seat, results.campaign(), ledger, watch.stop);
             });
         }
     }

@@ -3,35 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <exception>
-#include <system_error>
 #include <type_traits>
 
 #include "limpet/campaign/columns.hpp"
-#include "limpet/campaign/dealer.hpp"
+#include "limpet/campaign/fliers.hpp"
 #include "limpet/campaign/ledger.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/version.hpp"
-#include "limpet/plant/lane_group.hpp"
 
 namespace limpet::campaign {
 namespace {
-
-void fly_lane(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) noexcept {
-    try {
-        while (const auto run = dealer.next()) {
-            const RunRow row = fly_run(campaign, *run, stop);
-            if (stop != nullptr && *stop) {
-                return;
-            }
-            dealer.land(row);
-        }
-    } catch (...) {
-        dealer.fail(std::current_exception());
-    }
-}
 
 /// A row's columns as text, numbers to the last bit.
 std::vector<std::pair<std::string, std::string>> columns_of(const Campaign& campaign,
@@ -69,78 +51,6 @@ void require_same(const Results& results, const RunRow& told, const RunRow& flow
 }
 
 }  // namespace
-
-Ledger::Ledger(Results& results, const CampaignWatch& watch, int ranks)
-    : results_(results),
-      watch_(watch),
-      finished_(results.finished_runs()),
-      end_(results.shard().end(results.campaign().runs)),
-      next_(results.shard().begin(results.campaign().runs)) {
-    progress_.runs = end_ - next_;
-    progress_.finished = static_cast<std::uint32_t>(finished_.size());
-    progress_.outcomes = results.outcomes();
-    progress_.by_rank.resize(static_cast<std::size_t>(ranks));
-}
-
-std::optional<std::uint32_t> Ledger::next() {
-    const std::lock_guard lock(mutex_);
-    while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
-        ++next_;
-    }
-    const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
-    return stop || next_ >= end_ ? std::nullopt : std::optional(next_++);
-}
-
-void Ledger::land(const RunRow& row, int rank) {
-    const std::lock_guard lock(mutex_);
-    results_.add({row});
-    ++progress_.outcomes[row.outcome];
-    ++progress_.finished;
-    ++progress_.flown;
-    if (!progress_.by_rank.empty()) {
-        ++progress_.by_rank.at(static_cast<std::size_t>(rank));
-    }
-    progress_.elapsed_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-    if (watch_.on_row) {
-        watch_.on_row(row);
-    }
-    if (watch_.on_progress) {
-        watch_.on_progress(progress_);
-    }
-}
-
-void Ledger::fail(std::exception_ptr why) noexcept {
-    const std::lock_guard lock(mutex_);
-    failed_ = failed_ ? failed_ : why;
-}
-
-Progress Ledger::conclude() {
-    const std::lock_guard lock(mutex_);
-    if (failed_) {
-        std::rethrow_exception(failed_);
-    }
-    results_.finish();
-    return progress_;
-}
-
-void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
-    plant::fly_side_by_side([&] { fly_lane(campaign, dealer, stop); });
-}
-
-Fliers::Fliers(int jobs, const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
-    try {
-        while (threads_.size() < static_cast<std::size_t>(jobs)) {
-            ++flying_;
-            threads_.emplace_back([this, &campaign, &dealer, stop] {
-                fly_dealt(campaign, dealer, stop);
-                --flying_;
-            });
-        }
-    } catch (const std::system_error&) {  // no more threads to be had: those there are will do
-        --flying_;
-    }
-}
 
 std::shared_ptr<const simulation::FlightModel> model_of(const Campaign& campaign, const RunRow& row,
                                                         const NoiseBlend& noise) {
@@ -190,7 +100,7 @@ Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
     Ledger ledger(results, watch);
     {
         const Fliers others(jobs - 1, results.campaign(), ledger, nullptr);
-        fly_dealt(results.campaign(), ledger, nullptr);
+        fly_assigned(results.campaign(), ledger, nullptr);
     }
     return ledger.conclude();
 }

@@ -146,7 +146,6 @@ std::string Companion::mechanism_obstacle(double time_s) const {
 }
 
 void Companion::feed(double time_s) {
-    constexpr std::uint8_t kInAir = 2;
     const bool flies = phase() == SessionPhase::flying;
     SessionInputs& in = session_.inputs();
     in.readings = inputs_.readings();
@@ -171,7 +170,7 @@ void Companion::feed(double time_s) {
                     {.connected = offboard_.state(time_s) != mavlink::OffboardState::silent,
                      .armed = report.armed,
                      .offboard = report.offboard,
-                     .in_air = report.landed_state == kInAir}};
+                     .in_air = report.landed_state == mavlink::MavLandedState::in_air}};
     if (!flies) {  // for people: costs memory
         in.mechanism = mechanism_obstacle(time_s);
         in.waits_for = offboard_.obstacle(time_s);
@@ -223,13 +222,11 @@ void Companion::tell(double time_s) {
         const auto boot_ms = static_cast<std::uint32_t>(std::llround(time_s * 1e3));
         send_sensors(mavlink::guidance_state(static_cast<int>(memory().state), boot_ms));
     } else if (phase() == SessionPhase::handed_back && !over_) {
-        constexpr std::uint8_t kOnboardController = 18;
-        constexpr std::uint8_t kNoAutopilot = 8;
         send_sensors(last_word());
-        send_sensors(mavlink::Heartbeat{.type = kOnboardController,
-                                        .autopilot = kNoAutopilot,
-                                        .system_status = mavlink::kStatePowerOff,
-                                        .mavlink_version = 3});
+        send_sensors(mavlink::Heartbeat{.type = mavlink::MavType::onboard_controller,
+                                        .autopilot = mavlink::MavAutopilot::invalid,
+                                        .system_status = mavlink::MavState::poweroff,
+                                        .mavlink_version = mavlink::kMavlinkVersion});
     }
 }
 
@@ -237,8 +234,7 @@ mavlink::StatusText Companion::last_word() const {
     if (result_.outcome) {
         return mavlink::outcome_text(*result_.outcome, result_.reason);
     }
-    constexpr std::uint8_t kWarning = 4;
-    mavlink::StatusText text{.severity = kWarning};
+    mavlink::StatusText text{.severity = mavlink::MavSeverity::warning};
     mavlink::set_text(text.text, "handed back: " + result_.reason);
     return text;
 }

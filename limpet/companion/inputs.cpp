@@ -86,9 +86,8 @@ void Inputs::hear_sensors(const mavlink::Frame& frame, double time_s) {
     }
     if (config_.mechanism == MechanismWire::mavlink) {
         const auto ack = mavlink::decode<mavlink::CommandAck>(frame);
-        if (ack && ack->command == mavlink::kCommandSetActuator) {
-            constexpr std::uint8_t kAccepted = 0;
-            refuses_ = ack->result != kAccepted;
+        if (ack && ack->command == mavlink::MavCmd::do_set_actuator) {
+            refuses_ = ack->result != mavlink::MavResult::accepted;
             mechanism_s_ = time_s;
         }
     }

@@ -9,11 +9,12 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
     using P = CompanionLimits;
     static const ParameterTable<P> table = {
         {"guidance_rate_Hz", "Hz", 10.0, 200.0, &P::guidance_rate_Hz, "guidance and set-points",
-         "px4.md: 20 to 50 Hz; as in the simulation"},
+         "px4.md \"Offboard\": 20 to 50 Hz; as in the simulation"},
         {"poll_rate_Hz", "Hz", 50.0, 1000.0, &P::poll_rate_Hz, "how often the wires are looked at",
          "assumed: stamps readings to 2 ms"},
         {"pose_rate_Hz", "Hz", 10.0, 200.0, &P::pose_rate_Hz,
-         "at most so often a pose goes on to the autopilot", "px4.md: 50 Hz was enough"},
+         "at most so often a pose goes on to the autopilot",
+         "px4.md \"Motion capture\": 50 Hz was enough"},
         {"pose_limit_s", "s", 0.05, 5.0, &P::pose_limit_s,
          "a motion-capture pose older than this is stale", "assumed: 0.28 m at docking speed"},
         {"estimate_limit_s", "s", 0.05, 5.0, &P::estimate_limit_s, "the autopilot's pose likewise",
@@ -22,7 +23,7 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
          "autopilot without a heartbeat: silent", "assumed: three of PX4's, at 1 Hz"},
         {"late_limit_s", "s", 0.05, 0.9, &P::late_limit_s,
          "a tick of guidance later than this hands control back",
-         "px4.md: offboard is lost after 1 s"},
+         "px4.md \"Offboard\": offboard is lost after 1 s"},
         {"arming_s", "s", 0.5, 10.0, &P::arming_s,
          "after it a heartbeat must show that it is armed", "assumed: two of PX4's, at 1 Hz"},
         {"agreement_m", "m", 0.01, 10.0, &P::agreement_m,

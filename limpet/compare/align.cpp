@@ -19,7 +19,7 @@ namespace {
 std::vector<EventPair> happenings(const record::Recording& recording) {
     std::vector<EventPair> found;
     for (const record::RecordedEvent& event : recording.events) {
-        if (event.name != "parameter_set") {
+        if (!event.is(EventName::parameter_set)) {
             found.push_back({event.name, 1, event.time_s, kNaN});
         }
     }

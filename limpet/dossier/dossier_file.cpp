@@ -13,14 +13,6 @@ namespace {
 
 using scenario::YamlNode;
 
-const YamlNode& asked(const YamlNode& map, std::string_view key) {
-    const YamlNode* node = map.find(key);
-    if (node == nullptr) {
-        fail(map, fmt::format("{}: is missing", key));
-    }
-    return *node;
-}
-
 std::string level(const YamlNode& node) {
     const std::string text = read_text(node);
     if (text != "low" && text != "medium" && text != "high") {
@@ -34,8 +26,8 @@ std::vector<UncertainInput> read_inputs(const YamlNode& map) {
     for (const YamlNode& node : map.children) {
         check_keys(node, {"spread", "source"});
         inputs.push_back({.key = node.key,
-                          .spread = read_text(asked(node, "spread")),
-                          .source = read_text(asked(node, "source"))});
+                          .spread = read_text(needed(node, "spread")),
+                          .source = read_text(needed(node, "source"))});
     }
     if (inputs.empty()) {
         fail(map, "names no input");
@@ -47,26 +39,26 @@ Quantity read_quantity(const YamlNode& node, const DossierFile& file) {
     check_keys(node, {"figure", "scenario", "unit", "use", "influence", "consequence", "safe",
                       "evidence"});
     Quantity quantity{.name = node.key,
-                      .figure = read_text(asked(node, "figure")),
-                      .scenario = read_text(asked(node, "scenario")),
-                      .unit = read_text(asked(node, "unit")),
-                      .use = read_text(asked(node, "use")),
-                      .influence = level(asked(node, "influence")),
-                      .consequence = level(asked(node, "consequence")),
+                      .figure = read_text(needed(node, "figure")),
+                      .scenario = read_text(needed(node, "scenario")),
+                      .unit = read_text(needed(node, "unit")),
+                      .use = read_text(needed(node, "use")),
+                      .influence = level(needed(node, "influence")),
+                      .consequence = level(needed(node, "consequence")),
                       .safe_above = false,
                       .evidence = {}};
     if (file.inputs.count(quantity.scenario) == 0) {
-        fail(asked(node, "scenario"),
+        fail(needed(node, "scenario"),
              fmt::format("\"{}\" has no inputs above", scenario::shown(quantity.scenario)));
     }
     try {
         (void)study::parse_figure(quantity.figure);
     } catch (const InputError&) {
-        fail(asked(node, "figure"),
+        fail(needed(node, "figure"),
              fmt::format("\"{}\" is no outcome and no metric (limpet study --help)",
                          scenario::shown(quantity.figure)));
     }
-    const YamlNode& safe = asked(node, "safe");
+    const YamlNode& safe = needed(node, "safe");
     const std::string side = read_text(safe);
     if (side != "at_least" && side != "at_most") {
         fail(safe, fmt::format("\"{}\" must be at_least or at_most", scenario::shown(side)));
@@ -90,19 +82,19 @@ DossierFile load_dossier(const std::filesystem::path& path) {
     }
     check_keys(root, {"title", "question", "inputs", "quantities"});
     DossierFile file;
-    file.title = read_text(asked(root, "title"));
-    file.question = read_text(asked(root, "question"));
-    for (const YamlNode& one : asked(root, "inputs").children) {
+    file.title = read_text(needed(root, "title"));
+    file.question = read_text(needed(root, "question"));
+    for (const YamlNode& one : needed(root, "inputs").children) {
         if (scenario::is_path(one.key)) {
             fail(one, "must be the name of a scenario, not a file: its flights' folders have it");
         }
         file.inputs[one.key] = read_inputs(one);
     }
-    for (const YamlNode& quantity : asked(root, "quantities").children) {
+    for (const YamlNode& quantity : needed(root, "quantities").children) {
         file.quantities.push_back(read_quantity(quantity, file));
     }
     if (file.quantities.empty()) {
-        fail(asked(root, "quantities"), "names no quantity");
+        fail(needed(root, "quantities"), "names no quantity");
     }
     return file;
 }

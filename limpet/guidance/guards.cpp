@@ -12,30 +12,30 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
-/// Who has waited long in gusts asks for less.
-/// @param long_s  from then on
-double patience(double waited_s, double long_s) {
-    return std::max(1.0, waited_s / long_s);
+/// What is asked for is multiplied by it: 1, and from `patience_s` on in proportion to the time.
+double leniency(double waited_s, double patience_s) {
+    return std::max(1.0, waited_s / patience_s);
 }
 
-double patience_before_wall(const Scene& s) {
-    constexpr double kLong_s = 4.0;
-    constexpr double kLongOnTheWayBack_s = 2.0;  // nothing but waiting follows
+double leniency_before_wall(const Scene& s) {
     const bool is_back =
         s.memory.state == PerchingState::retreating || s.memory.state == PerchingState::backing_off;
-    return patience(s.elapsed_s(),
-                    is_back && windy(s.parameters, s.memory) ? kLongOnTheWayBack_s : kLong_s);
+    const bool hurries = is_back && windy(s.parameters, s.memory);
+    return leniency(s.elapsed_s(),
+                    hurries ? s.parameters.patience_back_s : s.parameters.patience_s);
 }
 
 bool stands_at_pre_position(const Scene& s) {
-    // PX4's anti-windup leaves an error of up to 50 mm per m/s^2 that it leans against.
-    constexpr double kOff_s2 = 0.05;
+    if (!s.memory.wall.ever) {
+        return false;
+    }
+    const double off_m = (s.estimate.p_WB_m - pre_position_W(s.parameters, s.memory)).norm();
     const double leans_m_s2 =
         std::max(0.0, lean_W_m_s2(s.estimate.q_WB).norm() - calm_m_s2(s.parameters));
-    return s.memory.wall.ever &&
-           (s.estimate.p_WB_m - pre_position_W(s.parameters, s.memory)).norm() <
-               patience_before_wall(s) * s.parameters.pre_tolerance_m + kOff_s2 * leans_m_s2 &&
-           s.estimate.v_WB_m_s.norm() < patience_before_wall(s) * s.parameters.pre_speed_m_s;
+    const double leniency = leniency_before_wall(s);
+    return off_m <
+               leniency * s.parameters.pre_tolerance_m + s.parameters.lean_error_s2 * leans_m_s2 &&
+           s.estimate.v_WB_m_s.norm() < leniency * s.parameters.pre_speed_m_s;
 }
 
 bool sees_wall(const Scene& s) {
@@ -43,8 +43,10 @@ bool sees_wall(const Scene& s) {
 }
 
 bool faces_wall(const Scene& s) {
-    // Half of the limit: the other half is for the noise of the two LiDARs.
-    return std::abs(s.misalignment_rad()) < 0.5 * std::min(patience_before_wall(s), 2.0) *
+    // Half of the limit, after long waiting all of it: the rest is for the noise of the two LiDARs.
+    // Shares of align_limit_deg, no parameters.
+    constexpr double kOwnHalf = 0.5, kWhole = 2.0;
+    return std::abs(s.misalignment_rad()) < kOwnHalf * std::min(leniency_before_wall(s), kWhole) *
                                                 radians(s.parameters.align_limit_deg) &&
            stands_at_pre_position(s);
 }
@@ -55,19 +57,23 @@ bool rests_on_legs(const Scene& s) {
 }
 
 bool stands_before_wall(const Scene& s) {
+    // By LiDARs and IMU alone nobody stands as still as with a position. A ratio to pre_speed_m_s,
+    // no parameter.
+    constexpr double kBlind = 2.0;
     const double closing_m_s = s.memory.wall.into_wall_W().dot(s.estimate.v_WB_m_s);
-    return s.distance_m() > 0.5 * s.parameters.pre_distance_m &&
-           std::abs(closing_m_s) < 2.0 * s.parameters.pre_speed_m_s;
+    return s.distance_m() > s.parameters.near_share * s.parameters.pre_distance_m &&
+           std::abs(closing_m_s) < kBlind * s.parameters.pre_speed_m_s;
 }
 
 bool is_level(const Scene& s) {
-    constexpr double kLong_s = 1.5;
     const double waited_s = s.elapsed_s() - s.parameters.level_pitch_s;
-    const double kindness = windy(s.parameters, s.memory) ? patience(waited_s, kLong_s) : 1.0;
+    const double leniency_in_wind =
+        windy(s.parameters, s.memory) ? leniency(waited_s, s.parameters.patience_level_s) : 1.0;
     return waited_s > 0.0 &&
            std::abs(s.pitch_rad() - level_pitch_rad(s.parameters, s.memory)) <
-               kindness * radians(s.parameters.level_limit_deg) &&
-           s.estimate.w_WB_B_rad_s.norm() < kindness * radians(s.parameters.level_rate_deg_s);
+               leniency_in_wind * radians(s.parameters.level_limit_deg) &&
+           s.estimate.w_WB_B_rad_s.norm() <
+               leniency_in_wind * radians(s.parameters.level_rate_deg_s);
 }
 
 // --- what each sense says of the cup ------------------------------------------------------------
@@ -79,7 +85,7 @@ enum class Vote {
 };
 
 /// The joint stays where the cup gripped, whatever the pitch. An uncertain position must not tear
-/// a cup off that holds: five sigma are allowed on top.
+/// a cup off that holds: five sigma are allowed on top, of which chance is never beyond.
 Vote vote_of_pose(const Scene& s) {
     if (!s.estimate.valid) {
         return Vote::unknown;
@@ -88,9 +94,10 @@ Vote vote_of_pose(const Scene& s) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         variance_m2 = std::max(variance_m2, s.estimate.variance[axis]);
     }
+    constexpr double kSigmas = 5.0;
     const double moved_m = (joint_W(s.parameters, s.estimate) - s.memory.grip_W_m).norm();
-    return moved_m > s.parameters.slip_limit_m + 5.0 * std::sqrt(variance_m2) ? Vote::free
-                                                                              : Vote::held;
+    return moved_m > s.parameters.slip_limit_m + kSigmas * std::sqrt(variance_m2) ? Vote::free
+                                                                                  : Vote::held;
 }
 
 Vote vote_of_pressure(const Scene& s) {
@@ -100,21 +107,25 @@ Vote vote_of_pressure(const Scene& s) {
     return s.pressure_Pa() < s.parameters.detach_pressure_Pa ? Vote::held : Vote::free;
 }
 
+double grip_force_N(const Scene& s) {
+    return s.parameters.grip_force_share * s.parameters.impact_force_N;
+}
+
 /// Whatever hangs on the cup pulls or presses there; level, a cup that holds may bear nothing.
 Vote vote_of_force(const Scene& s) {
-    constexpr double kHangs_deg = 20.0;
     if (force_lost(s)) {
         return Vote::unknown;
     }
-    if (std::abs(s.readings.force.value.axial_N) > 0.5 * s.parameters.impact_force_N) {
+    if (std::abs(s.readings.force.value.axial_N) > grip_force_N(s)) {
         return Vote::held;
     }
-    return std::abs(s.pitch_rad()) > radians(kHangs_deg) ? Vote::free : Vote::unknown;
+    return std::abs(s.pitch_rad()) > radians(s.parameters.hang_pitch_deg) ? Vote::free
+                                                                          : Vote::unknown;
 }
 
 /// Only a cup that holds is pulled at.
 bool pulls(const Scene& s) {
-    return !force_lost(s) && s.readings.force.value.axial_N > 0.5 * s.parameters.impact_force_N;
+    return !force_lost(s) && s.readings.force.value.axial_N > grip_force_N(s);
 }
 
 bool may_hold(const Scene& s) {
@@ -177,11 +188,11 @@ bool wall_lost(const Scene& s) {
 bool too_windy(const Scene& s) {
     // Across, it can lean only while the cup holds it off the wall: at 20 deg the legs miss it, and
     // a wind off the wall takes of that.
-    constexpr double kAcross = 0.66;
     const double limit_m_s2 = kGravity_m_s2 * std::tan(radians(s.parameters.lean_limit_deg));
     const Vector3& trim_W_m_s2 = s.memory.wind.trim_W_m_s2;
     const Vector3 n_W = s.memory.wall.into_wall_W();
-    const double across = n_W.cross(trim_W_m_s2).norm() / (kAcross * limit_m_s2);
+    const double across =
+        n_W.cross(trim_W_m_s2).norm() / (s.parameters.lean_across_share * limit_m_s2);
     const double against = std::max(0.0, n_W.dot(trim_W_m_s2)) / limit_m_s2;
     return s.elapsed_s() > s.parameters.settle_s &&
            (trim_W_m_s2.norm() > limit_m_s2 || std::hypot(across, against) > 1.0);
@@ -198,11 +209,9 @@ bool wall_hit(const Scene& s) {
 }
 /// Where the force sensor is stuck: the wall has stopped it, and the cup holds.
 bool caught(const Scene& s) {
-    constexpr double kNear = 0.5, kSlow = 0.25;
-    const WallSeen& wall = s.memory.wall;
-    return sealed(s) &&
-           wall.distance_m(s.parameters, s.estimate.p_WB_m) < kNear * s.parameters.pre_distance_m &&
-           wall.into_wall_W().dot(s.estimate.v_WB_m_s) < kSlow * s.parameters.dock_speed_m_s;
+    const double closing_m_s = s.memory.wall.into_wall_W().dot(s.estimate.v_WB_m_s);
+    return sealed(s) && s.distance_m() < s.parameters.near_share * s.parameters.pre_distance_m &&
+           closing_m_s < s.parameters.caught_speed_share * s.parameters.dock_speed_m_s;
 }
 bool approach_too_long(const Scene& s) {
     return s.elapsed_s() > s.parameters.approach_limit_s;
@@ -257,7 +266,8 @@ bool seems_sealed(const Scene& s) {
     return vote_of_pressure(s) == Vote::held;
 }
 bool held_back(const Scene& s) {
-    return retreat_too_long(s) && s.distance_m() < 0.5 * s.parameters.pre_distance_m && may_hold(s);
+    return retreat_too_long(s) &&
+           s.distance_m() < s.parameters.near_share * s.parameters.pre_distance_m && may_hold(s);
 }
 bool brakes_held(const Scene& s) {
     return retreat_too_long(s) && (vote_of_pressure(s) == Vote::held || pulls(s));
@@ -290,20 +300,17 @@ bool rest_over_blind(const Scene& s) {
     return rest_over(s) && estimate_lost(s);
 }
 bool rest_over_still(const Scene& s) {
-    constexpr double kStill_s = 3.0;
-    constexpr double kLongest_s = 30.0;
-    return rest_over(s) && (s.time_s - s.memory.rest.moved_s >= kStill_s ||
-                            s.elapsed_s() >= s.parameters.rest_s + kLongest_s);
+    return rest_over(s) && (s.time_s - s.memory.rest.moved_s >= s.parameters.still_s ||
+                            s.elapsed_s() >= s.parameters.rest_s + s.parameters.still_limit_s);
 }
 bool rest_over_turned(const Scene& s) {
-    constexpr double kTurned_deg = 25.0;
     // About the vertical alone: on the cup the vehicle also turns about the wall's normal.
     const Quaternion turned =
         s.estimate.q_WB *
         quaternion_from_euler({.pitch_rad = s.pitch_rad(), .yaw_rad = s.memory.wall.heading_rad})
             .conjugate();
     const double about_z_rad = wrap_pi(2.0 * std::atan2(turned.z(), turned.w()));
-    return rest_over_still(s) && std::abs(about_z_rad) > radians(kTurned_deg);
+    return rest_over_still(s) && std::abs(about_z_rad) > radians(s.parameters.turned_limit_deg);
 }
 bool battery_low_flies(const Scene& s) {
     return s.task.take_off && battery_low(s);
@@ -319,7 +326,7 @@ bool valve_fitted(const Scene& s) {
 }
 bool pressure_stuck(const Scene& s) {
     return s.elapsed_s() > s.parameters.stuck_s &&
-           std::abs(s.pressure_Pa() - s.memory.entry_pressure_Pa) < 1.0;
+           std::abs(s.pressure_Pa() - s.memory.entry_pressure_Pa) < s.parameters.stuck_pressure_Pa;
 }
 bool stuck_behind_valve(const Scene& s) {
     return valve_fitted(s) && pressure_stuck(s);

@@ -9,6 +9,11 @@
 namespace limpet::guidance {
 namespace {
 
+// Against division by nothing; no flight comes near.
+constexpr double kNothing_m_s2 = 1e-6;
+constexpr double kSlowestGain_1_s = 0.1;  ///< line_gain_1_s may be 0
+constexpr double kUpright = 0.1;  ///< cosine of 84 deg: nobody leans for an acceleration there
+
 AttitudeSetpoint attitude(const PerchingMemory& memory, double pitch_rad, double thrust) {
     return {
         .q_WB = quaternion_from_euler({.pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
@@ -57,7 +62,8 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
     const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
     // The position loop asks for line_gain times the distance left: from there on it is the slower
     // one.
-    if (left_m < std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, 0.1))) {
+    if (left_m <
+        std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, kSlowestGain_1_s))) {
         setpoint.motion = stand(parameters, memory);
         const Vector3 trim_W_m_s2 = wind_trim_W_m_s2(parameters, memory);
         if (!trim_W_m_s2.isZero()) {  // a position set-point carries none
@@ -83,7 +89,7 @@ AttitudeSetpoint leaning(const PerchingParameters& parameters, const PerchingMem
     const Vector3 ahead_W = memory.wall.into_wall_W();
     const Vector3 right_W = right_of(memory);
     const Vector3 f_W = a_W_m_s2 - Vector3(0.0, 0.0, kGravity_m_s2);
-    const double size_m_s2 = std::max(f_W.norm(), 1e-6);
+    const double size_m_s2 = std::max(f_W.norm(), kNothing_m_s2);
     return {.q_WB = quaternion_from_euler({.roll_rad = std::asin(f_W.dot(right_W) / size_m_s2),
                                            .pitch_rad = std::atan2(-f_W.dot(ahead_W), -f_W.z()),
                                            .yaw_rad = memory.wall.heading_rad}),
@@ -95,8 +101,6 @@ AttitudeSetpoint leaning(const PerchingParameters& parameters, const PerchingMem
 /// LiDARs'.
 AttitudeSetpoint brake(const PerchingParameters& parameters, const PerchingMemory& memory,
                        const Estimate& estimate) {
-    constexpr double kGain_1_s = 2.0;
-    constexpr double kLargest_m_s2 = 4.0;  // 22 deg
     const Vector3 n_W = memory.wall.into_wall_W();
     const double too_far_m =
         memory.wall.distance_m(parameters, estimate.p_WB_m) - parameters.pre_distance_m;
@@ -104,9 +108,10 @@ AttitudeSetpoint brake(const PerchingParameters& parameters, const PerchingMemor
         std::clamp(parameters.line_gain_1_s * too_far_m, -parameters.retreat_speed_m_s, 0.0);
     const double sink_m_s =
         parameters.altitude_gain_1_s * (memory.entry_p_W_m.z() - estimate.p_WB_m.z());
-    Vector3 a_W_m_s2 = kGain_1_s * (speed_m_s * n_W - estimate.v_WB_m_s);
+    Vector3 a_W_m_s2 = parameters.brake_gain_1_s * (speed_m_s * n_W - estimate.v_WB_m_s);
     a_W_m_s2.z() = parameters.climb_rate_gain_1_s * (sink_m_s - estimate.v_WB_m_s.z());
-    a_W_m_s2 *= std::min(1.0, kLargest_m_s2 / std::max(a_W_m_s2.norm(), 1e-6));
+    a_W_m_s2 *= std::min(
+        1.0, parameters.brake_acceleration_m_s2 / std::max(a_W_m_s2.norm(), kNothing_m_s2));
     return leaning(parameters, memory,
                    a_W_m_s2 + parameters.drag_1_s * speed_m_s * n_W + memory.wind.trim_W_m_s2);
 }
@@ -172,8 +177,6 @@ double level_share(const PerchingParameters& parameters, const PerchingMemory& m
 /// @param share  of the weight along the thrust axis as long as it does not roll
 AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const PerchingMemory& memory,
                             const Estimate& estimate, double pitch_rad, double share) {
-    constexpr double kSteepest = 0.6;  // of the thrust, 31 deg
-    constexpr double kFade_deg = 10.0;
     double side_m_s2 = 0.0;
     if (share > 0.0 && sits_on_grip(parameters, memory, estimate)) {
         const Vector3 right_W = right_of(memory);
@@ -182,13 +185,14 @@ AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const Perching
         const double known_m_s2 = windy(parameters, memory)
                                       ? right_W.dot(memory.wind.trim_W_m_s2) * std::sqrt(share)
                                       : 0.0;
-        const double near =
-            smoothstep((radians(parameters.perched_pitch_deg) - pitch_rad) / radians(kFade_deg));
+        const double near = smoothstep((radians(parameters.perched_pitch_deg) - pitch_rad) /
+                                       radians(parameters.roll_fade_deg));
         side_m_s2 = near * (known_m_s2 + memory.wind.side_m_s2 +
                             parameters.sway_gain_1_s * (asked_m_s - v_m_s));
     }
     const double along_m_s2 = kGravity_m_s2 * std::max(share, 0.0);
-    side_m_s2 = std::clamp(side_m_s2, -kSteepest * along_m_s2, kSteepest * along_m_s2);
+    side_m_s2 = std::clamp(side_m_s2, -parameters.roll_limit * along_m_s2,
+                           parameters.roll_limit * along_m_s2);
     const double roll_rad = along_m_s2 > 0.0 ? std::atan(side_m_s2 / along_m_s2) : 0.0;
     return {.q_WB = quaternion_from_euler(
                 {.roll_rad = roll_rad, .pitch_rad = pitch_rad, .yaw_rad = memory.wall.heading_rad}),
@@ -198,12 +202,11 @@ AttitudeSetpoint on_the_cup(const PerchingParameters& parameters, const Perching
 /// Into the wall, in wind and gusts without being turned about the cup meanwhile.
 decltype(Setpoint::motion) press(const PerchingParameters& parameters, const PerchingMemory& memory,
                                  const Estimate& estimate) {
-    constexpr double kAside_m = 0.03;
     const Vector3 n_W = memory.wall.into_wall_W();
     const Vector3 right_W = right_of(memory);
     const Vector3 p_W_m = memory.entry_p_W_m + parameters.hold_depth_m * n_W;
     const double side_m = right_W.dot(estimate.p_WB_m - p_W_m);
-    if (!windy(parameters, memory) && std::abs(side_m) < kAside_m) {
+    if (!windy(parameters, memory) && std::abs(side_m) < parameters.aside_limit_m) {
         return PositionSetpoint{.p_W_m = p_W_m, .yaw_rad = memory.wall.heading_rad};
     }
     const double side_m_s = -parameters.side_gain_1_s * side_m;
@@ -262,7 +265,7 @@ Setpoint on_the_wall(const PerchingParameters& parameters, const PerchingMemory&
 
 Vector3 lean_W_m_s2(const Quaternion& q_WB) {
     const Vector3 up_B_W = q_WB * -Vector3::UnitZ();
-    const double up = std::max(-up_B_W.z(), 0.1);
+    const double up = std::max(-up_B_W.z(), kUpright);
     return Vector3(up_B_W.x(), up_B_W.y(), 0.0) * (kGravity_m_s2 / up);
 }
 

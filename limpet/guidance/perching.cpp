@@ -213,9 +213,7 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
 /// Standing before the wall it learns the wind; on the cup, what more keeps its side.
 void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
                const Estimate& estimate, double time_s) {
-    constexpr double kFilter_s = 1.0;
-    constexpr double kMost_m_s2 = 3.0;
-    constexpr double kLongest_s = 0.1;
+    constexpr double kLongest_s = 0.1;  // a clock that jumps; guidance slower than this learns less
     const double dt_s = std::clamp(time_s - memory.wind.updated_s, 0.0, kLongest_s);
     memory.wind.updated_s = time_s;
     if (!estimate.valid) {
@@ -223,7 +221,8 @@ void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
     }
     if (memory.state == S::aligning) {
         const Vector3 lean = lean_W_m_s2(estimate.q_WB);
-        memory.wind.trim_W_m_s2 += dt_s / (kFilter_s + dt_s) * (lean - memory.wind.trim_W_m_s2);
+        memory.wind.trim_W_m_s2 +=
+            dt_s / (parameters.wind_filter_s + dt_s) * (lean - memory.wind.trim_W_m_s2);
         memory.wind.most_m_s2 = std::max(memory.wind.most_m_s2, lean.norm());
     } else if (!sits_on_grip(parameters, memory, estimate)) {
         return;
@@ -233,16 +232,16 @@ void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
         memory.wind.side_m_s2 =
             std::clamp(memory.wind.side_m_s2 -
                            dt_s * parameters.side_integral_1_s3 * side_error_m(memory, estimate),
-                       -kMost_m_s2, kMost_m_s2);
+                       -parameters.side_limit_m_s2, parameters.side_limit_m_s2);
     }
 }
 
 /// On its legs nothing turns it any more: an attitude that moves there is the estimate's, which is
 /// still finding it, as after a gyro's bias has changed.
-void watch_rest(PerchingMemory& memory, const Estimate& estimate, double time_s) {
-    constexpr double kMoved_rad = radians(0.3);
+void watch_rest(const PerchingParameters& parameters, PerchingMemory& memory,
+                const Estimate& estimate, double time_s) {
     if (memory.state == S::resting &&
-        memory.rest.q_WB.angularDistance(estimate.q_WB) > kMoved_rad) {
+        memory.rest.q_WB.angularDistance(estimate.q_WB) > radians(parameters.moved_limit_deg)) {
         memory.rest.q_WB = estimate.q_WB;
         memory.rest.moved_s = time_s;
     }
@@ -302,7 +301,7 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
         see_wall(parameters, memory.wall, readings, estimate);
     }
     feel_wind(parameters, memory, estimate, time_s);
-    watch_rest(memory, estimate, time_s);
+    watch_rest(parameters, memory, estimate, time_s);
     const Scene scene{parameters, task, memory, readings, estimate, time_s};
     const auto since = [time_s](double& since_s, bool holds) {
         since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;

@@ -28,7 +28,8 @@ struct Stand {
 
 /// @param time_s  when the echoes were taken: before guidance hears them, and not when the pose was
 Stand stand_at(const Estimate& estimate, double time_s) {
-    constexpr double kFar_s = 0.1;  // nobody's latency; beyond it a fault of the clocks
+    constexpr double kFar_s =
+        0.1;  // no LiDAR is later; beyond it a fault of the clocks, no setting
     const double ahead_s = std::clamp(time_s - (estimate.time_s - estimate.age_s), -kFar_s, kFar_s);
     const Quaternion q_BS = quaternion_from_rotation_vector(ahead_s * estimate.w_WB_B_rad_s);
     return {estimate.p_WB_m + ahead_s * estimate.v_WB_m_s,
@@ -58,9 +59,10 @@ void see_wall(const PerchingParameters& parameters, WallSeen& wall, const Readin
     const double heading_rad = attitude.yaw_rad + wall.alpha_rad;
     const double ahead_m = (mean_m + parameters.lidar_x_m) * level * std::cos(wall.alpha_rad);
 
+    constexpr double kInstant_s = 1e-9;  // wall_filter_s 0: no filter
     const double dt_s = time_s - wall.time_s;
     const double gain =
-        wall.ever ? -std::expm1(-dt_s / std::max(parameters.wall_filter_s, 1e-9)) : 1.0;
+        wall.ever ? -std::expm1(-dt_s / std::max(parameters.wall_filter_s, kInstant_s)) : 1.0;
     wall.heading_rad = wrap_pi(wall.heading_rad + gain * wrap_pi(heading_rad - wall.heading_rad));
     const double offset_m = wall.into_wall_W().dot(p_WB_m) + ahead_m;
     wall.offset_m += gain * (offset_m - wall.offset_m);

@@ -231,35 +231,30 @@ void fit_drag(const FlightData& data, const vehicle::Airframe& airframe,
     fit.drag_constant_kg = wandering_slope(inputs, outputs, told);
 }
 
-/// From the first touch until the slider comes back: its force over travel and speed.
-void fit_slider(const FlightData& data, VehicleFit& fit) {
-    constexpr double kTouch_N = 2.0, kLongest_s = 0.12, kFewest = 8.0;
-    const auto pressed = std::find_if(data.force_N.begin(), data.force_N.end(),
-                                      [](double force) { return force < -kTouch_N; });
-    if (pressed == data.force_N.end() || data.velocity_s.empty() || data.imu_s.empty()) {
-        fit.notes.emplace_back(data.force_s.empty()
-                                   ? "no force sensor in the log: nothing tells the slider"
-                                   : "the cup is never pressed, or there is no IMU or velocity "
-                                     "beside it: nothing tells the slider");
-        return;
-    }
-    const double touch_s = data.force_s[static_cast<std::size_t>(pressed - data.force_N.begin())];
-    LastKnown velocity(data.velocity_s);
-    const auto before = velocity.at(touch_s - 0.01);
-    if (!before) {
-        fit.notes.emplace_back("no velocity before the touch: nothing tells the slider");
-        return;
-    }
-    // Specific force ahead while level, less its mean over the last of the steady approach.
-    double v_m_s = data.velocity_B_m_s[*before].x(), x_m = 0.0, steady = 0.0, count = 0.0;
-    std::vector<std::array<double, 4>> rows;  // time, travel, speed, force
+constexpr double kPress_N = 2.0;  ///< pressed harder: it touches
+
+/// The slider at one instant: travel since the touch, its speed into the vehicle, the force.
+struct Pressed {
+    double travel_m = 0.0;
+    double speed_m_s = 0.0;
+    double force_N = 0.0;
+};
+
+/// From the first touch until the slider comes back. Speed and travel are the integral of the
+/// specific force ahead while level, less its mean over the last of the steady approach.
+/// @param touch_s     when the force sensor first feels it
+/// @param before_m_s  speed ahead just before
+std::vector<Pressed> pressed_from(const FlightData& data, double touch_s, double before_m_s) {
+    constexpr double kBefore_s = 0.1, kJustBefore_s = 0.01, kLongest_s = 0.12;
+    double v_m_s = before_m_s, x_m = 0.0, steady = 0.0, count = 0.0;
+    std::vector<Pressed> rows;
     LastKnown force(data.force_s);
     for (std::size_t k = 1; k < data.imu_s.size(); ++k) {
         const double time_s = data.imu_s[k];
-        if (time_s < touch_s - 0.1 || !data.specific_force_B_m_s2[k].allFinite()) {
+        if (time_s < touch_s - kBefore_s || !data.specific_force_B_m_s2[k].allFinite()) {
             continue;
         }
-        if (time_s <= touch_s - 0.01) {
+        if (time_s <= touch_s - kJustBefore_s) {
             steady += data.specific_force_B_m_s2[k].x();
             ++count;
             continue;
@@ -269,19 +264,42 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
         }
         const double step_s = time_s - data.imu_s[k - 1];
         const double a_m_s2 = data.specific_force_B_m_s2[k].x() - (count > 0 ? steady / count : 0);
-        const double before_m_s = v_m_s;
+        const double last_m_s = v_m_s;
         v_m_s += a_m_s2 * step_s;
         if (time_s >= touch_s - 1e-9) {
-            x_m += 0.5 * (before_m_s + v_m_s) * step_s;
+            x_m += 0.5 * (last_m_s + v_m_s) * step_s;
         }
         const auto at = force.at(time_s);
-        if (at && data.force_N[*at] < -kTouch_N) {
-            rows.push_back({time_s, x_m, v_m_s, -data.force_N[*at]});
+        if (at && data.force_N[*at] < -kPress_N) {
+            rows.push_back({x_m, v_m_s, -data.force_N[*at]});
         } else if (!rows.empty()) {
             break;
         }
     }
-    if (static_cast<double>(rows.size()) < kFewest) {
+    return rows;
+}
+
+/// The slider's force over travel and speed.
+void fit_slider(const FlightData& data, VehicleFit& fit) {
+    constexpr std::size_t kFewest = 8;
+    const auto touch = std::find_if(data.force_N.begin(), data.force_N.end(),
+                                    [](double force) { return force < -kPress_N; });
+    if (touch == data.force_N.end() || data.velocity_s.empty() || data.imu_s.empty()) {
+        fit.notes.emplace_back(data.force_s.empty()
+                                   ? "no force sensor in the log: nothing tells the slider"
+                                   : "the cup is never pressed, or there is no IMU or velocity "
+                                     "beside it: nothing tells the slider");
+        return;
+    }
+    const double touch_s = data.force_s[static_cast<std::size_t>(touch - data.force_N.begin())];
+    LastKnown velocity(data.velocity_s);
+    const auto before = velocity.at(touch_s - 0.01);
+    if (!before) {
+        fit.notes.emplace_back("no velocity before the touch: nothing tells the slider");
+        return;
+    }
+    const std::vector<Pressed> rows = pressed_from(data, touch_s, data.velocity_B_m_s[*before].x());
+    if (rows.size() < kFewest) {
         fit.notes.emplace_back(
             "the touch is too short for this log's rates: nothing tells the "
             "slider");
@@ -290,9 +308,9 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
     MatrixXd inputs(static_cast<Eigen::Index>(rows.size()), 3);
     VectorXd outputs(inputs.rows());
     for (Eigen::Index i = 0; i < inputs.rows(); ++i) {
-        const auto& [time_s, travel_m, speed_m_s, pressed_N] = rows[static_cast<std::size_t>(i)];
-        inputs.row(i) << travel_m, speed_m_s, 1.0;
-        outputs[i] = pressed_N;
+        const Pressed& row = rows[static_cast<std::size_t>(i)];
+        inputs.row(i) << row.travel_m, row.speed_m_s, 1.0;
+        outputs[i] = row.force_N;
     }
     const LinearFit line = linear_fit(inputs, outputs, 3);
     fit.slider_stiffness_N_m = fitted(line.value[0], line.covariance(0, 0));

@@ -87,15 +87,6 @@ Swing::~Swing() {
     stop();
 }
 
-/// @throws InputError
-Swing::Point Swing::point_of(const std::string& scenario, const stability::Overrides& changes) {
-    try {
-        return {true, true, stability::linear_swing(scenario, changes)};
-    } catch (const InternalError&) {  // no rest, no swing
-        return {true};
-    }
-}
-
 void Swing::begin(std::string_view request) {
     const json asked = object_in(request);
     Asked wish = asked_in(asked, first_);
@@ -108,8 +99,7 @@ void Swing::begin(std::string_view request) {
         scenario::load_scenario(wish.scenario, {.overrides = wish.changes});
     std::vector<double> across = numbers_of(scenario, map.across);
     std::vector<double> up = numbers_of(scenario, map.up);
-    const Point own = point_of(wish.scenario, wish.changes);
-    own_ = own;
+    own_ = {true, swing_of_(wish.scenario, wish.changes)};
     own_across_ = std::move(across);
     own_up_ = std::move(up);
     if (id_ > 0 && !stop_ && map.scenario == map_.scenario && map.changes == map_.changes &&
@@ -121,6 +111,7 @@ void Swing::begin(std::string_view request) {
     map_ = std::move(map);
     order_ = coarse_first(map_.across.values.size(), map_.up.values.size());
     points_.assign(map_.size(), {});
+    failed_ = nullptr;
     next_ = 0;
     stop_ = false;
     ++id_;
@@ -138,8 +129,13 @@ void Swing::fill() {
     for (std::size_t k = next_++; k < order_.size() && !stop_; k = next_++) {
         Point point{true};
         try {
-            point = point_of(map_.scenario, map_.point(order_[k]));
+            point.mode = swing_of_(map_.scenario, map_.point(order_[k]));
         } catch (const InputError&) {  // these two do not go together
+        } catch (...) {
+            stop_ = true;
+            const std::lock_guard lock(guards_points_);
+            failed_ = std::current_exception();
+            return;
         }
         const std::lock_guard lock(guards_points_);
         points_[order_[k]] = point;
@@ -149,14 +145,17 @@ void Swing::fill() {
 std::string Swing::state() {
     const bool running = working_ > 0;  // before the points: none is missed when it has ended
     const std::lock_guard lock(guards_points_);
+    if (failed_) {
+        std::rethrow_exception(failed_);
+    }
     const auto axis_json = [](const stability::Axis& axis, const std::vector<double>& own) {
         return json{{"keys", axis.keys}, {"values", axis.values}, {"own", own}};
     };
     json growth = json::array();
     for (const Point& point : points_) {
-        growth.push_back(!point.done     ? json()
-                         : !point.swings ? json("none")
-                                         : json(point.mode.growth_1_s));
+        growth.push_back(!point.done   ? json()
+                         : !point.mode ? json("none")
+                                       : json(point.mode->growth_1_s));
     }
     return json{{"id", id_},
                 {"running", running},
@@ -166,8 +165,8 @@ std::string Swing::state() {
                 {"up", axis_json(map_.up, own_up_)},
                 {"growth_1_s", growth},
                 {"own",
-                 {{"growth_1_s", own_.swings ? json(own_.mode.growth_1_s) : json()},
-                  {"frequency_Hz", own_.swings ? json(own_.mode.frequency_Hz) : json()}}}}
+                 {{"growth_1_s", own_.mode ? json(own_.mode->growth_1_s) : json()},
+                  {"frequency_Hz", own_.mode ? json(own_.mode->frequency_Hz) : json()}}}}
         .dump();
 }
 

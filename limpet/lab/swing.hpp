@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <exception>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -18,7 +20,9 @@ namespace limpet::lab {
 class Swing {
 public:
     /// @param scenario  where a request names none
-    explicit Swing(std::string scenario) : first_(std::move(scenario)) {}
+    /// @param swing_of  what a point is asked of
+    explicit Swing(std::string scenario, stability::SwingOf swing_of = stability::linear_swing)
+        : first_(std::move(scenario)), swing_of_(std::move(swing_of)) {}
     /// Waits for the points that are being worked out.
     ~Swing();
     Swing(const Swing&) = delete;
@@ -36,17 +40,18 @@ public:
     ///         "values", "own": the vehicle's numbers, by key}, "growth_1_s": [up * across: null:
     ///         not yet; "none": there is no such vehicle, or it has no rest or swing], "own":
     ///         {"growth_1_s", "frequency_Hz", null: as above}}
+    /// @throws InternalError that of a point, which stopped the map
     [[nodiscard]] std::string state();
 
 private:
     struct Point {
-        bool done = false, swings = false;
-        stability::Mode mode = {};
+        bool done = false;
+        std::optional<stability::Mode> mode = {};
     };
-    static Point point_of(const std::string& scenario, const stability::Overrides& changes);
     void fill();
 
     const std::string first_;
+    const stability::SwingOf swing_of_;
     int id_ = 0;
     stability::StabilityMap map_;  ///< without its growth
     Point own_;
@@ -57,6 +62,7 @@ private:
     std::vector<std::size_t> order_;  ///< of the points: every fourth of a row, every second, all
     std::mutex guards_points_;
     std::vector<Point> points_;
+    std::exception_ptr failed_ = nullptr;  ///< by a point, since the map began
     std::vector<std::jthread> threads_;
 };
 

@@ -233,6 +233,28 @@ bool Live::hear(Word word) {
     return true;
 }
 
+/// Those that may be set are left for the flight; the others are refused, one by one.
+/// @throws nlohmann::json::exception
+void Live::set_parameters(Viewer& viewer, const nlohmann::json& asked) {
+    Word word{.from = viewer.session, .id = asked.value("id", "")};
+    std::vector<std::string> all;
+    for (const nlohmann::json& one : asked.at("parameters")) {
+        const auto name = one.at("name").get<std::string>();
+        const nlohmann::json& given = one.at("value");
+        const double value =
+            given.is_boolean() ? (given.get<bool>() ? 1.0 : 0.0) : given.get<double>();
+        all.push_back(name);
+        if (const std::string why = refusal(name, value); !why.empty()) {
+            viewer.session->send_text(status(StatusLevel::error, why));
+        } else {
+            word.set.emplace_back(name, value);
+        }
+    }
+    if (word.set.empty() || !hear(std::move(word))) {
+        viewer.session->send_text(parameter_values(wanted(all), asked.value("id", "")));
+    }
+}
+
 void Live::on_text(serve::Session& session, std::string_view text) {
     const std::lock_guard lock(guards_all_);
     Viewer& viewer = viewers_.at(&session);
@@ -254,23 +276,7 @@ void Live::on_text(serve::Session& session, std::string_view text) {
         } else if (op == "getParameters") {
             session.send_text(parameter_values(wanted(names()), asked.value("id", "")));
         } else if (op == "setParameters") {
-            Word word{.from = viewer.session, .id = asked.value("id", "")};
-            std::vector<std::string> all;
-            for (const nlohmann::json& one : asked.at("parameters")) {
-                const auto name = one.at("name").get<std::string>();
-                const nlohmann::json& given = one.at("value");
-                const double value =
-                    given.is_boolean() ? (given.get<bool>() ? 1.0 : 0.0) : given.get<double>();
-                all.push_back(name);
-                if (const std::string why = refusal(name, value); !why.empty()) {
-                    session.send_text(status(StatusLevel::error, why));
-                } else {
-                    word.set.emplace_back(name, value);
-                }
-            }
-            if (word.set.empty() || !hear(std::move(word))) {
-                session.send_text(parameter_values(wanted(all), asked.value("id", "")));
-            }
+            set_parameters(viewer, asked);
         } else if (op == "fetchAsset") {
             fetch(session, asked.at("requestId").get<std::uint32_t>(),
                   asked.at("uri").get<std::string>());

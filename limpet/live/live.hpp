@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -120,6 +121,7 @@ private:
               bool keep);
     [[nodiscard]] std::vector<LiveParameter> wanted(const std::vector<std::string>& names) const;
     [[nodiscard]] std::string refusal(const std::string& name, double value) const;
+    void set_parameters(Viewer& viewer, const nlohmann::json& asked);
     [[nodiscard]] bool hear(Word word);
     void apply(const Word& word, const LiveDesk& desk);
 

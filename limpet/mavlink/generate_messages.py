@@ -29,6 +29,9 @@ ELEMENT_BYTES.update({f"{sign}int{8 * n}_t": n for sign in ("", "u") for n in (1
 # Where the rule, HIL_GPS is HilGps, gives no good name.
 STRUCT_NAMES = {"EVENT": "EventMessage", "STATUSTEXT": "StatusText", "TIMESYNC": "TimeSync"}
 
+# Where an enumeration's entries do not begin with its name.
+ENTRY_PREFIXES = {"MAV_COMPONENT": "MAV_COMP_ID_", "HIL_SENSOR_UPDATED_FLAGS": "HIL_SENSOR_UPDATED_"}
+
 
 class Refused(Exception):
     """What is wrong with the XML, with file:line."""
@@ -163,17 +166,25 @@ def message_text(node):
     return "\n".join(lines) + "\n"
 
 
+def entry_name(name, prefix):
+    """What follows the prefix; where that begins with a digit, the prefix's last word before it."""
+    left = name[len(prefix):].lower()
+    return prefix.lower().split("_")[-2] + "_" + left if left[:1].isdigit() else left
+
+
 def enum_text(node):
     entries = node.all("entry")
     check_once(entries)
     check_once(entries, "value")
-    prefix = node["name"] + "_"
+    prefix = ENTRY_PREFIXES.get(node["name"], node["name"] + "_")
     for entry in entries:
         if not entry["name"].startswith(prefix):
             entry.refuse(f"must begin with {prefix}")
-    values = [f"{e['name'][len(prefix):].lower()} = {e.number('value', 255)}" for e in entries]
+    most = max((entry.number("value", 2**32 - 1) for entry in entries), default=0)
+    bits = next(bits for bits in (8, 16, 32) if most < 2**bits)
+    values = [f"{entry_name(entry['name'], prefix)} = {entry['value']}" for entry in entries]
     return (f"struct {struct_name(node['name'])} {{\n"
-            f"    enum Value : std::uint8_t {{ {', '.join(values)} }};\n}};\n")
+            f"    enum Value : std::uint{bits}_t {{ {', '.join(values)} }};\n}};\n")
 
 
 def header_text(source, root):

@@ -17,7 +17,8 @@ constexpr milliseconds kBootWait{4};
 /// Half a period at 250 Hz: the motors are then for these sensors, not for the last ones.
 constexpr milliseconds kRealTimeWait{2};
 /// One that has not answered by then is not booting but slow: it must not be left far behind, or
-/// who hears what when would depend on the machine. Source: px4.md, first answer to 22 to 34
+/// who hears what when would depend on the machine. Source: px4.md "Simulator link", first
+/// answer to 22 to 34
 constexpr std::size_t kBootSensors = 50;
 constexpr milliseconds kSlowBootWait{50};
 /// It has answered earlier sensors just now: the answer to these is on its way.

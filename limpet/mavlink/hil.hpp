@@ -56,7 +56,7 @@ struct HilCount {
 /// The simulator's end of PX4's HIL. In each step GPS and motion capture go first, then HIL_SENSOR,
 /// which sets the autopilot's clock; then its answer of the same time stamp is waited for. The
 /// first answers come late (it boots): until one has come, no sensors wait for long.
-/// Source: px4.md, "Simulator link"
+/// Source: px4.md "Simulator link"
 class Hil {
 public:
     /// Takes frames that are no HIL_ACTUATOR_CONTROLS.

@@ -18,10 +18,10 @@
 
 namespace limpet::mavlink {
 
-/// Components of a MAVLink system. Source: common.xml, MAV_COMPONENT
-inline constexpr std::uint8_t kAutopilotComponent = 1;
-inline constexpr std::uint8_t kGroundStationComponent = 190;
-inline constexpr std::uint8_t kCompanionComponent = 191;
+/// Components of a MAVLink system.
+inline constexpr std::uint8_t kAutopilotComponent = MavComponent::autopilot1;
+inline constexpr std::uint8_t kGroundStationComponent = MavComponent::missionplanner;
+inline constexpr std::uint8_t kCompanionComponent = MavComponent::onboard_computer;
 
 /// So many frames are taken from a wire before other work has its turn: a flood of them must not
 /// stop a loop. No autopilot sends as many in 10 ms.

@@ -8,15 +8,11 @@
 #include "limpet/mavlink/messages.hpp"
 
 /// Pump and valve over MAVLink: between a companion and the perching mechanism, not through the
-/// autopilot, whose outputs drop to 0 when it disarms (px4.md).
+/// autopilot, whose outputs drop to 0 when it disarms (px4.md "Perched").
 namespace limpet::mavlink {
 
-/// The mechanism's component id in the vehicle's system. Source: common.xml, MAV_COMP_ID_USER1
-inline constexpr std::uint8_t kMechanismComponent = 25;
-/// MAV_CMD_DO_SET_ACTUATOR. Source: common.xml
-inline constexpr std::uint16_t kCommandSetActuator = 187;
-/// A companion's last heartbeats: the mission is over.
-inline constexpr std::uint8_t kStatePowerOff = MavState::poweroff;
+/// The mechanism's component id in the vehicle's system.
+inline constexpr std::uint8_t kMechanismComponent = MavComponent::user1;
 
 /// What the mechanism shall do. It keeps its last state when nobody speaks: a vehicle on a wall
 /// must not drop because a computer failed.
@@ -32,7 +28,7 @@ struct MechanismCommand {
                                                   std::uint8_t system, std::uint8_t confirmation) {
     return {.target_system = system,
             .target_component = kMechanismComponent,
-            .command = kCommandSetActuator,
+            .command = MavCmd::do_set_actuator,
             .confirmation = confirmation,
             .param1 = command.pump_on ? 1.0F : 0.0F,
             .param2 = command.valve_open ? 1.0F : 0.0F};
@@ -42,7 +38,7 @@ struct MechanismCommand {
 /// @return nothing for another command or another component
 [[nodiscard]] inline std::optional<MechanismCommand> mechanism_command(
     const CommandLong& message, const MechanismCommand& now) {
-    if (message.command != kCommandSetActuator ||
+    if (message.command != MavCmd::do_set_actuator ||
         (message.target_component != kMechanismComponent && message.target_component != 0)) {
         return std::nullopt;
     }

@@ -11,7 +11,7 @@
 
 /// What a companion tells of its mission, on the sensors' wire and to people: events and the
 /// outcome as STATUSTEXT, the state of guidance as NAMED_VALUE_FLOAT. The last heartbeats carry
-/// kStatePowerOff (mechanism.hpp).
+/// MavState::poweroff (mechanism.hpp).
 namespace limpet::mavlink {
 
 /// "perched: reason", at most 50 letters.

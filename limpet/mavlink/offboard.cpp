@@ -31,9 +31,9 @@ bool again(double& last_s, double interval_s, double time_s) {
 
 std::string_view command_name(std::uint16_t command) {
     switch (command) {
-        case kCommandSetMode: return "the change of mode";
-        case kCommandArm: return "arming or disarming";
-        case kCommandMessageInterval: return "a message's rate";
+        case MavCmd::do_set_mode: return "the change of mode";
+        case MavCmd::component_arm_disarm: return "arming or disarming";
+        case MavCmd::set_message_interval: return "a message's rate";
         default: return "a command";
     }
 }
@@ -49,7 +49,7 @@ void Offboard::hear(const Frame& frame, double time_s) {
     if (const auto beat = decode<Heartbeat>(frame)) {
         if (beat->type == MavType::quadrotor || beat->autopilot != MavAutopilot::invalid) {
             heartbeat_s_ = time_s;
-            report_.armed = (beat->base_mode & kArmedFlag) != 0;
+            report_.armed = (beat->base_mode & MavModeFlag::safety_armed) != 0;
             was_armed_ = was_armed_ || report_.armed;
             report_.custom_mode = beat->custom_mode;
             report_.offboard = main_mode(beat->custom_mode) == kMainModeOffboard;
@@ -91,15 +91,16 @@ void Offboard::hear_command_ack(const CommandAck& ack) {
         if (report_.refused_command == ack.command) {
             report_.refused_command = 0;
         }
-        if (ack.command == kCommandArm) {  // sooner than the next heartbeat, which comes at 1 Hz
+        if (ack.command ==
+            MavCmd::component_arm_disarm) {  // sooner than the next heartbeat, which comes at 1 Hz
             report_.armed = asked_armed_;
             was_armed_ = was_armed_ || asked_armed_;
         }
-        hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == kCommandSetMode);
-    } else if (ack.command == kCommandRequestMessage) {
+        hold_accepted_ = hold_accepted_ || (handed_back_ && ack.command == MavCmd::do_set_mode);
+    } else if (ack.command == MavCmd::request_message) {
         // What else it is asked for every autopilot has; one that is busy has not said so.
         no_origin_ = no_origin_ || ack.result != MavResult::temporarily_rejected;
-    } else if (ack.command != kCommandMessageInterval) {
+    } else if (ack.command != MavCmd::set_message_interval) {
         report_.refused_command = ack.command;
         report_.refused_result = ack.result;
     }
@@ -177,7 +178,8 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
     const bool warm = streaming_s_ >= 0.0 && time_s - streaming_s_ >= options_.warm_up_s;
     if (now == OffboardState::streaming && options_.asks_for_mode && warm) {
         if (again(sent_command_s_, options_.retry_s, time_s)) {
-            send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeOffboard));
+            send_command(link, MavCmd::do_set_mode, kCustomMode,
+                         static_cast<float>(kMainModeOffboard));
         }
     } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
         if (options_.sets_origin && !was_armed_ && !report_.has_origin && sent_origin_s_ < 0.0) {
@@ -185,7 +187,7 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
         }
         if (again(sent_command_s_, options_.retry_s, time_s)) {
             asked_armed_ = setpoint.armed;
-            send_command(link, kCommandArm, setpoint.armed ? 1.0F : 0.0F,
+            send_command(link, MavCmd::component_arm_disarm, setpoint.armed ? 1.0F : 0.0F,
                          setpoint.armed ? 0.0F : kForce);
         }
     }
@@ -201,7 +203,7 @@ void Offboard::give_origin(Link& link, double time_s) {
     }
     if (again(asked_origin_s_, kAnswer_s, time_s)) {
         ++origin_requests_;
-        send_command(link, kCommandRequestMessage, static_cast<float>(GpsGlobalOrigin::kId));
+        send_command(link, MavCmd::request_message, static_cast<float>(GpsGlobalOrigin::kId));
     }
     if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kPatience_s, time_s)) {
         SetGpsGlobalOrigin origin{.target_system = options_.target_system};
@@ -215,7 +217,7 @@ void Offboard::request_rate(Link& link) {
     constexpr int kTimes = 3;
     if (options_.estimate_rate_Hz > 0.0 && (rate_requests_ < kTimes || estimate_s_ < 0.0)) {
         ++rate_requests_;
-        send_command(link, kCommandMessageInterval, static_cast<float>(Odometry::kId),
+        send_command(link, MavCmd::set_message_interval, static_cast<float>(Odometry::kId),
                      static_cast<float>(1e6 / options_.estimate_rate_Hz));
     }
 }
@@ -228,7 +230,7 @@ void Offboard::ask_who(Link& link) {
     }
     ++who_requests_;
     if (!report_.version) {
-        send_command(link, kCommandRequestMessage, static_cast<float>(AutopilotVersion::kId));
+        send_command(link, MavCmd::request_message, static_cast<float>(AutopilotVersion::kId));
     }
     if (!report_.airframe) {
         ParamRequestRead request{.target_system = options_.target_system,
@@ -287,7 +289,7 @@ void Offboard::hand_back(Link& link, double time_s) {
     handed_back_ = true;
     const bool ours = report_.armed && report_.offboard && !hold_accepted_;
     if (ours && again(sent_command_s_, options_.retry_s, time_s)) {
-        send_command(link, kCommandSetMode, kCustomMode, static_cast<float>(kMainModeAuto),
+        send_command(link, MavCmd::do_set_mode, kCustomMode, static_cast<float>(kMainModeAuto),
                      static_cast<float>(kSubModeLoiter));
     }
 }

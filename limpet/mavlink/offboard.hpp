@@ -49,7 +49,8 @@ struct OffboardOptions {
     bool hears_texts = true;
     /// Gives the local origin a latitude and longitude (altitude 0), before it is armed for the
     /// first time and unless it tells that it has them: without, PX4's hold and landing fly off to
-    /// (0, 0). Not where it has GPS, whose origin is another. Reference: px4.md
+    /// (0, 0). Not where it has GPS, whose origin is another. Source: px4.md
+    /// "Motion capture"
     bool sets_origin = true;
 };
 
@@ -72,7 +73,7 @@ struct AutopilotReport {
 /// until they are so, hears the estimate. The same code flies the simulator's PX4 and a real one.
 /// Set-points keep their meaning on the way: attitude stays attitude (a position set-point would
 /// pry at a cup that holds); disarming is forced, since PX4 denies it off the ground.
-/// Source: px4.md, "Offboard" and "Perched"; PX4 v1.15
+/// Source: px4.md "Offboard" and "Perched"; PX4 v1.15
 class Offboard {
 public:
     explicit Offboard(const OffboardOptions& options);

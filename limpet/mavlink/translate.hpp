@@ -19,7 +19,6 @@ namespace limpet::mavlink {
 inline constexpr std::uint8_t kMainModeAuto = 4;
 inline constexpr std::uint8_t kMainModeOffboard = 6;
 inline constexpr std::uint8_t kSubModeLoiter = 3;
-inline constexpr std::uint8_t kArmedFlag = 128;  ///< of a heartbeat's base_mode
 [[nodiscard]] constexpr std::uint32_t custom_mode(std::uint8_t main, std::uint8_t sub = 0) {
     return static_cast<std::uint32_t>(main) << 16U | static_cast<std::uint32_t>(sub) << 24U;
 }
@@ -27,11 +26,6 @@ inline constexpr std::uint8_t kArmedFlag = 128;  ///< of a heartbeat's base_mode
     return static_cast<std::uint8_t>(custom_mode >> 16U);
 }
 
-/// MAV_CMD
-inline constexpr std::uint16_t kCommandSetMode = 176;
-inline constexpr std::uint16_t kCommandArm = 400;
-inline constexpr std::uint16_t kCommandMessageInterval = 511;
-inline constexpr std::uint16_t kCommandRequestMessage = 512;
 inline constexpr float kForce = 21196.0F;  ///< second parameter of arming: without asking
 
 /// Where on earth the origin of W is: PX4's home in simulation, near Zurich. A flight on motion
@@ -48,9 +42,14 @@ void put(const GeographicOrigin& place, std::int32_t& latitude, std::int32_t& lo
          std::int32_t& altitude);
 
 /// HIL_SENSOR::fields_updated
-inline constexpr std::uint32_t kImuFields = 0x3F;
-inline constexpr std::uint32_t kMagnetometerFields = 0x1C0;
-inline constexpr std::uint32_t kBarometerFields = 0x1A00;
+inline constexpr std::uint32_t kImuFields =
+    HilSensorUpdatedFlags::xacc | HilSensorUpdatedFlags::yacc | HilSensorUpdatedFlags::zacc |
+    HilSensorUpdatedFlags::xgyro | HilSensorUpdatedFlags::ygyro | HilSensorUpdatedFlags::zgyro;
+inline constexpr std::uint32_t kMagnetometerFields =
+    HilSensorUpdatedFlags::xmag | HilSensorUpdatedFlags::ymag | HilSensorUpdatedFlags::zmag;
+inline constexpr std::uint32_t kBarometerFields = HilSensorUpdatedFlags::abs_pressure |
+                                                  HilSensorUpdatedFlags::pressure_alt |
+                                                  HilSensorUpdatedFlags::temperature;
 
 /// Fields whose samples have not changed keep their last value.
 /// @param readings  a sample younger than that in `last` is marked in `fields_updated`
@@ -59,8 +58,8 @@ inline constexpr std::uint32_t kBarometerFields = 0x1A00;
 /// The other way: what `fields_updated` names becomes a new sample of `readings`.
 void take(const HilSensor& message, double time_s, Readings& readings);
 
-/// Azimuthal equidistant projection on a sphere, as PX4 undoes it. Source: PX4, lib/geo; facts on
-/// units: px4.md. Quantised to 1e-7 deg (11 mm), mm and cm/s.
+/// Azimuthal equidistant projection on a sphere, as PX4 undoes it. Source: PX4, lib/geo; units:
+/// px4.md "Simulator link". Quantised to 1e-7 deg (11 mm), mm and cm/s.
 [[nodiscard]] HilGps hil_gps(const GpsReading& gps, const GeographicOrigin& origin,
                              std::uint64_t time_usec);
 /// @return nothing without a 3D fix
@@ -85,13 +84,29 @@ void take(const HilSensor& message, double time_s, Readings& readings);
 /// As PX4 v1.15 sends it: velocity in W. Quality 100, or -1 when not valid.
 [[nodiscard]] Odometry odometry(const Estimate& estimate, std::uint64_t time_usec);
 
-/// SET_POSITION_TARGET_LOCAL_NED::type_mask, a bit set: ignored. Source: px4.md, "Offboard"
-inline constexpr std::uint16_t kPositionYaw = 0x9F8;
-inline constexpr std::uint16_t kPositionVelocityYaw = 0x9C0;
-inline constexpr std::uint16_t kVelocityYaw = 0x9C7;
-inline constexpr std::uint16_t kVelocityAccelerationYaw = 0x807;
+/// SET_POSITION_TARGET_LOCAL_NED::type_mask, a bit set: ignored. Source: px4.md "Offboard"
+namespace ignored {
+inline constexpr std::uint16_t kPosition = PositionTargetTypemask::x_ignore |
+                                           PositionTargetTypemask::y_ignore |
+                                           PositionTargetTypemask::z_ignore;
+inline constexpr std::uint16_t kVelocity = PositionTargetTypemask::vx_ignore |
+                                           PositionTargetTypemask::vy_ignore |
+                                           PositionTargetTypemask::vz_ignore;
+inline constexpr std::uint16_t kAcceleration = PositionTargetTypemask::ax_ignore |
+                                               PositionTargetTypemask::ay_ignore |
+                                               PositionTargetTypemask::az_ignore;
+inline constexpr std::uint16_t kYawRate = PositionTargetTypemask::yaw_rate_ignore;
+}  // namespace ignored
+inline constexpr std::uint16_t kPositionYaw =
+    ignored::kVelocity | ignored::kAcceleration | ignored::kYawRate;
+inline constexpr std::uint16_t kPositionVelocityYaw = ignored::kAcceleration | ignored::kYawRate;
+inline constexpr std::uint16_t kVelocityYaw =
+    ignored::kPosition | ignored::kAcceleration | ignored::kYawRate;
+inline constexpr std::uint16_t kVelocityAccelerationYaw = ignored::kPosition | ignored::kYawRate;
 /// SET_ATTITUDE_TARGET::type_mask: quaternion and thrust
-inline constexpr std::uint8_t kAttitudeThrust = 7;
+inline constexpr std::uint8_t kAttitudeThrust = AttitudeTargetTypemask::body_roll_rate_ignore |
+                                                AttitudeTargetTypemask::body_pitch_rate_ignore |
+                                                AttitudeTargetTypemask::body_yaw_rate_ignore;
 
 /// A feed-forward of zero is not sent: the mask leaves it out.
 [[nodiscard]] SetPositionTargetLocalNed position_target(const PositionSetpoint& target,

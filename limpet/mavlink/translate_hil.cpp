@@ -14,7 +14,7 @@ constexpr double kEarthRadius_m = 6371000.0;  ///< of PX4's map projection. Sour
 constexpr double kPascalsPerHectopascal = 100.0;
 /// Nobody measures it. Source: assumed, a room
 constexpr float kTemperature_degC = 25.0F;
-constexpr std::uint8_t kFix3D = 3;
+constexpr std::uint8_t kFix3D = GpsFixType::type_3d_fix;
 /// A good receiver's; PX4 refuses fewer than 6 satellites, 3 m and 5 m (EKF2_REQ_NSATS, _EPH,
 /// _EPV). Source: assumed
 constexpr std::uint8_t kSatellites = 12;
@@ -136,7 +136,7 @@ std::optional<GpsReading> gps_reading(const HilGps& message, const GeographicOri
 
 RotorCommand rotor_command(const HilActuatorControls& controls) {
     RotorCommand command;
-    command.armed = (controls.mode & kArmedFlag) != 0;
+    command.armed = (controls.mode & MavModeFlag::safety_armed) != 0;
     command.command.resize(kMaxRotors);  // the wire does not say how many there are
     for (std::size_t i = 0; i < command.command.size(); ++i) {
         const double value = controls.controls[i];
@@ -150,7 +150,7 @@ HilActuatorControls hil_actuator_controls(const RotorCommand& command, std::uint
     HilActuatorControls message{
         .time_usec = time_usec, .mode = MavModeFlag::custom_mode_enabled, .flags = kLockstep};
     if (command.armed) {
-        message.mode |= kArmedFlag;
+        message.mode |= MavModeFlag::safety_armed;
         std::transform(command.command.begin(), command.command.end(), message.controls.begin(),
                        on_wire<float>);
     }

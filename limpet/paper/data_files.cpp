@@ -12,14 +12,6 @@
 namespace limpet::paper {
 namespace {
 
-const scenario::YamlNode& wanted(const scenario::YamlNode& map, std::string_view key) {
-    const scenario::YamlNode* node = map.find(key);
-    if (node == nullptr) {
-        fail(map, fmt::format("has no {}", key));
-    }
-    return *node;
-}
-
 double number(const scenario::YamlNode& node) {
     const std::optional<double> value = number_in(node);
     if (!value) {
@@ -29,10 +21,8 @@ double number(const scenario::YamlNode& node) {
 }
 
 draw::Range range(const scenario::YamlNode& node) {
-    if (node.kind != scenario::YamlNode::Kind::list || node.children.size() != 2) {
-        fail(node, "must be a range, as in [0.8, 1.4]");
-    }
-    const draw::Range read{number(node.children[0]), number(node.children[1])};
+    const auto& ends = read_list(node, "a range, as in [0.8, 1.4]", 2, 2);
+    const draw::Range read{number(ends[0]), number(ends[1])};
     if (!(read.low <= read.high)) {
         fail(node, "must begin with its lower end");
     }
@@ -48,8 +38,9 @@ report::Quantity quantity(const scenario::YamlNode& node) {
 }
 
 std::string text_or_nothing(const scenario::YamlNode& map, std::string_view key) {
-    const scenario::YamlNode* node = map.find(key);
-    return node == nullptr ? "" : read_text(*node);
+    std::string text;
+    read_given(map, key, text);
+    return text;
 }
 
 /// @throws InputError when it is none of `names`
@@ -70,11 +61,8 @@ std::string one_of(const scenario::YamlNode& node, const std::vector<std::string
 }
 
 std::vector<std::string> texts(const scenario::YamlNode& list) {
-    if (list.kind != scenario::YamlNode::Kind::list) {
-        fail(list, "must be a list");
-    }
     std::vector<std::string> read;
-    for (const scenario::YamlNode& item : list.children) {
+    for (const scenario::YamlNode& item : read_list(list, "a list of texts")) {
         read.push_back(read_text(item));
     }
     return read;
@@ -90,12 +78,12 @@ void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_
                 fail(*node, "stands without evidence");
             }
         }
-        (void)wanted(map, "note");  // why not
+        (void)needed(map, "note");  // why not
         return;
     }
     statement.evidence = one_of(*evidence, measured, "is measured by no part");
     statement.claim.basis =
-        one_of(wanted(map, "basis"), {kBases.begin(), kBases.end()}, "is no basis");
+        one_of(needed(map, "basis"), {kBases.begin(), kBases.end()}, "is no basis");
     const bool rests = statement.claim.basis == "fitted" || statement.claim.basis == "measured";
     if (const scenario::YamlNode* assumes = map.find("assumes")) {
         if (!rests) {
@@ -103,14 +91,14 @@ void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_
         }
         statement.claim.assumes = texts(*assumes);
     } else if (rests) {
-        (void)wanted(map, "assumes");
+        (void)needed(map, "assumes");
     }
     const scenario::YamlNode* least = map.find("at_least");
     if (least != nullptr && map.find("accepted") != nullptr) {
         fail(*least, "stands beside accepted, one of the two");
     }
     statement.accepted = least == nullptr
-                             ? range(wanted(map, "accepted"))
+                             ? range(needed(map, "accepted"))
                              : draw::Range{number(*least), std::numeric_limits<double>::infinity()};
 }
 
@@ -133,7 +121,7 @@ report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& pa
         return paragraph(node, part.measures);
     }
     check_name(node, node.key, part.shows, "is shown by no part");
-    const std::string title = read_text(wanted(node, "title"));
+    const std::string title = read_text(needed(node, "title"));
     const scenario::YamlNode* under = node.find("caption");
     const std::string caption = under == nullptr ? "" : paragraph(*under, part.measures);
     if (const scenario::YamlNode* columns = node.find("columns")) {
@@ -146,7 +134,7 @@ report::PageBlock read_block(const scenario::YamlNode& node, const StudyPart& pa
     return report::PageFigure{.id = node.key,
                               .title = title,
                               .caption = caption,
-                              .alt = read_text(wanted(node, "alt")),
+                              .alt = read_text(needed(node, "alt")),
                               .png = "figures/" + node.key + ".png",
                               .svg = "figures/" + node.key + ".svg",
                               .wide = wide != nullptr && read_flag(*wide)};
@@ -196,9 +184,9 @@ std::vector<PaperStatement> load_statements(const std::filesystem::path& file,
         statement.yes_no = unit == "yes/no";
         statement.claim = {
             .id = map.key,
-            .section = read_text(wanted(map, "section")),
-            .statement = read_text(wanted(map, "says")),
-            .paper = quantity(wanted(map, "paper")),
+            .section = read_text(needed(map, "section")),
+            .statement = read_text(needed(map, "says")),
+            .paper = quantity(needed(map, "paper")),
             .unit = statement.yes_no ? "" : unit,
             .same_as = text_or_nothing(map, "same_as"),
             .note = text_or_nothing(map, "note"),
@@ -217,16 +205,16 @@ PageText load_page_text(const std::filesystem::path& file, const std::vector<Stu
         keys.push_back(part.name);
     }
     check_keys(root, keys);
-    PageText page{.title = read_text(wanted(root, "title")),
-                  .subtitle = read_text(wanted(root, "subtitle")),
-                  .summary = texts(wanted(root, "summary"))};
-    for (const scenario::YamlNode& node : wanted(root, "summary").children) {
+    PageText page{.title = read_text(needed(root, "title")),
+                  .subtitle = read_text(needed(root, "subtitle")),
+                  .summary = texts(needed(root, "summary"))};
+    for (const scenario::YamlNode& node : needed(root, "summary").children) {
         (void)paragraph(node, kSummaryCounts);
     }
     for (const StudyPart& part : parts) {
-        const scenario::YamlNode& section = wanted(root, part.name);
+        const scenario::YamlNode& section = needed(root, part.name);
         for (const std::string& id : part.shows) {
-            (void)wanted(section, id);
+            (void)needed(section, id);
         }
         for (const scenario::YamlNode& node : section.children) {
             page.blocks[part.name].push_back(read_block(node, part));

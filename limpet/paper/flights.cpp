@@ -84,7 +84,7 @@ public:
         : recording_(flight.recording), name_(flight.name), evidence_(evidence) {}
 
     void approach() {
-        const Instant start = first("approach_started"), impact = first("impact");
+        const Instant start = first(EventName::approach_started), impact = first(EventName::impact);
         set("distance_before_approach_m", start["distance_m"]);
         // The walls of the paper's flights face south: the true angle is the yaw.
         const double yaw_rad =
@@ -141,11 +141,12 @@ public:
         set(prefix + "lowest_pressure_hPa",
             hectopascals(
                 within("/sensors/cup_pressure", "fluid_pressure", at_s - 0.05, end_s).least()));
-        set(prefix + "hold_s", first("hold_over", at_s).time_s() - at_s);
+        set(prefix + "hold_s", first(EventName::hold_over, at_s).time_s() - at_s);
     }
 
     void landing() {
-        const Instant start = last("landing_started"), end = first("perched", start.time_s());
+        const Instant start = last(EventName::landing_started),
+                      end = first(EventName::perched, start.time_s());
         set("pressure_at_landing_hPa", hectopascals(start["pressure_Pa"]));
         set("landing_pitch_rise_deg", end["pitch_deg"] - start["pitch_deg"]);
         set("landing_force_rise_N", end["force_N"] - start["force_N"]);
@@ -158,8 +159,8 @@ public:
     }
 
     void rest() {
-        const double off_s = first("motors_off").time_s();
-        const double on_s = first("motors_on", off_s).time_s();
+        const double off_s = first(EventName::motors_off).time_s();
+        const double on_s = first(EventName::motors_on, off_s).time_s();
         const double from_s = std::max(off_s, on_s - kSteady_s);
         // The pump's own part: true pressure, so that the sensor's noise does not count.
         const Samples ripple = within("/cup", "pressure_Pa", from_s, on_s);
@@ -168,9 +169,9 @@ public:
     }
 
     void take_off() {
-        const Instant on = last("motors_on"), level = first("level", on.time_s());
-        const Instant off = first("pump_off", on.time_s());
-        const Instant released = first("pressure_released", off.time_s());
+        const Instant on = last(EventName::motors_on), level = first(EventName::level, on.time_s());
+        const Instant off = first(EventName::pump_off, on.time_s());
+        const Instant released = first(EventName::pressure_released, off.time_s());
         const Samples thrust = within(kTruth, "thrust_N", on.time_s(), level.time_s());
         set("take_off_pressure_hPa", hectopascals(on["pressure_Pa"]));
         set("take_off_thrust_rise_N", thrust.last() - thrust.first());
@@ -180,14 +181,14 @@ public:
         set("pump_off_pitch_deg", std::abs(off["pitch_deg"]));
         set("pump_off_after_level_s", off.time_s() - level.time_s());
         set("pressure_released_hPa", hectopascals(released["pressure_Pa"]));
-        const Instant end = released.came() ? released : first("aborted", off.time_s());
+        const Instant end = released.came() ? released : first(EventName::aborted, off.time_s());
         set("waited_s", end.time_s() - off.time_s());
-        set("back_at_m", last("backed_off")["distance_m"]);
+        set("back_at_m", last(EventName::backed_off)["distance_m"]);
     }
 
     /// From pump off until nine tenths of the vacuum are gone, by the true pressure.
     void regain() {
-        const Instant off = last("pump_off");
+        const Instant off = last(EventName::pump_off);
         const record::Table* cup = find_table(recording_, "/cup");
         const record::Column* pressure = cup == nullptr ? nullptr : cup->find("pressure_Pa");
         double begin_Pa = kNaN, regained_s = kNaN;
@@ -206,15 +207,16 @@ public:
     }
 
     void first_failure() {
-        const double retreat_s = first("retreat_started").time_s();
-        set("retreated_to_m", first("pre_positioned", retreat_s)["distance_m"]);
-        set("second_attempt_after_s", first("approach_started", retreat_s).time_s() - retreat_s);
+        const double retreat_s = first(EventName::retreat_started).time_s();
+        set("retreated_to_m", first(EventName::pre_positioned, retreat_s)["distance_m"]);
+        set("second_attempt_after_s",
+            first(EventName::approach_started, retreat_s).time_s() - retreat_s);
     }
 
-    [[nodiscard]] Instant first(const char* name, double after_s = -1e300) const {
+    [[nodiscard]] Instant first(EventName name, double after_s = -1e300) const {
         return Instant(first_event(recording_, name, after_s));
     }
-    [[nodiscard]] Instant last(const char* name) const {
+    [[nodiscard]] Instant last(EventName name) const {
         return Instant(last_event(recording_, name));
     }
 
@@ -262,8 +264,8 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
     take.set("pressure_lowest_hPa", hectopascals(flight.result.metrics.pressure_min_Pa));
     take.set("pressure_at_release_end_hPa",
              hectopascals(flight.result.metrics.pressure_at_release_end_Pa));
-    take.set("seal_margin_N",
-             flight.result.metrics.impact_force_N - take.last("attached")["seal_threshold_N"]);
+    take.set("seal_margin_N", flight.result.metrics.impact_force_N -
+                                  take.last(EventName::attached)["seal_threshold_N"]);
     for (const Outcome outcome :
          {Outcome::perched, Outcome::released, Outcome::failed_to_seal, Outcome::release_aborted,
           Outcome::aborted, Outcome::crashed, Outcome::timed_out}) {
@@ -274,15 +276,15 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
              (find_table(flight.recording, "/sensors/cup_pressure") != nullptr ? 1.0 : 0.0) +
                  (find_table(flight.recording, "/sensors/force") != nullptr ? 1.0 : 0.0));
     take.approach();
-    take.touch("first_", take.first("impact"));
-    take.touch("", take.last("impact"));
+    take.touch("first_", take.first(EventName::impact));
+    take.touch("", take.last(EventName::impact));
     take.landing();
     take.rest();
     take.take_off();
     take.regain();
     take.first_failure();
-    take.set("rested", take.first("motors_off").came() ? 1.0 : 0.0);
-    take.set("approached", take.first("approach_started").came() ? 1.0 : 0.0);
+    take.set("rested", take.first(EventName::motors_off).came() ? 1.0 : 0.0);
+    take.set("approached", take.first(EventName::approach_started).came() ? 1.0 : 0.0);
 }
 
 }  // namespace limpet::paper

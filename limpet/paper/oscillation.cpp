@@ -6,7 +6,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
-#include "limpet/paper/parallel.hpp"
+#include "limpet/core/parallel.hpp"
+#include "limpet/core/required.hpp"
 #include "limpet/plant/reduced_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"
@@ -119,7 +120,8 @@ KickedSwing measure_swing(std::vector<double> time_s, std::vector<double> pitch_
     return swing;
 }
 
-KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides, double kick_deg) {
+std::optional<KickedSwing> kicked_swing(const std::string& scenario, const Overrides& overrides,
+                                        double kick_deg) {
     const Overrides patient = {"guidance.rest_s=0.5", "guidance.release_limit_s=600",
                                "guidance.oscillation_limit_deg=60", "guidance.stuck_s=60"};
     scenario::Scenario quiet =
@@ -128,11 +130,17 @@ KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides
     quiet.engine = &plant::kReducedEngine;  // whose bodies can be pushed
     const auto model = simulation::build_model(quiet);
     constexpr double kLeast_Hz = 0.3;  // where the loop hardly swings at all
-    const double frequency_Hz =
-        std::max(kLeast_Hz, pitch_mode(stability::LevelOnCup(model).modes()).frequency_Hz);
+    const auto modes = stability::LevelOnCup(model).modes();
+    const auto mode = modes ? pitch_mode(*modes) : std::nullopt;
+    if (!mode) {
+        return std::nullopt;
+    }
+    const double frequency_Hz = std::max(kLeast_Hz, mode->frequency_Hz);
     simulation::Flight twin(model);
     while (!waits(twin)) {
-        require(!twin.ended(), "a flight that comes to its release");
+        if (twin.ended()) {
+            return std::nullopt;
+        }
         twin.tick();
     }
     simulation::Flight kicked(model);
@@ -172,8 +180,9 @@ stability::Axis pivots(std::vector<double> pivot_m) {
 
 void fill(stability::StabilityMap& map, int jobs) {
     map.growth_1_s.assign(map.size(), 0.0);
-    for_each_index(map.size(), jobs,
-                   [&](std::size_t i) { map.growth_1_s[i] = swing_at(map, i).growth_1_s; });
+    for_each_index(map.size(), jobs, [&](std::size_t i) {
+        map.growth_1_s[i] = required(swing_at(map, i), kSwings).growth_1_s;
+    });
 }
 
 double SwingMissions::quantile(double share) const {

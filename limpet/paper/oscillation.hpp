@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 namespace limpet::paper {
 
 using stability::Overrides;
+/// What the paper's vehicle, and each change to it here, keeps.
+inline constexpr const char* kSwings = "a vehicle that rests on its cup and swings";
 /// Both; where they set the same key the second counts.
 [[nodiscard]] Overrides joined(Overrides first, const Overrides& second);
 
@@ -27,8 +30,10 @@ struct KickedSwing {
     std::vector<double> pitch_deg;  ///< of the kicked flight less its twin's
 };
 /// @param kick_deg  amplitude that an undamped swing would have
-[[nodiscard]] KickedSwing kicked_swing(const std::string& scenario, const Overrides& overrides,
-                                       double kick_deg = 0.5);
+/// @return none when the flight does not come to its release, or the vehicle has no rest on its cup
+[[nodiscard]] std::optional<KickedSwing> kicked_swing(const std::string& scenario,
+                                                      const Overrides& overrides,
+                                                      double kick_deg = 0.5);
 
 /// Growth and frequency of the swing in a trace: extremes are found, the logarithm of the
 /// differences between neighbours is a line whose slope is the growth.

@@ -6,8 +6,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/paper/flights.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/paper/rigs.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/record/story.hpp"
@@ -81,7 +81,7 @@ void measure_together(const std::vector<PaperFlight>& flights, Evidence& evidenc
                                                   ? 1.0
                                                   : 0.0);
     const record::Recording& concrete = flight_of(flights, "perch_concrete").recording;
-    const record::RecordedEvent* approach = first_event(concrete, "approach_started");
+    const record::RecordedEvent* approach = first_event(concrete, EventName::approach_started);
     const auto chapter = perching(concrete);
     evidence.set("fig11.approach_at_s",
                  approach != nullptr && chapter ? approach->time_s - chapter->window.from_s : kNaN);

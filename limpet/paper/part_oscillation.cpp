@@ -10,9 +10,10 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/parallel.hpp"
+#include "limpet/core/required.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/paper/recorded.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/report/figures.hpp"
@@ -85,7 +86,7 @@ std::vector<MapPoint> fly_samples(const Study& study) {
         all.insert(all.end(), {{0.020, 0.54}, {0.065, 0.42}, {0.045, 0.46}, {0.080, 0.50}});
     }
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {
-        all[i].flown_1_s = kicked_swing(kSlow, overrides_of(all[i])).growth_1_s;
+        all[i].flown_1_s = required(kicked_swing(kSlow, overrides_of(all[i])), kSwings).growth_1_s;
     });
     return all;
 }
@@ -147,7 +148,8 @@ void study_map(Study& study) {
     double most_1_s = 0.0;
     const auto tell = [&](const std::string& who, std::vector<MapPoint> points, bool drawn) {
         for (MapPoint& one : points) {
-            one.linear_1_s = stability::linear_swing(kSlow, overrides_of(one)).growth_1_s;
+            one.linear_1_s =
+                required(stability::linear_swing(kSlow, overrides_of(one)), kSwings).growth_1_s;
             const double lag_ms = 1000.0 * one.lag_s;
             rows.push_back({who, fmt::format("{:.0f}", lag_ms), one.pivot_m, one.linear_1_s,
                             one.flown_1_s, one.flown_1_s - one.linear_1_s});
@@ -205,9 +207,10 @@ std::vector<Change> changes(const Study& study) {
     };
     for_each_index(all.size(), study.jobs, [&](std::size_t i) {
         Change& change = all[i];
-        change.kicked = kicked_swing(change.scenario, change.overrides);
+        change.kicked = required(kicked_swing(change.scenario, change.overrides), kSwings);
         if (change.linear) {
-            change.mode = stability::linear_swing(change.scenario, change.overrides);
+            change.mode =
+                required(stability::linear_swing(change.scenario, change.overrides), kSwings);
         }
     });
     return all;
@@ -249,8 +252,10 @@ void study_changes(Study& study) {
     bars.series = {linear, flown};
     study.draw("fig-cures", {.panels = {traces, bars}});
     study.table("cures", rows);
-    study.evidence.set("swing.long_pivot_frequency_Hz",
-                       stability::linear_swing(kSlow, {"vehicle.cup.joint_x_m=0.55"}).frequency_Hz);
+    study.evidence.set(
+        "swing.long_pivot_frequency_Hz",
+        required(stability::linear_swing(kSlow, {"vehicle.cup.joint_x_m=0.55"}), kSwings)
+            .frequency_Hz);
 }
 
 // --- whole missions ---------------------------------------------------------------------------

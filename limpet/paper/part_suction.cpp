@@ -7,9 +7,9 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/identification/identification.hpp"
 #include "limpet/paper/flights.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/paper/study.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"

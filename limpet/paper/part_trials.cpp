@@ -88,9 +88,8 @@ double best_margin_low(const std::vector<campaign::Group>& groups) {
             slower = group.proportion;
         }
     }
-    constexpr double kNormal95 = 1.959964;
     return best.probability() - slower.probability() -
-           kNormal95 * std::sqrt(variance(best) + variance(slower));
+           campaign::kNormal95 * std::sqrt(variance(best) + variance(slower));
 }
 
 /// Share of the failures whose reason is the force.

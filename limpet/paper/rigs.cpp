@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/parallel.hpp"
 #include "limpet/models/links.hpp"
 #include "limpet/models/model_writer.hpp"
-#include "limpet/paper/parallel.hpp"
 #include "limpet/plant/engines.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"

@@ -53,7 +53,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step
 
 void require_sound(bool finite) {
     if (!finite) [[unlikely]] {
-        throw InternalError("the reduced engine diverged");
+        throw Diverged();
     }
 }
 

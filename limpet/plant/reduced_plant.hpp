@@ -5,11 +5,19 @@
 #include <memory>
 #include <span>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/models/model_writer.hpp"
 #include "limpet/plant/plant.hpp"
 #include "limpet/plant/reduced_bodies.hpp"
 
 namespace limpet::plant {
+
+/// A state of the reduced engine is no longer finite. In a flight it is a fault of ours. Who steps
+/// from displaced states, far from any flight, takes it for an answer.
+class Diverged final : public InternalError {
+public:
+    Diverged() : InternalError("the reduced engine diverged") {}
+};
 
 /// The vehicle with our cup, and nothing else, in closed form.
 class ReducedModel final : public PlantModel, public std::enable_shared_from_this<ReducedModel> {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "limpet/mavlink/telemetry_messages.hpp"
+#include "limpet/ground_station/telemetry_messages.hpp"
 #include "limpet/wire/transport.hpp"
 
 namespace limpet::px4 {
@@ -19,8 +19,8 @@ mavlink::Link open_hil(const StandInOptions& options) {
             {.system = options.system, .component = mavlink::kAutopilotComponent}};
 }
 
-std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& rows) {
-    std::vector<mavlink::ServedParameter> parameters;
+std::vector<ground_station::ServedParameter> served(const std::vector<BoundParameter>& rows) {
+    std::vector<ground_station::ServedParameter> parameters;
     for (const BoundParameter& row : rows) {
         parameters.push_back({.name = std::string(row.name),
                               .value = row.value.get(),
@@ -34,7 +34,7 @@ std::vector<mavlink::ServedParameter> served(const std::vector<BoundParameter>& 
 
 mavlink::AutopilotVersion version_of_stand_in() {
     constexpr std::uint32_t kBehavesAs = 0x010F01FF;  // PX4 1.15.1, released
-    mavlink::AutopilotVersion version = mavlink::autopilot_version(kBehavesAs);
+    mavlink::AutopilotVersion version = ground_station::autopilot_version(kBehavesAs);
     static_assert(kStandInMark.size() == sizeof(version.flight_custom_version));
     std::copy(kStandInMark.begin(), kStandInMark.end(), version.flight_custom_version.begin());
     return version;
@@ -83,7 +83,7 @@ void StandIn::boot() {
     // PX4 asks for the truth, and needs no answer
     constexpr float kTruthInterval_us = 5000.0F;
     (void)hil_.send(
-        mavlink::CommandLong{.command = mavlink::kCommandMessageInterval,
+        mavlink::CommandLong{.command = mavlink::MavCmd::set_message_interval,
                              .param1 = static_cast<float>(mavlink::HilStateQuaternion::kId),
                              .param2 = kTruthInterval_us});
     (void)hil_.send(heartbeat(flight_));
@@ -196,14 +196,14 @@ void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::F
         return;
     }
     CommandResult result = CommandResult::unsupported;
-    if (command.command == mavlink::kCommandMessageInterval) {
+    if (command.command == mavlink::MavCmd::set_message_interval) {
         result = set_interval(streams_, command.param1, command.param2) ? CommandResult::accepted
                                                                         : CommandResult::failed;
-    } else if (command.command == mavlink::kCommandRequestMessage &&
+    } else if (command.command == mavlink::MavCmd::request_message &&
                command.param1 == static_cast<float>(mavlink::AutopilotVersion::kId)) {
         (void)link.send(version_of_stand_in());
         result = CommandResult::accepted;
-    } else if (command.command == mavlink::kCommandRequestMessage &&
+    } else if (command.command == mavlink::MavCmd::request_message &&
                command.param1 == static_cast<float>(mavlink::GpsGlobalOrigin::kId)) {
         result = tell_origin(link) ? CommandResult::accepted : CommandResult::denied;
     } else if (const auto obeyed = obey(options_.parameters, flight_, command)) {

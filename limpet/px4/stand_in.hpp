@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "limpet/ground_station/parameter_server.hpp"
 #include "limpet/mavlink/link.hpp"
-#include "limpet/mavlink/parameter_server.hpp"
 #include "limpet/px4/instance.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 #include "limpet/px4/stand_in_streams.hpp"
@@ -23,13 +23,14 @@ struct StandInOptions {
     /// Whom it speaks to until somebody speaks to it.
     wire::TransportAddress onboard_peer = Px4Instance().offboard();
     std::uint8_t system = 1;
-    /// HIL_SENSORs that go unanswered while it boots. Source: px4.md, 22 to 34
+    /// HIL_SENSORs that go unanswered while it boots. Source: px4.md "Simulator link",
+    /// 22 to 34
     int boot_sensors = 25;
     /// Its telemetry begins so many later, in simulated time well after the lockstep: who sees when
     /// must not depend on the machine. Source: assumed
     int quiet_sensors = 100;
     /// PX4 v1.16 does without its motion capture for a moment when its first origin comes after it,
-    /// and may not be armed meanwhile: 3.4 s. v1.15: 0. Source: px4.md
+    /// and may not be armed meanwhile: 3.4 s. v1.15: 0. Source: docs/px4.md "PX4 v1.16"
     double origin_unsettles_s = 0.0;
     StandInParameters parameters;
 };
@@ -44,8 +45,8 @@ struct StandInCount {
     std::uint64_t boots = 0;    ///< simulators that it has served
 };
 
-/// The built-in autopilot behind PX4's wire, with the manners of PX4 v1.15 (px4.md), so that what
-/// flies a PX4 can be tried and tested without one.
+/// The built-in autopilot behind PX4's wire, with the manners of PX4 v1.15 (docs/reference/px4.md),
+/// so that what flies a PX4 can be tried and tested without one.
 ///
 ///                      TCP 4560 (connects)             UDP 14580 -> 14540
 ///   simulator  ◄───── HIL_ACTUATOR_CONTROLS ── stand-in ── telemetry ─────► companion
@@ -86,7 +87,7 @@ private:
 
     StandInOptions options_;
     autopilot::AutopilotModel model_;
-    mavlink::ParameterServer parameters_;
+    ground_station::ParameterServer parameters_;
     mavlink::Link hil_;
     std::optional<mavlink::Link> onboard_;
     StandInFlight flight_;

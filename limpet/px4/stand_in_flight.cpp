@@ -73,7 +73,8 @@ Situation situation(const StandInFlight& flight) {
             .estimate_valid = flight.valid() && flight.time_s >= flight.unsettled_until_s};
 }
 
-/// Where it is now; without an origin PX4 holds over (0, 0) of its own. Source: px4.md
+/// Where it is now; without an origin PX4 holds over (0, 0) of its own. Source: px4.md "Motion
+/// capture"
 void hold_here(StandInFlight& flight) {
     const Estimate& estimate = flight.autopilot.estimate;
     flight.hold = {.p_W_m = estimate.p_WB_m,
@@ -180,12 +181,12 @@ void hear(StandInFlight& flight, const mavlink::SetAttitudeTarget& message) {
 std::optional<CommandResult> obey(const StandInParameters& parameters, StandInFlight& flight,
                                   const mavlink::CommandLong& message) {
     const Situation now = situation(flight);
-    if (message.command == mavlink::kCommandArm) {
+    if (message.command == mavlink::MavCmd::component_arm_disarm) {
         const bool by_force = message.param2 == mavlink::kForce;
         return message.param1 == 1.0F ? arm(parameters, flight.manners, now, by_force)
                                       : disarm(flight.manners, now, by_force);
     }
-    if (message.command != mavlink::kCommandSetMode) {
+    if (message.command != mavlink::MavCmd::do_set_mode) {
         return std::nullopt;
     }
     const bool hold =

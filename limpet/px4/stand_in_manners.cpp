@@ -10,10 +10,10 @@ namespace {
 
 /// Below MPC_THR_MIN (0.12), so that no descent looks like a landing. Source: assumed
 constexpr double kNoThrust = 0.1;
-/// Source: px4.md, "landed" after 1.05 s of thrust 0
+/// Source: px4.md "Perched": landed after 1.05 s of thrust 0
 constexpr double kLandedAfter_s = 1.05;
-/// Source: px4.md, disarmed 3.5 s after thrust went to 0 with COM_DISARM_LAND 2: 0.45 s more than
-/// both add up to
+/// Source: px4.md "Perched": disarmed 3.5 s after thrust went to 0 with COM_DISARM_LAND 2: 0.45 s
+/// more than both add up to
 constexpr double kLandDetectorDelay_s = 0.45;
 
 struct View {

@@ -10,8 +10,8 @@
 #include "limpet/px4/stand_in_parameters.hpp"
 
 /// PX4's commander and land detector as far as perching meets them: who may arm, what is in flight,
-/// what disarms by itself, when offboard control is over. Measured with PX4 v1.15.1, px4.md; only
-/// simulated time counts.
+/// what disarms by itself, when offboard control is over. Measured with PX4 v1.15.1, px4.md
+/// "Perched"; only simulated time counts.
 ///
 ///                 arm                     thrust
 ///    disarmed ───────────► waiting ───────────────────► flying ◄────────┐

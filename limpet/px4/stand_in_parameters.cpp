@@ -8,13 +8,15 @@ const ParameterTable<StandInParameters>& stand_in_table() {
     using P = StandInParameters;
     static const ParameterTable<P> table = {
         {"FD_FAIL_P", "deg", 0, 180, &P::FD_FAIL_P,
-         "no arming when pitched further than this, 0: whatever the pitch", "PX4, px4.md"},
+         "no arming when pitched further than this, 0: whatever the pitch",
+         "PX4, docs/reference/px4.md"},
         {"FD_FAIL_R", "deg", 0, 180, &P::FD_FAIL_R,
-         "no arming when rolled further than this, 0: whatever the roll", "PX4, px4.md"},
+         "no arming when rolled further than this, 0: whatever the roll",
+         "PX4, docs/reference/px4.md"},
         {"COM_OF_LOSS_T", "s", 0, 60, &P::COM_OF_LOSS_T,
-         "set-points older than this end offboard control", "PX4, px4.md"},
+         "set-points older than this end offboard control", "PX4, docs/reference/px4.md"},
         {"COM_DISARM_PRFLT", "s", -1, 60, &P::COM_DISARM_PRFLT,
-         "armed without thrust so long: disarms, <= 0: never", "PX4, px4.md"},
+         "armed without thrust so long: disarms, <= 0: never", "PX4, docs/reference/px4.md"},
         {"COM_DISARM_LAND", "s", -1, 20, &P::COM_DISARM_LAND,
          "landed so long: disarms, <= 0: never", "PX4"},
     };

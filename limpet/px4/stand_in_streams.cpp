@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "limpet/ground_station/telemetry_messages.hpp"
 #include "limpet/mavlink/numbers.hpp"
-#include "limpet/mavlink/telemetry_messages.hpp"
 
 namespace limpet::px4 {
 namespace {
@@ -26,11 +26,11 @@ void send(std::uint32_t id, const StandInFlight& flight, mavlink::Link& link) {
     switch (id) {
         case mavlink::Heartbeat::kId: (void)link.send(heartbeat(flight)); break;
         case mavlink::ExtendedSysState::kId:
-            (void)link.send(mavlink::extended_sys_state(flight.manners.in_air()));
+            (void)link.send(ground_station::extended_sys_state(flight.manners.in_air()));
             break;
         case mavlink::AttitudeQuaternion::kId: (void)link.send(attitude(flight)); break;
         case mavlink::LocalPositionNed::kId:
-            (void)link.send(mavlink::local_position(estimate, time_s));
+            (void)link.send(ground_station::local_position(estimate, time_s));
             break;
         case mavlink::Odometry::kId:
             (void)link.send(mavlink::odometry(estimate, mavlink::boot_us(time_s)));
@@ -54,11 +54,11 @@ void send_texts(const SpokenTexts& spoken, mavlink::Link& link) {
 }  // namespace
 
 TelemetryStreams::TelemetryStreams()
-    : streams{{{mavlink::Heartbeat::kId, mavlink::StreamTiming(1.0)},
-               {mavlink::ExtendedSysState::kId, mavlink::StreamTiming(5.0)},
-               {mavlink::AttitudeQuaternion::kId, mavlink::StreamTiming(50.0)},
-               {mavlink::LocalPositionNed::kId, mavlink::StreamTiming(30.0)},
-               {mavlink::Odometry::kId, mavlink::StreamTiming(30.0)}}} {}
+    : streams{{{mavlink::Heartbeat::kId, ground_station::StreamTiming(1.0)},
+               {mavlink::ExtendedSysState::kId, ground_station::StreamTiming(5.0)},
+               {mavlink::AttitudeQuaternion::kId, ground_station::StreamTiming(50.0)},
+               {mavlink::LocalPositionNed::kId, ground_station::StreamTiming(30.0)},
+               {mavlink::Odometry::kId, ground_station::StreamTiming(30.0)}}} {}
 
 bool set_interval(TelemetryStreams& streams, double id, double interval_us) {
     for (auto& stream : streams.streams) {
@@ -85,7 +85,7 @@ void send_due(TelemetryStreams& streams, StandInFlight& flight, mavlink::Link& l
 }
 
 mavlink::Heartbeat heartbeat(const StandInFlight& flight) {
-    return mavlink::heartbeat(
+    return ground_station::heartbeat(
         flight.manners.armed(), mavlink::MavModeFlag::custom_mode_enabled,
         flight.manners.mode == FlightMode::offboard
             ? mavlink::custom_mode(mavlink::kMainModeOffboard)

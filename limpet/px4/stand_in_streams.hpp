@@ -4,18 +4,18 @@
 #include <array>
 #include <cstdint>
 
+#include "limpet/ground_station/stream_timing.hpp"
 #include "limpet/mavlink/link.hpp"
-#include "limpet/mavlink/stream_timing.hpp"
 #include "limpet/px4/stand_in_flight.hpp"
 
 /// What the stand-in tells of itself, at rates that a peer may change. Simulated time.
 namespace limpet::px4 {
 
-/// Rates of PX4's onboard mode where px4.md or a peer does not say otherwise.
+/// Rates of PX4's onboard mode where px4.md "Offboard" or a peer does not say otherwise.
 struct TelemetryStreams {
     struct Stream {
         std::uint32_t id = 0;
-        mavlink::StreamTiming timing;
+        ground_station::StreamTiming timing;
     };
     std::array<Stream, 5> streams;
     TelemetryStreams();

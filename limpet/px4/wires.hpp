@@ -13,7 +13,7 @@
 
 namespace limpet::px4 {
 
-/// Where a PX4 is met. Source: px4.md
+/// Where a PX4 is met. Source: px4.md "Simulator link" and "Offboard"
 struct Px4Addresses {
     /// tcp: PX4 in simulation, which connects to us, in lockstep; serial: a board, in real time.
     wire::TransportAddress hil = Px4Instance().hil();

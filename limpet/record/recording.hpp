@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "limpet/core/signals/event.hpp"
 #include "limpet/mcap/format.hpp"
 #include "limpet/record/table.hpp"
 
@@ -21,6 +22,8 @@ struct RecordedEvent {
     std::string name;
     std::string reason;
     std::vector<std::pair<std::string, double>> values;
+
+    [[nodiscard]] bool is(EventName which) const { return name == to_string(which); }
 };
 
 /// One column against its topic's time; a view into the recording.

@@ -116,18 +116,99 @@ const Vector3 kArrowSize_m = {0.012, 0.025, 0.04};
 /// Where it goes.
 using Ends = std::array<Vector3, 2>;
 
-Marker arrow_of(Stamp at, std::string_view frame, std::string_view name, std::int32_t id,
-                const Ends& ends, Colour colour) {
-    constexpr double kShortest_m = 0.01;
-    return {.at = at,
-            .frame = frame,
-            .name = name,
-            .id = id,
-            .type = Marker::arrow,
-            .there = (ends[1] - ends[0]).norm() > kShortest_m,
-            .scale = kArrowSize_m,
-            .colour = colour,
-            .points = ends};
+/// Marks of one instant, and the ends that their lines go between.
+class MarkList {
+public:
+    explicit MarkList(Stamp at) : at_(at) {}
+
+    void add(Marker mark) {
+        mark.at = at_;
+        marks_[count_++] = mark;
+    }
+    /// @param ends  copied
+    void add(Marker mark, const Ends& ends) {
+        ends_[count_] = ends;
+        mark.points = ends_[count_];
+        add(mark);
+    }
+    void add_arrow(std::string_view frame, std::string_view name, std::size_t id, const Ends& ends,
+                   Colour colour) {
+        constexpr double kShortest_m = 0.01;
+        add({.frame = frame,
+             .name = name,
+             .id = static_cast<std::int32_t>(id),
+             .type = Marker::arrow,
+             .there = (ends[1] - ends[0]).norm() > kShortest_m,
+             .scale = kArrowSize_m,
+             .colour = colour},
+            ends);
+    }
+    [[nodiscard]] Sequence<Marker> all() const { return {std::span(marks_).first(count_)}; }
+
+private:
+    /// A thrust a rotor; two beams, the cup's force, cable, payload, set-point, a piece of path.
+    static constexpr std::size_t kMost = kMaxRotors + 7;
+
+    Stamp at_;
+    std::size_t count_ = 0;
+    std::array<Marker, kMost> marks_;
+    std::array<Ends, kMost> ends_;
+};
+
+void mark_thrusts(const Scene& scene, const Truth& truth, MarkList& marks) {
+    for (std::size_t k = 0; k < scene.rotor_p_B_m.size(); ++k) {
+        const double w_rad_s = truth.rotor_speed_rad_s[k];
+        const Vector3 hub = flu_from_frd(scene.rotor_p_B_m[k]);
+        const double up_m = kArrow_m_N * scene.thrust_N_s2[k] * w_rad_s * w_rad_s;
+        marks.add_arrow(kBaseFrame, "thrust", k, {hub, hub + Vector3(0.0, 0.0, up_m)}, kThrust);
+    }
+}
+
+/// The LiDARs' beams to what they see, and the force at the lip.
+void mark_cup(const Truth& truth, const Readings& readings, MarkList& marks) {
+    constexpr double kThin_m = 0.004;
+    const std::array<const Sample<RangeReading>*, 2> seen = {&readings.lidar_left,
+                                                             &readings.lidar_right};
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+        marks.add({.frame = kLidarFrames[k],
+                   .name = "beam",
+                   .id = static_cast<std::int32_t>(k),
+                   .type = Marker::line_list,
+                   .there = seen[k]->ever() && seen[k]->value.valid,
+                   .scale = {kThin_m, 0.0, 0.0},
+                   .colour = kBeam},
+                  {Vector3::Zero(), Vector3(seen[k]->value.distance_m, 0.0, 0.0)});
+    }
+    const Vector3 force = flu_from_frd(truth.cup_status.wrench_C.force_N);
+    marks.add_arrow(kLipFrame, "cup_force", 0, {Vector3::Zero(), kArrow_m_N * force}, kForce);
+}
+
+void mark_payload(const Vector3& hook_B_m, const Truth& truth, MarkList& marks) {
+    constexpr double kThick_m = 0.006, kBall_m = 0.1;
+    const Ends cable = {ros::enu_from_ned(truth.base.p_WF_m + truth.base.q_WF * hook_B_m),
+                        ros::enu_from_ned(truth.payload.p_W_m)};
+    marks.add({.name = "cable",
+               .type = Marker::line_strip,
+               .there = !truth.payload.parted,
+               .scale = {kThick_m, 0.0, 0.0},
+               .colour = kCable},
+              cable);
+    marks.add({.name = "payload",
+               .type = Marker::sphere,
+               .p = cable[1],
+               .scale = Vector3::Constant(kBall_m),
+               .colour = kPayload});
+}
+
+void mark_setpoint(const Setpoint& setpoint, MarkList& marks) {
+    constexpr double kSpot_m = 0.06;
+    const auto* wanted = std::get_if<PositionSetpoint>(&setpoint.motion);
+    marks.add({.name = "setpoint",
+               .type = Marker::sphere,
+               .there = wanted != nullptr,
+               .p = wanted != nullptr ? ros::enu_from_ned(wanted->p_W_m) : Vector3::Zero(),
+               .scale = Vector3::Constant(kSpot_m),
+               .colour = kWanted});
 }
 
 }  // namespace
@@ -226,85 +307,29 @@ void SceneWriter::move(const Truth& truth) {
 }
 
 void SceneWriter::mark(const Truth& truth, const Readings& readings, const Setpoint& setpoint) {
-    const Stamp at = stamp(truth.time_s);
-    std::array<Marker, kMaxRotors + 7> marks;
-    std::size_t count = 0;
-    std::array<Ends, kMaxRotors> thrusts;
-    for (std::size_t k = 0; k < scene_.rotor_p_B_m.size(); ++k) {
-        const double w_rad_s = truth.rotor_speed_rad_s[k];
-        const Vector3 hub = flu_from_frd(scene_.rotor_p_B_m[k]);
-        const double up_m = kArrow_m_N * scene_.thrust_N_s2[k] * w_rad_s * w_rad_s;
-        thrusts[k] = {hub, hub + Vector3(0.0, 0.0, up_m)};
-        marks[count++] =
-            arrow_of(at, kBaseFrame, "thrust", static_cast<std::int32_t>(k), thrusts[k], kThrust);
-    }
-    std::array<Ends, 2> beams;
-    Ends pull;
+    MarkList marks(stamp(truth.time_s));
+    mark_thrusts(scene_, truth, marks);
     if (scene_.has_cup) {
-        const std::array<const Sample<RangeReading>*, 2> seen = {&readings.lidar_left,
-                                                                 &readings.lidar_right};
-        for (std::size_t k = 0; k < beams.size(); ++k) {
-            constexpr double kThin_m = 0.004;
-            const bool hits = seen[k]->ever() && seen[k]->value.valid;
-            beams[k] = {Vector3::Zero(), Vector3(seen[k]->value.distance_m, 0.0, 0.0)};
-            marks[count++] = {.at = at,
-                              .frame = kLidarFrames[k],
-                              .name = "beam",
-                              .id = static_cast<std::int32_t>(k),
-                              .type = Marker::line_list,
-                              .there = hits,
-                              .scale = {kThin_m, 0.0, 0.0},
-                              .colour = kBeam,
-                              .points = beams[k]};
-        }
-        const Vector3 force = flu_from_frd(truth.cup_status.wrench_C.force_N);
-        pull = {Vector3::Zero(), kArrow_m_N * force};
-        marks[count++] = arrow_of(at, kLipFrame, "cup_force", 0, pull, kForce);
+        mark_cup(truth, readings, marks);
     }
-    Ends cable;
     if (scene_.hook_B_m) {
-        constexpr double kThick_m = 0.006, kBall_m = 0.1;
-        cable = {ros::enu_from_ned(truth.base.p_WF_m + truth.base.q_WF * *scene_.hook_B_m),
-                 ros::enu_from_ned(truth.payload.p_W_m)};
-        marks[count++] = {.at = at,
-                          .name = "cable",
-                          .type = Marker::line_strip,
-                          .there = !truth.payload.parted,
-                          .scale = {kThick_m, 0.0, 0.0},
-                          .colour = kCable,
-                          .points = cable};
-        marks[count++] = {.at = at,
-                          .name = "payload",
-                          .type = Marker::sphere,
-                          .p = cable[1],
-                          .scale = Vector3::Constant(kBall_m),
-                          .colour = kPayload};
+        mark_payload(*scene_.hook_B_m, truth, marks);
     }
-    const auto* wanted = std::get_if<PositionSetpoint>(&setpoint.motion);
-    constexpr double kSpot_m = 0.06;
-    marks[count++] = {.at = at,
-                      .name = "setpoint",
-                      .type = Marker::sphere,
-                      .there = wanted != nullptr,
-                      .p = wanted != nullptr ? ros::enu_from_ned(wanted->p_W_m) : Vector3::Zero(),
-                      .scale = Vector3::Constant(kSpot_m),
-                      .colour = kWanted};
+    mark_setpoint(setpoint, marks);
     const Vector3 here = ros::enu_from_ned(truth.base.p_WF_m);
     constexpr double kPiece_m = 0.02, kWay_m = 0.008;
-    const Ends piece = {last_p_map_m_, here};
     if (!last_p_map_m_.allFinite()) {
         last_p_map_m_ = here;
     } else if ((here - last_p_map_m_).norm() > kPiece_m) {
-        marks[count++] = {.at = at,
-                          .name = "path",
-                          .id = path_pieces_++,
-                          .type = Marker::line_strip,
-                          .scale = {kWay_m, 0.0, 0.0},
-                          .colour = kWay,
-                          .points = piece};
+        marks.add({.name = "path",
+                   .id = path_pieces_++,
+                   .type = Marker::line_strip,
+                   .scale = {kWay_m, 0.0, 0.0},
+                   .colour = kWay},
+                  {last_p_map_m_, here});
         last_p_map_m_ = here;
     }
-    writer_.write(markers_, truth.time_s, Sequence<Marker>{std::span(marks).first(count)});
+    writer_.write(markers_, truth.time_s, marks.all());
 }
 
 }  // namespace limpet::record

@@ -27,10 +27,10 @@ Chapter chapter(const Recording& recording, const char* file, const char* title,
 }
 
 /// When the first of these names happens after an instant; nullptr for none of them.
-const RecordedEvent* first_of(const Recording& recording,
-                              std::initializer_list<std::string_view> names, double after_s) {
+const RecordedEvent* first_of(const Recording& recording, std::initializer_list<EventName> names,
+                              double after_s) {
     const RecordedEvent* earliest = nullptr;
-    for (const std::string_view name : names) {
+    for (const EventName name : names) {
         const RecordedEvent* event = first_event(recording, name, after_s);
         if (event != nullptr && (earliest == nullptr || event->time_s < earliest->time_s)) {
             earliest = event;
@@ -79,62 +79,63 @@ Window whole_flight(const Recording& recording) {
     return whole.from_s > whole.to_s ? Window{} : whole;
 }
 
-const RecordedEvent* first_event(const Recording& recording, std::string_view name,
-                                 double after_s) {
+const RecordedEvent* first_event(const Recording& recording, EventName name, double after_s) {
     const auto found =
         std::find_if(recording.events.begin(), recording.events.end(),
-                     [&](const RecordedEvent& e) { return e.name == name && e.time_s >= after_s; });
+                     [&](const RecordedEvent& e) { return e.is(name) && e.time_s >= after_s; });
     return found == recording.events.end() ? nullptr : &*found;
 }
 
-const RecordedEvent* last_event(const Recording& recording, std::string_view name,
-                                double before_s) {
-    const auto found = std::find_if(
-        recording.events.rbegin(), recording.events.rend(),
-        [&](const RecordedEvent& e) { return e.name == name && e.time_s <= before_s; });
+const RecordedEvent* last_event(const Recording& recording, EventName name, double before_s) {
+    const auto found =
+        std::find_if(recording.events.rbegin(), recording.events.rend(),
+                     [&](const RecordedEvent& e) { return e.is(name) && e.time_s <= before_s; });
     return found == recording.events.rend() ? nullptr : &*found;
 }
 
 std::optional<Chapter> perching(const Recording& recording) {
-    const RecordedEvent* approach = last_event(recording, "approach_started");
+    const RecordedEvent* approach = last_event(recording, EventName::approach_started);
     if (approach == nullptr) {
         return std::nullopt;
     }
     const double start_s = approach->time_s;
     const RecordedEvent* end =
-        first_of(recording, {"motors_off", "retreat_started", "aborted"}, start_s);
+        first_of(recording, {EventName::motors_off, EventName::retreat_started, EventName::aborted},
+                 start_s);
     if (end == nullptr) {
-        end = first_event(recording, "perched", start_s);
+        end = first_event(recording, EventName::perched, start_s);
     }
-    const bool perched = first_event(recording, "perched", start_s) != nullptr;
+    const bool perched = first_event(recording, EventName::perched, start_s) != nullptr;
     return chapter(recording, kPerching, "perching", start_s - 0.5,
                    end == nullptr ? kEnd_s : end->time_s + 1.0,
-                   first_event(recording, "impact", start_s),
+                   first_event(recording, EventName::impact, start_s),
                    perched          ? "perched"
                    : end != nullptr ? words(end->name)
                                     : "");
 }
 
 std::optional<Chapter> take_off(const Recording& recording) {
-    const RecordedEvent* start = last_event(recording, "motors_on");
+    const RecordedEvent* start = last_event(recording, EventName::motors_on);
     if (start == nullptr) {
         return std::nullopt;
     }
-    const RecordedEvent* end = first_of(recording, {"backed_off", "aborted"}, start->time_s);
+    const RecordedEvent* end =
+        first_of(recording, {EventName::backed_off, EventName::aborted}, start->time_s);
     return chapter(recording, kTakeOff, "take-off", start->time_s - 0.5,
                    end == nullptr ? kEnd_s : end->time_s + 2.0, start,
                    end == nullptr ? "" : words(end->name));
 }
 
 std::optional<Chapter> failed_attempt(const Recording& recording) {
-    const RecordedEvent* retreat = first_event(recording, "retreat_started");
+    const RecordedEvent* retreat = first_event(recording, EventName::retreat_started);
     if (retreat == nullptr) {
         return std::nullopt;
     }
-    const RecordedEvent* approach = last_event(recording, "approach_started", retreat->time_s);
+    const RecordedEvent* approach =
+        last_event(recording, EventName::approach_started, retreat->time_s);
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
     return chapter(recording, kFailedAttempt, "failed attempt", start_s - 0.5,
-                   retreat->time_s + 3.0, first_event(recording, "impact", start_s),
+                   retreat->time_s + 3.0, first_event(recording, EventName::impact, start_s),
                    "no seal, retreat");
 }
 

@@ -56,9 +56,9 @@ struct Phase {
 [[nodiscard]] Window whole_flight(const Recording& recording);
 
 /// @return nullptr when there is none
-[[nodiscard]] const RecordedEvent* first_event(const Recording& recording, std::string_view name,
+[[nodiscard]] const RecordedEvent* first_event(const Recording& recording, EventName name,
                                                double after_s = -1e300);
-[[nodiscard]] const RecordedEvent* last_event(const Recording& recording, std::string_view name,
+[[nodiscard]] const RecordedEvent* last_event(const Recording& recording, EventName name,
                                               double before_s = 1e300);
 
 /// The last attempt: approach_started - 0.5 s until the motors are off (or the vehicle perched, or

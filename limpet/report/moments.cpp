@@ -59,10 +59,10 @@ public:
         }
     }
     /// The first of that name from an instant on.
-    const record::RecordedEvent* add_event(std::string_view name, double after_s) {
+    const record::RecordedEvent* add_event(EventName name, double after_s) {
         const record::RecordedEvent* event = first_event(recording_, name, after_s);
         if (event != nullptr) {
-            add(event->time_s, record::words(name));
+            add(event->time_s, record::words(to_string(name)));
         }
         return event;
     }
@@ -96,35 +96,35 @@ private:
 }  // namespace
 
 std::vector<Moment> perching_moments(const record::Recording& recording) {
-    const record::RecordedEvent* approach = last_event(recording, "approach_started");
+    const record::RecordedEvent* approach = last_event(recording, EventName::approach_started);
     if (approach == nullptr) {
         return {};
     }
     Story story(recording);
     const double start_s = approach->time_s;
-    const record::RecordedEvent* before = last_event(recording, "pre_positioned", start_s);
+    const record::RecordedEvent* before = last_event(recording, EventName::pre_positioned, start_s);
     story.add(before == nullptr ? start_s : before->time_s,
               before == nullptr ? "approach started" : "pre-positioned");
-    const record::RecordedEvent* impact = story.add_event("impact", start_s);
+    const record::RecordedEvent* impact = story.add_event(EventName::impact, start_s);
     if (impact == nullptr) {
         story.add(0.5 * (start_s + whole_flight(recording).to_s), "approach");
         return story.told();
     }
     story.add(start_s + 0.6 * (impact->time_s - start_s), "approach");
-    if (const auto* retreat = first_event(recording, "retreat_started", impact->time_s)) {
+    if (const auto* retreat = first_event(recording, EventName::retreat_started, impact->time_s)) {
         story.add(0.5 * (impact->time_s + retreat->time_s), "hold");
         story.add(retreat->time_s, "retreat started");
         story.add(retreat->time_s + 1.0, "retreat");
         return story.told();
     }
-    story.add_event("attached", impact->time_s);
-    const auto* landing = first_event(recording, "landing_started", impact->time_s);
+    story.add_event(EventName::attached, impact->time_s);
+    const auto* landing = first_event(recording, EventName::landing_started, impact->time_s);
     if (landing == nullptr) {
         return story.told();
     }
-    if (const auto* perched = story.add_event("perched", landing->time_s)) {
+    if (const auto* perched = story.add_event(EventName::perched, landing->time_s)) {
         story.add_pitches(landing->time_s, perched->time_s, "landing");
-        if (const auto* off = first_event(recording, "motors_off", perched->time_s)) {
+        if (const auto* off = first_event(recording, EventName::motors_off, perched->time_s)) {
             story.add(off->time_s + 1.0, "at rest, motors off");
         }
     } else {
@@ -134,19 +134,19 @@ std::vector<Moment> perching_moments(const record::Recording& recording) {
 }
 
 std::vector<Moment> take_off_moments(const record::Recording& recording) {
-    const record::RecordedEvent* start = last_event(recording, "motors_on");
+    const record::RecordedEvent* start = last_event(recording, EventName::motors_on);
     if (start == nullptr) {
         return {};
     }
     Story story(recording);
     story.add(start->time_s, "motors on");
-    if (const auto* level = story.add_event("level", start->time_s)) {
+    if (const auto* level = story.add_event(EventName::level, start->time_s)) {
         story.add_pitches(start->time_s, level->time_s, "pitching down");
-        story.add_event("pressure_released", level->time_s);
+        story.add_event(EventName::pressure_released, level->time_s);
     }
-    story.add_event("aborted", start->time_s);
-    const record::RecordedEvent* detached = story.add_event("detached", start->time_s);
-    const record::RecordedEvent* back = story.add_event("backed_off", start->time_s);
+    story.add_event(EventName::aborted, start->time_s);
+    const record::RecordedEvent* detached = story.add_event(EventName::detached, start->time_s);
+    const record::RecordedEvent* back = story.add_event(EventName::backed_off, start->time_s);
     if (detached != nullptr && back != nullptr) {
         story.add(0.6 * detached->time_s + 0.4 * back->time_s, "backing off");
     }

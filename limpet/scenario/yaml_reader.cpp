@@ -80,6 +80,14 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
     }
 }
 
+const YamlNode& needed(const YamlNode& map, std::string_view key) {
+    const YamlNode* node = map.find(key);
+    if (node == nullptr) {
+        fail(map, fmt::format("{}: is missing", key));
+    }
+    return *node;
+}
+
 std::optional<double> number_in(const YamlNode& node) {
     return is_plain(node) ? number_of(node.text) : std::nullopt;
 }

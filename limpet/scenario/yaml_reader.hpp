@@ -27,6 +27,9 @@ namespace limpet::scenario {
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowed,
                 std::string_view ask = {});
 
+/// @throws InputError when the map has no such key
+[[nodiscard]] const YamlNode& needed(const YamlNode& map, std::string_view key);
+
 /// @return nothing for what is no plain number; finite or not is not asked
 [[nodiscard]] std::optional<double> number_in(const YamlNode& node);
 /// A number in the range of its row, whole for a count; of a switch true, false, 0 or 1.

@@ -177,32 +177,75 @@ void Flight::restore(const Snapshot& snapshot) {
     plant_->restore(snapshot.plant);
 }
 
+namespace {
+
+/// A flight from its first tick; behind an outside autopilot from where that is armed.
+Flight begun(const std::shared_ptr<const FlightModel>& model, std::uint32_t run,
+             const FlightConduct& conduct) {
+    if (conduct.outside.autopilot == nullptr) {
+        return Flight(model, run, conduct.outside);
+    }
+    return Flight(model,
+                  bring_up(*model, conduct.outside,
+                           {.run = run,
+                            .speed = conduct.speed,
+                            .limit_s = conduct.start_limit_s,
+                            .stop = conduct.stop,
+                            .on_obstacle = conduct.on_obstacle}),
+                  conduct.outside);
+}
+
+/// What is recorded of a flight, by this thread or by one of its own.
+class Recording {
+public:
+    Recording(const std::shared_ptr<const FlightModel>& model,
+              const std::filesystem::path& recording, const FlightConduct& conduct)
+        : model_(*model) {
+        if (recording.empty() && conduct.beside == nullptr) {
+            return;
+        }
+        log_.emplace(recording, *model,
+                     FlightLog::Options{.beside = conduct.beside,
+                                        .brief = conduct.brief,
+                                        .topics = conduct.topics,
+                                        .compress = conduct.compress});
+        // Who watches beside it is shown each tick as it is.
+        if (conduct.outside.autopilot != nullptr && conduct.beside == nullptr) {
+            beside_.emplace(*log_, model);
+        }
+    }
+
+    void tick(const FlightState& state, const guidance::EventList& happened) {
+        if (beside_) {
+            beside_->tick(state, happened);
+        } else if (log_) {
+            log_->tick(model_, state, happened);
+        }
+    }
+
+    void finish(const FlightResult& result) {
+        if (beside_) {
+            beside_->finish();
+        }
+        if (log_) {
+            log_->finish(summary_json(result));
+        }
+    }
+
+private:
+    const FlightModel& model_;
+    std::optional<FlightLog> log_;
+    std::optional<LogBeside> beside_;
+};
+
+}  // namespace
+
 FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                  const std::filesystem::path& recording, const FlightWatch& watch,
                  std::uint32_t run, const FlightConduct& conduct) {
     const autopilot::ExternalAutopilot* autopilot = conduct.outside.autopilot;
-    Flight flight = autopilot == nullptr ? Flight(model, run, conduct.outside)
-                                         : Flight(model,
-                                                  bring_up(*model, conduct.outside,
-                                                           {.run = run,
-                                                            .speed = conduct.speed,
-                                                            .limit_s = conduct.start_limit_s,
-                                                            .stop = conduct.stop,
-                                                            .on_obstacle = conduct.on_obstacle}),
-                                                  conduct.outside);
-    std::optional<FlightLog> log;
-    if (!recording.empty() || conduct.beside != nullptr) {
-        log.emplace(recording, *model,
-                    FlightLog::Options{.beside = conduct.beside,
-                                       .brief = conduct.brief,
-                                       .topics = conduct.topics,
-                                       .compress = conduct.compress});
-    }
-    // Who watches beside it is shown each tick as it is.
-    std::optional<LogBeside> beside;
-    if (log && autopilot != nullptr && conduct.beside == nullptr) {
-        beside.emplace(*log, model);
-    }
+    Flight flight = begun(model, run, conduct);
+    Recording recorded(model, recording, conduct);
     std::vector<Event> events;
     events.reserve(64);
     double next_progress_s = 0.0;
@@ -216,11 +259,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
                 watch.on_event(happened.events[k]);
             }
         }
-        if (beside) {
-            beside->tick(flight.state(), happened);
-        } else if (log) {
-            log->tick(*model, flight.state(), happened);
-        }
+        recorded.tick(flight.state(), happened);
         if (watch.on_tick) {
             watch.on_tick(flight, happened);
         }
@@ -242,12 +281,7 @@ FlightResult fly(const std::shared_ptr<const FlightModel>& model,
         result.performance.waited_s = autopilot->waited_s() - waited_s;
         result.autopilot = autopilot->identity();
     }
-    if (beside) {
-        beside->finish();
-    }
-    if (log) {
-        log->finish(summary_json(result));
-    }
+    recorded.finish(result);
     return result;
 }
 

@@ -136,8 +136,9 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     // those of its middle: a force must be that of its beginning, or it comes half a step too soon.
     const RotorList<double> before_rad_s = state.rotors.speed_rad_s;
     vehicle::step(airframe.rotor, model.rotor_lag, state.rotors, state.command,
-                  vehicle::drive_share(airframe, state.battery.voltage_V),
-                  acting.rotors_hit ? &acting.speed_share : nullptr, stride.ticks);
+                  {.battery_share = vehicle::drive_share(airframe, state.battery.voltage_V),
+                   .speed_share = acting.rotors_hit ? &acting.speed_share : nullptr},
+                  stride.ticks);
     if (acting.charge_at_most < 1.0) {
         vehicle::drain(airframe.battery, state.battery, acting.charge_at_most);
     }

@@ -80,7 +80,7 @@ void LevelOnCup::period() {
     for (int left = ticks_; left > 0; left -= stride.ticks) {
         const RotorList<double> before_rad_s = state_.rotors.speed_rad_s;
         step(model_->airframe.rotor, model_->rotor_lag, state_.rotors, state_.command,
-             vehicle::hover_drive_share(model_->airframe), nullptr, stride.ticks);
+             {.battery_share = vehicle::hover_drive_share(model_->airframe)}, stride.ticks);
         state_.cup.mean_pressure_Pa = model_->surfaces.back().vacuum_pressure_Pa;
         advance(*model_, state_, plant_, stride,
                 stride.ticks > 1 ? before_rad_s : state_.rotors.speed_rad_s, report);
@@ -210,23 +210,22 @@ Matrix LevelOnCup::jacobian(const simulation::Snapshot& at) {
     return jacobian;
 }
 
-std::vector<Mode> LevelOnCup::modes() {
+/// Of one period about the rest; none: Newton's method finds no rest, or leaves what is finite.
+std::optional<Matrix> LevelOnCup::map_at_rest() try {
     for (int k = 0; k < kSettlePeriods; ++k) {
         period();
     }
     find_carried();
     const Eigen::Index n = size();
-    Matrix map;
-    for (int k = 0;; ++k) {
+    for (int k = 0; k <= kNewtonSteps; ++k) {
         const simulation::Snapshot here{.state = state_, .plant = plant_.save(), .seen = {}};
         const Vector now = numbers(here.plant);
-        map = jacobian(here);
+        const Matrix map = jacobian(here);
         const Vector miss = image(here, Vector::Zero(n)) - now;
         restore(here);
         if (miss.lpNorm<Eigen::Infinity>() < kResting) {
-            break;
+            return map;
         }
-        require(k < kNewtonSteps, "a vehicle that can rest level on its cup");
         Matrix newton = Matrix::Identity(n, n) - map;
         for (Eigen::Index i = 0; i < n; ++i) {
             if (newton.row(i).lpNorm<Eigen::Infinity>() < kStanding) {
@@ -235,10 +234,19 @@ std::vector<Mode> LevelOnCup::modes() {
         }
         add(newton.partialPivLu().solve(miss));
     }
+    return std::nullopt;
+} catch (const plant::Diverged&) {
+    return std::nullopt;
+}
 
-    const Eigen::EigenSolver<Matrix> solver(map);
+std::optional<std::vector<Mode>> LevelOnCup::modes() {
+    const std::optional<Matrix> map = map_at_rest();
+    if (!map) {
+        return std::nullopt;
+    }
+    const Eigen::EigenSolver<Matrix> solver(*map);
     std::vector<Mode> modes;
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index i = 0; i < map->rows(); ++i) {
         const std::complex<double> mu = solver.eigenvalues()[i];
         const bool over_at_once = std::abs(mu) < 1e-3;
         const bool stands = std::abs(mu - 1.0) < kStanding;
@@ -258,7 +266,7 @@ std::vector<Mode> LevelOnCup::modes() {
     return modes;
 }
 
-Mode pitch_mode(const std::vector<Mode>& modes) {
+std::optional<Mode> pitch_mode(const std::vector<Mode>& modes) {
     const auto is_pitch = [](const Mode& mode) {
         constexpr double kFast_Hz = 3.0;  // the free vehicle's attitude loop and filters
         return mode.frequency_Hz < kFast_Hz && mode.pitch_share > 0.7;
@@ -268,8 +276,7 @@ Mode pitch_mode(const std::vector<Mode>& modes) {
     });
     const auto found =
         swings != modes.end() ? swings : std::find_if(modes.begin(), modes.end(), is_pitch);
-    require(found != modes.end(), "a mode in pitch");
-    return *found;
+    return found != modes.end() ? std::optional(*found) : std::nullopt;
 }
 
 }  // namespace limpet::stability

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "limpet/plant/reduced_plant.hpp"
@@ -31,13 +32,14 @@ public:
 
     /// Modes of the linearised loop, fastest growing first. Jacobian by central differences at the
     /// rest, which is found by Newton's method.
-    /// @throws InternalError when there is no rest
-    [[nodiscard]] std::vector<Mode> modes();
+    /// @return none when the vehicle has no rest
+    [[nodiscard]] std::optional<std::vector<Mode>> modes();
 
 private:
     void put_on_wall();
     void period();
     void restore(const simulation::Snapshot& snapshot);
+    [[nodiscard]] std::optional<Eigen::MatrixXd> map_at_rest();
     void find_carried();
     void keep_what_reaches(Eigen::Index group);
     [[nodiscard]] Eigen::Index size() const;
@@ -65,7 +67,7 @@ private:
 
 /// The fastest-growing or slowest-decaying of the modes that are mostly pitch and below 3 Hz, of
 /// those that swing or grow; where none does, of those that creep back.
-/// @throws InternalError when there is none
-[[nodiscard]] Mode pitch_mode(const std::vector<Mode>& modes);
+/// @return none when no mode is
+[[nodiscard]] std::optional<Mode> pitch_mode(const std::vector<Mode>& modes);
 
 }  // namespace limpet::stability

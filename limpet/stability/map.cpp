@@ -9,7 +9,7 @@
 
 namespace limpet::stability {
 
-Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
+std::optional<Mode> linear_swing(const std::string& scenario, const Overrides& overrides) {
     scenario::Scenario waits = scenario::load_scenario(scenario, {.overrides = overrides});
     const char* const lacks = !waits.airframe.has_cup                ? "a vehicle with a cup"
                               : !waits.wall.present                  ? "a wall"
@@ -36,7 +36,14 @@ Mode linear_swing(const std::string& scenario, const Overrides& overrides) {
     waits.environment.wind.gust_sigma_m_s = 0.0;
     waits.environment.wall_air.recirculation_moment_rms_N_m = 0.0;
     waits.environment.swell = {};
-    return pitch_mode(LevelOnCup(simulation::build_model(waits)).modes());
+    const auto model = simulation::build_model(waits);
+    if (kTicksPerSecond % model->control_rate_Hz != 0) {
+        throw InputError(fmt::format(
+            "{}: the swing on the cup asks for sensors.imu_rate_Hz that divides {}, not {}",
+            waits.name, kTicksPerSecond, model->control_rate_Hz));
+    }
+    const auto modes = LevelOnCup(model).modes();
+    return modes ? pitch_mode(*modes) : std::nullopt;
 }
 
 Overrides StabilityMap::point(std::size_t i) const {
@@ -51,7 +58,7 @@ Overrides StabilityMap::point(std::size_t i) const {
     return all;
 }
 
-Mode swing_at(const StabilityMap& map, std::size_t i) {
+std::optional<Mode> swing_at(const StabilityMap& map, std::size_t i) {
     return linear_swing(map.scenario, map.point(i));
 }
 

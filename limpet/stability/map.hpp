@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +15,13 @@ using Overrides = std::vector<std::string>;
 
 /// Growth and frequency of the pitch mode on the cup, by the linearised loop.
 /// @throws InputError when the overrides do not make a scenario, or one without what is linearised:
-///         a free vehicle with a cup before a wall, flown by the cascade
-/// @throws InternalError when it has no rest, or no swing in pitch
-[[nodiscard]] Mode linear_swing(const std::string& scenario, const Overrides& overrides);
+///         a free vehicle with a cup before a wall, flown by the cascade at a rate that divides
+///         1 kHz
+/// @return none when the vehicle has no rest, or no swing in pitch
+[[nodiscard]] std::optional<Mode> linear_swing(const std::string& scenario,
+                                               const Overrides& overrides);
+/// Such a function: linear_swing(), or one that a test puts in its place.
+using SwingOf = std::function<std::optional<Mode>(const std::string&, const Overrides&)>;
 
 struct Axis {
     std::vector<std::string> keys = {};  ///< that take each value together
@@ -38,6 +44,6 @@ struct StabilityMap {
 };
 
 /// linear_swing() at the map's i-th point.
-[[nodiscard]] Mode swing_at(const StabilityMap& map, std::size_t i);
+[[nodiscard]] std::optional<Mode> swing_at(const StabilityMap& map, std::size_t i);
 
 }  // namespace limpet::stability

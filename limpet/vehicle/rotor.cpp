@@ -164,8 +164,7 @@ template <class Next>
 }  // namespace
 
 LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-                              const RotorCommand& command, double drive_share,
-                              const RotorList<double>* speed_share, int steps) {
+                              const RotorCommand& command, const RotorDrive& drive, int steps) {
     const std::size_t count = state.speed_rad_s.size();
     Speeds newest_rad_s;  // of as many as there are
     for_each(count, [&](std::size_t i) {
@@ -173,17 +172,17 @@ LIMPET_FOR_MACHINES void step(const RotorParameters& rotor, const RotorLag& lag,
     });
     if (rotor.speed_follows_voltage) {
         for_each(count, [&](std::size_t i) {
-            newest_rad_s[i] = driven_rad_s(rotor, newest_rad_s[i], drive_share);
+            newest_rad_s[i] = driven_rad_s(rotor, newest_rad_s[i], drive.battery_share);
         });
     }
-    if (speed_share != nullptr) {
-        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*speed_share)[i]; });
+    if (drive.speed_share != nullptr) {
+        for_each(count, [&](std::size_t i) { newest_rad_s[i] *= (*drive.speed_share)[i]; });
     }
     if (rotor.motor_kv_rpm_V > 0.0) {
-        follow_as_motors(rotor, lag, state, newest_rad_s, drive_share, steps);
+        follow_as_motors(rotor, lag, state, newest_rad_s, drive.battery_share, steps);
         return;
     }
-    follow(lag, state, newest_rad_s, rotor.speed_max_rad_s * drive_share, steps,
+    follow(lag, state, newest_rad_s, rotor.speed_max_rad_s * drive.battery_share, steps,
            [&lag](double speed_rad_s, double target_rad_s) {
                const double error_rad_s = speed_rad_s - target_rad_s;
                return target_rad_s +

@@ -94,17 +94,21 @@ struct RotorLag {
 /// @throws InternalError when the dead time is not less than kCommandDelaySteps steps
 [[nodiscard]] RotorLag make_lag(const RotorParameters& rotor, double dt_s);
 
+/// What else decides how fast rotors turn.
+struct RotorDrive {
+    /// Of the battery (battery.hpp): scales the highest speed, and with speed_follows_voltage all.
+    double battery_share = 1.0;
+    /// Of each rotor that does not turn as it should; null: all do.
+    const RotorList<double>* speed_share = nullptr;
+};
+
 /// Turns a command into speeds, some steps of the lag.
-/// @param lag            the same at every call
-/// @param command        beyond 0..1 it is cut; of as many rotors as the state has, what is not
-///                       there is 0; disarmed rotors run down
-/// @param drive_share    of the battery (battery.hpp), scales the highest speed, and with
-///                       speed_follows_voltage all
-/// @param speed_share    of each rotor that does not turn as it should; null: all do
-/// @param steps          >= 1, of the same command
+/// @param lag      the same at every call
+/// @param command  beyond 0..1 it is cut; of as many rotors as the state has, what is not there is
+///                 0; disarmed rotors run down
+/// @param steps    >= 1, of the same command
 void step(const RotorParameters& rotor, const RotorLag& lag, RotorsState& state,
-          const RotorCommand& command, double drive_share = 1.0,
-          const RotorList<double>* speed_share = nullptr, int steps = 1);
+          const RotorCommand& command, const RotorDrive& drive = {}, int steps = 1);
 
 /// Sum over the rotors.
 /// @param speed_rad_s  of each

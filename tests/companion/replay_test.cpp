@@ -79,7 +79,7 @@ public:
         mavlink::Heartbeat beat;
         beat.type = 2;
         beat.autopilot = 12;
-        beat.base_mode = armed_ ? mavlink::kArmedFlag : std::uint8_t{0};
+        beat.base_mode = armed_ ? mavlink::MavModeFlag::safety_armed : std::uint8_t{0};
         beat.custom_mode = 6U << 16U;
         (void)autopilot_.send(beat);
         mavlink::ExtendedSysState state;
@@ -93,7 +93,7 @@ private:
     void hear() {
         while (const auto frame = autopilot_.receive()) {
             const auto command = mavlink::decode<mavlink::CommandLong>(*frame);
-            if (command && command->command == mavlink::kCommandArm) {
+            if (command && command->command == mavlink::MavCmd::component_arm_disarm) {
                 armed_ = command->param1 > 0.5F;
             }
         }

@@ -135,13 +135,13 @@ private:
     }
 
     void obey(const mavlink::CommandLong& command) {
-        if (command.command == mavlink::kCommandSetMode) {
+        if (command.command == mavlink::MavCmd::do_set_mode) {
             const bool offboard = command.param2 == 6.0F;
             ++(offboard ? autopilot.offboards : autopilot.holds);
             if (obeys_mode) {
                 mode = offboard ? kOffboard : kLoiter;
             }
-        } else if (command.command == mavlink::kCommandArm) {
+        } else if (command.command == mavlink::MavCmd::component_arm_disarm) {
             ++(command.param1 > 0.5F ? autopilot.arms : autopilot.disarms);
             if (obeys_arming) {
                 armed = command.param1 > 0.5F;
@@ -168,7 +168,7 @@ private:
                 sensors.events.push_back(*event);
             }
         } else if (const auto beat = mavlink::decode<mavlink::Heartbeat>(frame)) {
-            sensors.over = sensors.over || beat->system_status == mavlink::kStatePowerOff;
+            sensors.over = sensors.over || beat->system_status == mavlink::MavState::poweroff;
         }
     }
 
@@ -179,7 +179,7 @@ private:
             mavlink::Heartbeat beat;
             beat.type = 2;
             beat.autopilot = 12;
-            beat.base_mode = armed ? mavlink::kArmedFlag : std::uint8_t{0};
+            beat.base_mode = armed ? mavlink::MavModeFlag::safety_armed : std::uint8_t{0};
             beat.custom_mode = mode;
             (void)autopilot_.send(beat);
             mavlink::ExtendedSysState state;

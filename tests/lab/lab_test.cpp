@@ -264,10 +264,10 @@ TEST(SwingOf, IsTheLinearisedLoopsWithTheVehicleInIt) {
                                       .across = {json::parse(kLags), {0.02, 0.05, 0.08}},
                                       .up = {{"autopilot.MC_PITCHRATE_I"}, {0.1, 0.3}}};
     for (const std::size_t i : {0U, 2U, 4U}) {
-        EXPECT_EQ(state["growth_1_s"][i].get<double>(), swing_at(map, i).growth_1_s) << i;
+        EXPECT_EQ(state["growth_1_s"][i].get<double>(), swing_at(map, i)->growth_1_s) << i;
     }
     EXPECT_EQ(state["own"]["growth_1_s"].get<double>(),
-              stability::linear_swing("slow_motors_metal", {}).growth_1_s);
+              stability::linear_swing("slow_motors_metal", {})->growth_1_s);
     EXPECT_EQ(state["across"]["own"], json({0.065, 0.065}));
     EXPECT_EQ(state["up"]["own"], json({0.2}));
 
@@ -282,6 +282,25 @@ TEST(SwingOf, IsTheLinearisedLoopsWithTheVehicleInIt) {
     const json other = ended(swing);
     EXPECT_EQ(other["id"], 2);
     EXPECT_LT(other["growth_1_s"][2].get<double>(), state["growth_1_s"][2].get<double>());
+}
+
+/// A fault of ours, at the vehicle's own point or on a thread, is not a vehicle without a swing.
+TEST(SwingOf, AFaultComesOut) {
+    std::atomic<int> asked = 0;
+    Swing swing("slow_motors_metal",
+                [&](const auto&, const auto&) -> std::optional<stability::Mode> {
+                    if (++asked == 3) {
+                        throw InternalError("a broken promise");
+                    }
+                    return std::nullopt;
+                });
+    swing.begin(swing_request(""));
+    EXPECT_THAT([&] { (void)ended(swing); },
+                testing::ThrowsMessage<InternalError>("a broken promise"));
+    swing.begin(swing_request(""));  // anew, and what is none is said to be
+    EXPECT_EQ(ended(swing)["growth_1_s"], json(std::vector<std::string>(6, "none")));
+    asked = 2;
+    EXPECT_THROW(swing.begin(swing_request("")), InternalError);
 }
 
 TEST(SwingOf, WhatCannotBeIsALineAndTheLastMapStands) {

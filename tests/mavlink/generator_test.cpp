@@ -62,6 +62,23 @@ TEST_F(Generator, MakesAHeader) {
     EXPECT_THAT(text, HasSubstr("using AllMessages = std::tuple<OneTwo>;"));
 }
 
+/// An enumeration is as wide as its largest value; a name in C++ begins with no digit.
+TEST_F(Generator, MakesEnumerations) {
+    const Answer answer =
+        make(fmt::format("<message id=\"7\" name=\"ONE_TWO\">\n{}</message>\n", kField),
+             "<enum name=\"A_BIT\"><entry value=\"255\" name=\"A_BIT_3D\"/></enum>"
+             "<enum name=\"B\"><entry value=\"256\" name=\"B_C\"/></enum>"
+             "<enum name=\"C\"><entry value=\"65536\" name=\"C_D\"/></enum>"
+             "<enum name=\"MAV_COMPONENT\"><entry value=\"1\" name=\"MAV_COMP_ID_D\"/></enum>");
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    std::ifstream header(folder_ + "/m.hpp");
+    const std::string text((std::istreambuf_iterator<char>(header)), {});
+    EXPECT_THAT(text, HasSubstr("struct ABit {\n    enum Value : std::uint8_t { bit_3d = 255 };"));
+    EXPECT_THAT(text, HasSubstr("struct B {\n    enum Value : std::uint16_t { c = 256 };"));
+    EXPECT_THAT(text, HasSubstr("struct C {\n    enum Value : std::uint32_t { d = 65536 };"));
+    EXPECT_THAT(text, HasSubstr("struct MavComponent {\n    enum Value : std::uint8_t { d = 1 };"));
+}
+
 TEST_F(Generator, StopsWithTheLineAtWhatItDoesNotKnow) {
     const auto with = [](const std::string& fields) {
         return "<message id=\"7\" name=\"M\">\n" + fields + "</message>\n";
@@ -93,6 +110,9 @@ TEST_F(Generator, StopsWithTheLineAtWhatItDoesNotKnow) {
               "m.xml:3: message M: id = '16777216', must be a whole number up to 16777215\n");
     EXPECT_EQ(refusal(with(kField), "<enum name=\"E\"><entry value=\"1\" name=\"F_A\"/></enum>"),
               "m.xml:2: entry F_A: must begin with E_\n");
+    EXPECT_EQ(
+        refusal(with(kField), "<enum name=\"E\"><entry value=\"4294967296\" name=\"E_A\"/></enum>"),
+        "m.xml:2: entry E_A: value = '4294967296', must be a whole number up to 4294967295\n");
     EXPECT_THAT(refusal(with("<field")), HasSubstr("m.xml:4: "));
 }
 

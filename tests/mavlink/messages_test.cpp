@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "limpet/mavlink/translate.hpp"
 #include "message_table.hpp"
 #include "samples.hpp"
 
@@ -75,6 +76,18 @@ TEST(Messages, AreFoundByTheirIdAlone) {
     }
     EXPECT_EQ(found, static_cast<int>(kTable.size()));
     EXPECT_EQ(find_message(0xFFFFFF), nullptr);
+}
+
+/// Masks as numbers, as PX4's and other ground stations' documentation has them.
+TEST(Masks, AreTheNumbersOfTheWire) {
+    EXPECT_EQ(kPositionYaw, 0x9F8);
+    EXPECT_EQ(kPositionVelocityYaw, 0x9C0);
+    EXPECT_EQ(kVelocityYaw, 0x9C7);
+    EXPECT_EQ(kVelocityAccelerationYaw, 0x807);
+    EXPECT_EQ(kAttitudeThrust, 7);
+    EXPECT_EQ(kImuFields, 0x3FU);
+    EXPECT_EQ(kMagnetometerFields, 0x1C0U);
+    EXPECT_EQ(kBarometerFields, 0x1A00U);
 }
 
 TEST(Texts, FillTheirFieldOrEndWithNul) {

@@ -21,7 +21,7 @@ TEST(Offboard, GivesAnOriginOnceWhereThereIsNone) {
     Peer peer;
     peer.run(0.1);
     EXPECT_EQ(peer.origins(), 0U);
-    peer.wire.say(CommandAck{.command = kCommandRequestMessage, .result = MavResult::denied});
+    peer.wire.say(CommandAck{.command = MavCmd::request_message, .result = MavResult::denied});
     peer.run(0.1);
     EXPECT_EQ(peer.origins(), 1U) << "it said that it has none";
     peer.wire.say(GpsGlobalOrigin{});
@@ -59,17 +59,17 @@ TEST(Offboard, ArmsNothingThatWouldGetNoOriginAnyMore) {
     peer.mode = kMainModeOffboard;
     peer.run(0.9);
     EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
-    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    EXPECT_THAT(peer.commands(MavCmd::component_arm_disarm), IsEmpty());
     peer.run(0.3);
     EXPECT_EQ(peer.origins(), 1U);
-    EXPECT_FALSE(peer.commands(kCommandArm).empty());
+    EXPECT_FALSE(peer.commands(MavCmd::component_arm_disarm).empty());
 
     OffboardOptions by_gps;
     by_gps.sets_origin = false;
     Peer other(by_gps);
     other.mode = kMainModeOffboard;
     other.run(0.9);
-    EXPECT_FALSE(other.commands(kCommandArm).empty());
+    EXPECT_FALSE(other.commands(MavCmd::component_arm_disarm).empty());
     EXPECT_EQ(other.origins(), 0U);
 }
 

@@ -68,7 +68,7 @@ struct Peer {
     }
     [[nodiscard]] std::vector<CommandLong> requests(std::uint32_t id) const {
         std::vector<CommandLong> all;
-        for (const CommandLong& each : commands(kCommandRequestMessage)) {
+        for (const CommandLong& each : commands(MavCmd::request_message)) {
             if (each.param1 == static_cast<float>(id)) {
                 all.push_back(each);
             }

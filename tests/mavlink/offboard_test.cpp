@@ -18,19 +18,20 @@ TEST(Offboard, StreamsBeforeItAsksForTheModeAndArmsOnlyInIt) {
     EXPECT_EQ(peer.offboard.state(0.0), OffboardState::silent);
     peer.run(0.9);
     EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::streaming);
-    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty()) << "set-points first, for a second";
+    EXPECT_THAT(peer.commands(MavCmd::do_set_mode), IsEmpty()) << "set-points first, for a second";
     EXPECT_GE(peer.wire.sent<SetPositionTargetLocalNed>().size(), 40U);
     peer.run(1.0);
-    ASSERT_FALSE(peer.commands(kCommandSetMode).empty());
-    EXPECT_EQ(peer.commands(kCommandSetMode)[0].param2, 6.0F);
-    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    ASSERT_FALSE(peer.commands(MavCmd::do_set_mode).empty());
+    EXPECT_EQ(peer.commands(MavCmd::do_set_mode)[0].param2, 6.0F);
+    EXPECT_THAT(peer.commands(MavCmd::component_arm_disarm), IsEmpty());
     peer.mode = kMainModeOffboard;
     peer.beat();
     peer.run(0.1);
     EXPECT_EQ(peer.offboard.state(peer.time_s), OffboardState::engaged);
-    ASSERT_FALSE(peer.commands(kCommandArm).empty());
-    EXPECT_EQ(peer.commands(kCommandArm)[0].param1, 1.0F);
-    EXPECT_EQ(peer.commands(kCommandArm)[0].param2, 0.0F) << "arming is never forced";
+    ASSERT_FALSE(peer.commands(MavCmd::component_arm_disarm).empty());
+    EXPECT_EQ(peer.commands(MavCmd::component_arm_disarm)[0].param1, 1.0F);
+    EXPECT_EQ(peer.commands(MavCmd::component_arm_disarm)[0].param2, 0.0F)
+        << "arming is never forced";
 }
 
 TEST(Offboard, StreamsFarAboveTheRateThatPx4Asks) {
@@ -47,7 +48,7 @@ TEST(Offboard, LeavesTheModeToAnOperatorWhenTold) {
     options.asks_for_mode = false;
     Peer peer(options);
     peer.run(5.0);
-    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty());
+    EXPECT_THAT(peer.commands(MavCmd::do_set_mode), IsEmpty());
     EXPECT_THAT(peer.offboard.obstacle(peer.time_s), HasSubstr("waits for the mode OFFBOARD"));
     peer.mode = kMainModeOffboard;
     peer.run(1.1);
@@ -62,7 +63,7 @@ TEST(Offboard, DisarmsByForceAndStreamsAttitudeWithoutThrustMeanwhile) {
     peer.forget();
     peer.setpoint.armed = false;
     peer.run(0.5);
-    const auto commands = peer.commands(kCommandArm);
+    const auto commands = peer.commands(MavCmd::component_arm_disarm);
     ASSERT_FALSE(commands.empty());
     EXPECT_EQ(commands[0].param1, 0.0F);
     EXPECT_EQ(commands[0].param2, kForce) << "PX4 denies it off the ground otherwise";
@@ -105,9 +106,9 @@ TEST(Offboard, RepeatsArmingUntilItIsSo) {
     peer.engage();
     peer.forget();
     peer.run(1.0);
-    EXPECT_THAT(peer.commands(kCommandArm), SizeIs(testing::Ge(3U)));
+    EXPECT_THAT(peer.commands(MavCmd::component_arm_disarm), SizeIs(testing::Ge(3U)));
     CommandAck ack;
-    ack.command = kCommandArm;
+    ack.command = MavCmd::component_arm_disarm;
     ack.result = 1;
     peer.wire.say(ack);
     StatusText text;
@@ -121,7 +122,7 @@ TEST(Offboard, RepeatsArmingUntilItIsSo) {
     peer.run(0.1);
     peer.forget();
     peer.run(1.0);
-    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    EXPECT_THAT(peer.commands(MavCmd::component_arm_disarm), IsEmpty());
     EXPECT_THAT(peer.offboard.obstacle(peer.time_s), IsEmpty());
 }
 
@@ -148,7 +149,7 @@ TEST(Offboard, HandingBackStopsSetPointsAndAsksForHold) {
     peer.offboard.hand_back(peer.wire.link, peer.time_s);
     peer.run(1.0);
     EXPECT_THAT(peer.wire.sent<SetPositionTargetLocalNed>(), IsEmpty());
-    const auto modes = peer.commands(kCommandSetMode);
+    const auto modes = peer.commands(MavCmd::do_set_mode);
     ASSERT_FALSE(modes.empty());
     EXPECT_EQ(modes[0].param2, 4.0F);
     EXPECT_EQ(modes[0].param3, 3.0F);
@@ -163,7 +164,7 @@ TEST(Offboard, HandingBackDoesNotTakeTheModeFromAnOperatorAgain) {
         peer.offboard.hand_back(peer.wire.link, peer.time_s);
         if (by_answer) {
             CommandAck ack;
-            ack.command = kCommandSetMode;
+            ack.command = MavCmd::do_set_mode;
             peer.wire.say(ack);
         } else {
             peer.mode = 3;
@@ -175,7 +176,7 @@ TEST(Offboard, HandingBackDoesNotTakeTheModeFromAnOperatorAgain) {
             peer.time_s += 0.02;
             peer.offboard.hand_back(peer.wire.link, peer.time_s);
         }
-        EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty()) << by_answer;
+        EXPECT_THAT(peer.commands(MavCmd::do_set_mode), IsEmpty()) << by_answer;
     }
 }
 
@@ -189,7 +190,7 @@ TEST(Offboard, HandingBackAsksForHoldUntilItIsSo) {
         peer.time_s += 0.02;
         peer.offboard.hand_back(peer.wire.link, peer.time_s);
     }
-    EXPECT_THAT(peer.commands(kCommandSetMode),
+    EXPECT_THAT(peer.commands(MavCmd::do_set_mode),
                 SizeIs(testing::AllOf(testing::Ge(6), testing::Le(8))));
 }
 
@@ -205,8 +206,8 @@ TEST(Offboard, OneThatFliesUsAndFallsSilentIsFlownOn) {
     peer.run(1.0);
     EXPECT_GE(peer.wire.sent<SetPositionTargetLocalNed>().size(), 48U)
         << "it may still hear: after a second without set-points it would hold";
-    EXPECT_THAT(peer.commands(kCommandSetMode), IsEmpty());
-    EXPECT_THAT(peer.commands(kCommandArm), IsEmpty());
+    EXPECT_THAT(peer.commands(MavCmd::do_set_mode), IsEmpty());
+    EXPECT_THAT(peer.commands(MavCmd::component_arm_disarm), IsEmpty());
 }
 
 TEST(Offboard, OneThatWasTakenAwayAndFallsSilentIsLeftAlone) {
@@ -251,14 +252,14 @@ TEST(Offboard, AnswersToAGroundStationAreNotTakenForItsOwn) {
     Peer peer;
     peer.engage();
     peer.run(0.5);
-    ASSERT_FALSE(peer.commands(kCommandArm).empty());
+    ASSERT_FALSE(peer.commands(MavCmd::component_arm_disarm).empty());
     peer.armed = true;
     peer.run(1.1);
     peer.armed = false;
     peer.beat();
     peer.hear_all();
     CommandAck ack;  // to the operator who has just disarmed
-    ack.command = kCommandArm;
+    ack.command = MavCmd::component_arm_disarm;
     ack.target_system = 255;
     ack.target_component = kGroundStationComponent;
     peer.wire.say(ack);
@@ -313,7 +314,7 @@ TEST(Offboard, AsksWhoItIsUntilItTellsAndNotForEver) {
     ASSERT_TRUE(peer.offboard.report().version);
     EXPECT_EQ(peer.offboard.report().version->flight_sw_version, 0x010F01FFU);
     EXPECT_EQ(peer.offboard.report().airframe, 22001);
-    peer.wire.say(CommandAck{.command = kCommandRequestMessage, .result = MavResult::denied});
+    peer.wire.say(CommandAck{.command = MavCmd::request_message, .result = MavResult::denied});
     peer.run(0.1);
     EXPECT_EQ(peer.offboard.report().refused_command, 0) << "is not in the way of a flight";
 }
@@ -321,9 +322,9 @@ TEST(Offboard, AsksWhoItIsUntilItTellsAndNotForEver) {
 TEST(Offboard, AsksForThePoseAndGivesTheOriginAltitudeZero) {
     Peer peer;
     peer.run(3.0);
-    ASSERT_FALSE(peer.commands(kCommandMessageInterval).empty());
-    EXPECT_EQ(peer.commands(kCommandMessageInterval)[0].param1, 331.0F);
-    EXPECT_EQ(peer.commands(kCommandMessageInterval)[0].param2, 10'000.0F);
+    ASSERT_FALSE(peer.commands(MavCmd::set_message_interval).empty());
+    EXPECT_EQ(peer.commands(MavCmd::set_message_interval)[0].param1, 331.0F);
+    EXPECT_EQ(peer.commands(MavCmd::set_message_interval)[0].param2, 10'000.0F);
     ASSERT_FALSE(peer.wire.sent<SetGpsGlobalOrigin>().empty());
     EXPECT_EQ(peer.wire.sent<SetGpsGlobalOrigin>()[0].altitude, 0);
 }

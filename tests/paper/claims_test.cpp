@@ -187,24 +187,24 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
               "5: a.evidence: \"x.frist_s\" is measured by no part, did you mean x.first_s?");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n" + rest), "");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [0, 1]\n"),
-              "1: a: has no basis");
+              "1: a: basis: is missing");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: by the method\n  at_least: 1\n"),
               "6: a.basis: \"by the method\" is no basis; there are as set, recovered, fitted, by "
               "construction, measured");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n  at_least: 1\n"),
-              "1: a: has no assumes");
+              "1: a: assumes: is missing");
     EXPECT_EQ(
         error_of(good_ + "  evidence: x.first_s\n  basis: as set\n  assumes: []\n  at_least: 1\n"),
         "7: a.assumes: stands with what is neither fitted nor measured");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  basis: measured\n  assumes: []\n"),
-              "1: a: has no accepted");
+              "1: a: accepted: is missing");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [2, 1]\n  basis: as set\n"),
               "6: a.accepted: must begin with its lower end");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  at_least: 1\n" + rest),
               "6: a.at_least: stands beside accepted, one of the two");
     EXPECT_EQ(error_of(good_ + "  accepted: [0, 1]\n  note: none\n"),
               "5: a.accepted: stands without evidence");
-    EXPECT_EQ(error_of(good_), "1: a: has no note");
+    EXPECT_EQ(error_of(good_), "1: a: note: is missing");
     EXPECT_EQ(error_of(good_ + "  notes: none\n"), "5: a.notes: unknown key, did you mean note?");
     EXPECT_THAT(error_of(good_ + "  note: none\n" + good_), testing::StartsWith("6: a: "));
 }
@@ -309,13 +309,13 @@ TEST_F(PageTextFile, StopsAtOnceAtWhatIsNotRight) {
     EXPECT_THAT(error_of("  t: {title: a, columns: [b], caption: '{x.frist_s:.1f}'}\n"
                          "  f: {title: figure, alt: what it shows}\n"),
                 testing::StartsWith("5: part.t.caption: \"x.frist_s\" is measured by no part"));
-    EXPECT_EQ(error_of("  t: {title: table, columns: [a, b]}\n"), "4: part: has no f");
+    EXPECT_EQ(error_of("  t: {title: table, columns: [a, b]}\n"), "4: part: f: is missing");
     EXPECT_THAT(error_of(good_ + "  g: {title: figure, alt: what}\n"),
                 testing::StartsWith("7: part.g: \"g\" is shown by no part"));
     EXPECT_EQ(error_of("  t: {title: table, columns: a}\n  f: {title: f, alt: a}\n"),
-              "5: part.t.columns: must be a list");
+              "5: part.t.columns: must be a list of texts");
     EXPECT_EQ(error_of("  t: {title: table, columns: [a]}\n  f: {title: f}\n"),
-              "6: part.f: has no alt");
+              "6: part.f: alt: is missing");
 }
 
 }  // namespace

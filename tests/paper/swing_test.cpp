@@ -59,20 +59,25 @@ TEST(KickedSwing, GrowsAsTheLinearisedLoopSays) {
                              Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_I=0"}},
                              Kick{"slow_motors_metal", {"autopilot.MC_PITCHRATE_P=0.2"}},
                              Kick{"perch_metal", kUnequalMotors}}) {
-        const stability::Mode linear = stability::linear_swing(kick.scenario, kick.gains);
-        const KickedSwing kicked = kicked_swing(kick.scenario, kick.gains);
+        const stability::Mode linear = stability::linear_swing(kick.scenario, kick.gains).value();
+        const KickedSwing kicked = kicked_swing(kick.scenario, kick.gains).value();
         EXPECT_NEAR(kicked.growth_1_s, linear.growth_1_s, 0.03);
         EXPECT_NEAR(kicked.frequency_Hz, linear.frequency_Hz, 0.02);
     }
 }
 
 TEST(KickedSwing, AltitudeHoldKillsIt) {
-    const KickedSwing swing = kicked_swing("slow_motors_metal", {"guidance.altitude_hold=1"});
+    const KickedSwing swing =
+        kicked_swing("slow_motors_metal", {"guidance.altitude_hold=1"}).value();
     for (std::size_t i = 0; i < swing.time_s.size(); ++i) {
         if (swing.time_s[i] > 3.0) {
             EXPECT_LT(std::abs(swing.pitch_deg[i]), 0.1) << "at " << swing.time_s[i] << " s";
         }
     }
+}
+
+TEST(KickedSwing, OfAFlightThatNeverWaitsIsNone) {
+    EXPECT_FALSE(kicked_swing("perch_metal", {"guidance.attempts_max=1", "suction.gap_max_m=0"}));
 }
 
 TEST(PapersMap, GrowthRisesWithTheLagAndTheArm) {

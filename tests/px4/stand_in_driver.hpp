@@ -11,7 +11,7 @@
 namespace limpet::px4 {
 
 /// Simulator and companion of a stand-in over real sockets, in one thread: a vehicle that is
-/// clamped where it is, as those of px4.md were. What the stand-in says is gathered.
+/// clamped where it is, as those of px4.md "Perched" were. What the stand-in says is gathered.
 class StandInDriver {
 public:
     static constexpr double kStep_s = 0.004;
@@ -27,16 +27,20 @@ public:
     /// A command, and the step in which it is answered.
     /// @return MAV_RESULT; 255 without an answer
     int command(std::uint16_t command, float param1 = 0, float param2 = 0, float param3 = 0);
-    int offboard() { return command(mavlink::kCommandSetMode, 1, mavlink::kMainModeOffboard); }
-    int arm() { return command(mavlink::kCommandArm, 1); }
-    int disarm() { return command(mavlink::kCommandArm, 0); }
-    int force_disarm() { return command(mavlink::kCommandArm, 0, mavlink::kForce); }
+    int offboard() { return command(mavlink::MavCmd::do_set_mode, 1, mavlink::kMainModeOffboard); }
+    int arm() { return command(mavlink::MavCmd::component_arm_disarm, 1); }
+    int disarm() { return command(mavlink::MavCmd::component_arm_disarm, 0); }
+    int force_disarm() {
+        return command(mavlink::MavCmd::component_arm_disarm, 0, mavlink::kForce);
+    }
     /// Sets an integer parameter.
     void set_parameter(const std::string& name, std::int32_t value);
     /// Attitude as it is, this thrust, from now on at 50 Hz; nothing: no set-points.
     void stream(std::optional<double> thrust) { thrust_ = thrust; }
 
-    [[nodiscard]] bool armed() const { return (heartbeat.base_mode & mavlink::kArmedFlag) != 0; }
+    [[nodiscard]] bool armed() const {
+        return (heartbeat.base_mode & mavlink::MavModeFlag::safety_armed) != 0;
+    }
     /// Simulated seconds until `done`, at most `limit_s`.
     template <class Done>
     double time_until(Done done, double limit_s) {

@@ -71,7 +71,7 @@ TEST_F(StandInManners, OffboardIsRefusedWithoutAStreamAndLostWhenItIsTooSlow) {
     streams = false;
     const auto held = [&] { return manners.mode == FlightMode::hold; };
     EXPECT_NEAR(time_until(held, 5.0), 1.0, 0.005);
-    // 1.05 Hz held, 0.8 Hz did not: px4.md
+    // 1.05 Hz held, 0.8 Hz did not: px4.md "Offboard"
     for (const auto& [rate_Hz, lost] : {std::pair(1.05, false), std::pair(0.8, true)}) {
         now.set_point_s = now.time_s;
         ASSERT_EQ(set_mode(parameters, manners, now, FlightMode::offboard),

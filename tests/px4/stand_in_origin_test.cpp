@@ -10,7 +10,7 @@ TEST(StandIn, TellsItsOriginOnceItHasOne) {
     constexpr std::uint32_t kId = mavlink::GpsGlobalOrigin::kId;
     StandInDriver driver;
     driver.boot();
-    EXPECT_EQ(driver.command(mavlink::kCommandRequestMessage, kId), mavlink::MavResult::denied);
+    EXPECT_EQ(driver.command(mavlink::MavCmd::request_message, kId), mavlink::MavResult::denied);
     EXPECT_EQ(driver.heard[kId], 0);
     mavlink::SetGpsGlobalOrigin origin{.target_system = 2, .latitude = 100, .longitude = 200};
     ASSERT_EQ(driver.companion.send(origin), wire::TransferStatus::done);
@@ -20,7 +20,7 @@ TEST(StandIn, TellsItsOriginOnceItHasOne) {
     ASSERT_EQ(driver.companion.send(origin), wire::TransferStatus::done);
     driver.run(0.1);
     EXPECT_EQ(driver.heard[kId], 1);
-    EXPECT_EQ(driver.command(mavlink::kCommandRequestMessage, kId), mavlink::MavResult::accepted);
+    EXPECT_EQ(driver.command(mavlink::MavCmd::request_message, kId), mavlink::MavResult::accepted);
     EXPECT_EQ(driver.heard[kId], 2);
     EXPECT_EQ(driver.stand_in.flight().origin->latitude, 100);
 
@@ -30,7 +30,7 @@ TEST(StandIn, TellsItsOriginOnceItHasOne) {
         StandInDriver with_gps({}, parameters);
         with_gps.gps = true;
         with_gps.boot();
-        EXPECT_EQ(with_gps.command(mavlink::kCommandRequestMessage, kId),
+        EXPECT_EQ(with_gps.command(mavlink::MavCmd::request_message, kId),
                   gps_ctrl == 0 ? mavlink::MavResult::denied : mavlink::MavResult::accepted);
     }
 }

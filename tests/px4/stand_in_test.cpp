@@ -304,7 +304,7 @@ TEST(StandIn, KeepsToTheFirstThatSpeaksToItsOnboardLink) {
     mavlink::Link stranger(open_transport(*driver.stand_in.onboard_address(), wire::Role::connect),
                            {.system = 77, .component = 1});
     mavlink::CommandLong arm;
-    arm.command = mavlink::kCommandArm;
+    arm.command = mavlink::MavCmd::component_arm_disarm;
     arm.param1 = 1.0F;
     ASSERT_EQ(stranger.send(arm), wire::TransferStatus::done);
     driver.run(1.1);

@@ -32,6 +32,13 @@ def test_rows_are_those_of_the_program(tmp_path):
                        atol=1e-6)
 
 
+def test_a_share_of_nothing_is_unknown():
+    share, low, high = limpet.share_of([])
+    assert np.isnan(share) and (low, high) == (0.0, 1.0)
+    assert limpet.share_of([True] * 8 + [False] * 2)[0] == 0.8
+    assert np.allclose(limpet.share_of([True] * 8 + [False] * 2)[1:], (0.49016, 0.94330), atol=1e-5)
+
+
 def test_in_memory_nothing_is_left():
     result = limpet.campaign(**FAST, jobs=1)
     assert len(result) == 8 and result.file is None

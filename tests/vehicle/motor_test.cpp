@@ -95,7 +95,7 @@ TEST(Motor, RotorsFollowItInStepsOfAnyLength) {
     const RotorsState hovering = spinning(airframe.rotor, 4, hover_command(airframe));
     RotorsState coarse = hovering, fine = hovering;
     step(airframe.rotor, make_lag(airframe.rotor, 8e-3), coarse, command);
-    step(airframe.rotor, make_lag(airframe.rotor, 0.25e-3), fine, command, 1.0, nullptr, 32);
+    step(airframe.rotor, make_lag(airframe.rotor, 0.25e-3), fine, command, {}, 32);
     EXPECT_NEAR(coarse.speed_rad_s[2], fine.speed_rad_s[2], 1e-9);
     EXPECT_NEAR(
         coarse.speed_rad_s[2],
@@ -113,7 +113,8 @@ TEST(Motor, NoCommandPassesItsTopSpeed) {
     const auto reached_rad_s = [&](double drive_share) {
         RotorsState state = standing(4);
         step(rotor, make_lag(rotor, 1e-3), state,
-             {.command = RotorList<double>(4, 1.0), .armed = true}, drive_share, nullptr, 5000);
+             {.command = RotorList<double>(4, 1.0), .armed = true}, {.battery_share = drive_share},
+             5000);
         EXPECT_NEAR(spinning(rotor, 4, 1.0, drive_share).speed_rad_s[0], state.speed_rad_s[0],
                     1e-9);
         return state.speed_rad_s[0];

@@ -68,7 +68,7 @@ TEST(Rotor, ThrustGoesWithTheSquareOfTheVoltageWhereSpeedsFollowIt) {
     const auto thrust_N = [&](double command, double voltage_V) {
         RotorsState state = standing(4);
         step(airframe.rotor, make_lag(airframe.rotor, kDt_s), state, armed(command),
-             drive_share(airframe, voltage_V), nullptr, 5000);
+             {.battery_share = drive_share(airframe, voltage_V)}, 5000);
         return -rotor_wrench_B(airframe, state.speed_rad_s, {}, kNoWind).force_N.z();
     };
     constexpr double kNominal_V = 22.2;  // 6 x 3.7 V
@@ -325,11 +325,12 @@ TEST(Rotor, SpeedEndsAtItsLimitAndSagsWithTheBattery) {
     }
     EXPECT_NEAR(state.speed_rad_s[0], 700.0, 1e-9);
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, make_lag(rotor, kDt_s), state, armed(1.0), 0.5);
+        step(rotor, make_lag(rotor, kDt_s), state, armed(1.0), {.battery_share = 0.5});
     }
     EXPECT_NEAR(state.speed_rad_s[0], 350.0, 1e-9);
     for (int i = 0; i < 1000; ++i) {
-        step(rotor, make_lag(rotor, kDt_s), state, armed(0.2), 0.5);  // below the limit: as asked
+        step(rotor, make_lag(rotor, kDt_s), state, armed(0.2),
+             {.battery_share = 0.5});  // below the limit: as asked
     }
     EXPECT_NEAR(state.speed_rad_s[0], 240.0, 1e-9);
 }

@@ -13,7 +13,7 @@ from ._core import (
     CupAir, CupStatus, Estimate, Event, Flight, Flights, InputError, InternalError, Kinematics,
     Moment, PastEvent, Readings, Recording, Result, Scenario, Setpoint, Truth, Vehicle, __version__,
     channels, scenarios)
-from .campaigns import CampaignResult, campaign, read_results
+from .campaigns import CampaignResult, campaign, read_results, share_of
 from .flying import Changes, fly, load
 from .pictures import plot, plot_campaign
 
@@ -21,4 +21,4 @@ __all__ = [
     "CampaignResult", "Changes", "CupAir", "CupStatus", "Estimate", "Event", "Flight", "Flights",
     "InputError", "InternalError", "Kinematics", "Moment", "PastEvent", "Readings", "Recording",
     "Result", "Scenario", "Setpoint", "Truth", "Vehicle", "__version__", "campaign", "channels",
-    "fly", "load", "plot", "plot_campaign", "read_results", "scenarios"]
+    "fly", "load", "plot", "plot_campaign", "read_results", "scenarios", "share_of"]

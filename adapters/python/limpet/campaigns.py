@@ -19,6 +19,14 @@ from .flying import change_texts
 TYPES = {"INTEGER": np.int64, "REAL": np.float64}
 
 
+def share_of(success: Any) -> tuple[float, float, float]:
+    """Share of successes, and Wilson's 95 % interval (low, high), as `limpet summary` has it. `success`: an array of
+    truth values, one a run; without any the share is NaN and the interval 0 to 1."""
+    tried = np.asarray(success, dtype=bool)
+    share, low, high = _core._share(int(np.sum(tried)), tried.size)
+    return share, low, high
+
+
 class CampaignResult:
     """runs: a structured array, a row a run, a field a column (seed, what was varied, outcome,
     reason, metrics with their units, ...). `file` is the SQLite file that `limpet replay` takes."""
@@ -34,13 +42,8 @@ class CampaignResult:
         return np.isin(self.runs["outcome"], self.success_means)
 
     def interval(self, which: Any = slice(None)) -> tuple[float, float, float]:
-        """Share of successes among the runs `which`, and Wilson's 95 % interval."""
-        success = self.success[which]
-        count, z = max(1, len(success)), 1.959964
-        share = float(np.sum(success)) / count
-        middle = (share + z * z / (2 * count)) / (1 + z * z / count)
-        half = z * np.sqrt(share * (1 - share) / count + (z / (2 * count)) ** 2) / (1 + z * z / count)
-        return share, float(middle - half), float(middle + half)
+        """share_of() among the runs `which`."""
+        return share_of(self.success[which])
 
     def __len__(self) -> int:
         return len(self.runs)

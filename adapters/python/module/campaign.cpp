@@ -6,10 +6,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <atomic>
 #include <future>
 
 #include "limpet/campaign/campaign_file.hpp"
+#include "limpet/campaign/statistics.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/folder_lock.hpp"
@@ -45,6 +47,16 @@ std::vector<std::string> success_of(const std::string& yaml) {
         names.emplace_back(to_string(outcome));
     }
     return names;
+}
+
+/// Share of successes, and its 95 % interval from the first to the last.
+std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
+    if (successes > runs) {
+        throw InputError(fmt::format("{} successes of {} runs", successes, runs));
+    }
+    const campaign::Proportion proportion{.successes = successes, .runs = runs};
+    const campaign::Interval interval = proportion.interval();
+    return {proportion.probability(), interval.low, interval.high};
 }
 
 /// Flies the runs that are missing, on other threads, while this one listens to Ctrl-C.
@@ -97,6 +109,7 @@ void add_campaign(py::module_& module) {
     module.def("_run_campaign", &run_campaign, py::arg("wanted"), py::arg("folder"),
                py::arg("jobs"), py::arg("resume"), py::arg("on_progress"));
     module.def("_success_of", &success_of, py::arg("yaml"));
+    module.def("_share", &share, py::arg("successes"), py::arg("runs"));
 }
 
 }  // namespace limpet::python

@@ -46,28 +46,32 @@ double finite(double number, const char* what) {
     return number;
 }
 
+/// A member as numpy has it.
+template <class Owner, class Value>
+auto as_array(Value Owner::*member) {
+    return [member](const Owner& owner) { return array_of(owner.*member); };
+}
+
+template <class Owner>
+auto euler_of(Quaternion Owner::*attitude) {
+    return [attitude](const Owner& owner) {
+        const Euler e = euler_from_quaternion(owner.*attitude);
+        return array_of(Vector3(e.roll_rad, e.pitch_rad, e.yaw_rad));
+    };
+}
+
 void add_truth(py::module_& module) {
     py::class_<Kinematics>(module, "Kinematics",
                            "Where a body's frame F is and how it moves, seen from the world W "
                            "(north, east, down).")
-        .def_property_readonly(
-            "p_WF_m", [](const Kinematics& k) { return array_of(k.p_WF_m); }, "position [m]")
-        .def_property_readonly(
-            "q_WF", [](const Kinematics& k) { return array_of(k.q_WF); },
-            "attitude, unit quaternion w, x, y, z")
-        .def_property_readonly(
-            "v_WF_W_m_s", [](const Kinematics& k) { return array_of(k.v_WF_W_m_s); },
-            "velocity in W [m/s]")
-        .def_property_readonly(
-            "w_WF_F_rad_s", [](const Kinematics& k) { return array_of(k.w_WF_F_rad_s); },
-            "angular velocity in F [rad/s]")
-        .def_property_readonly(
-            "euler_rad",
-            [](const Kinematics& k) {
-                const Euler e = euler_from_quaternion(k.q_WF);
-                return array_of(Vector3(e.roll_rad, e.pitch_rad, e.yaw_rad));
-            },
-            "roll, pitch, yaw [rad]");
+        .def_property_readonly("p_WF_m", as_array(&Kinematics::p_WF_m), "position [m]")
+        .def_property_readonly("q_WF", as_array(&Kinematics::q_WF),
+                               "attitude, unit quaternion w, x, y, z")
+        .def_property_readonly("v_WF_W_m_s", as_array(&Kinematics::v_WF_W_m_s),
+                               "velocity in W [m/s]")
+        .def_property_readonly("w_WF_F_rad_s", as_array(&Kinematics::w_WF_F_rad_s),
+                               "angular velocity in F [rad/s]")
+        .def_property_readonly("euler_rad", euler_of(&Kinematics::q_WF), "roll, pitch, yaw [rad]");
     py::class_<CupStatus>(module, "CupStatus", "The true state of the cup.")
         .def_property_readonly(
             "phase", [](const CupStatus& c) { return std::string(to_string(c.phase)); },
@@ -91,9 +95,8 @@ void add_truth(py::module_& module) {
             "0 at the outer stop, < 0 compressed [m]")
         .def_property_readonly(
             "slider_force_N", [](const Truth& t) { return t.slider.force_N; }, "< 0 pressed [N]")
-        .def_property_readonly(
-            "rotor_speed_rad_s", [](const Truth& t) { return array_of(t.rotor_speed_rad_s); },
-            "of each rotor [rad/s]")
+        .def_property_readonly("rotor_speed_rad_s", as_array(&Truth::rotor_speed_rad_s),
+                               "of each rotor [rad/s]")
         .def_readonly("thrust_N", &Truth::thrust_N, "of all rotors [N]")
         .def_property_readonly(
             "battery_remaining", [](const Truth& t) { return t.battery.remaining; }, "0..1");
@@ -102,25 +105,14 @@ void add_truth(py::module_& module) {
 void add_estimate(py::module_& module) {
     py::class_<Estimate>(module, "Estimate", "What the autopilot believes of the vehicle.")
         .def_readonly("time_s", &Estimate::time_s, "[s]")
-        .def_property_readonly(
-            "p_WB_m", [](const Estimate& e) { return array_of(e.p_WB_m); }, "position [m]")
-        .def_property_readonly(
-            "v_WB_m_s", [](const Estimate& e) { return array_of(e.v_WB_m_s); }, "velocity [m/s]")
-        .def_property_readonly(
-            "q_WB", [](const Estimate& e) { return array_of(e.q_WB); }, "attitude w, x, y, z")
-        .def_property_readonly(
-            "w_WB_B_rad_s", [](const Estimate& e) { return array_of(e.w_WB_B_rad_s); },
-            "angular velocity in B [rad/s]")
-        .def_property_readonly(
-            "euler_rad",
-            [](const Estimate& estimate) {
-                const Euler e = euler_from_quaternion(estimate.q_WB);
-                return array_of(Vector3(e.roll_rad, e.pitch_rad, e.yaw_rad));
-            },
-            "roll, pitch, yaw [rad]")
-        .def_property_readonly(
-            "variance", [](const Estimate& e) { return array_of(e.variance); },
-            "of position, velocity, attitude, gyro bias, accelerometer bias")
+        .def_property_readonly("p_WB_m", as_array(&Estimate::p_WB_m), "position [m]")
+        .def_property_readonly("v_WB_m_s", as_array(&Estimate::v_WB_m_s), "velocity [m/s]")
+        .def_property_readonly("q_WB", as_array(&Estimate::q_WB), "attitude w, x, y, z")
+        .def_property_readonly("w_WB_B_rad_s", as_array(&Estimate::w_WB_B_rad_s),
+                               "angular velocity in B [rad/s]")
+        .def_property_readonly("euler_rad", euler_of(&Estimate::q_WB), "roll, pitch, yaw [rad]")
+        .def_property_readonly("variance", as_array(&Estimate::variance),
+                               "of position, velocity, attitude, gyro bias, accelerometer bias")
         .def_readonly("valid", &Estimate::valid);
 }
 

@@ -101,16 +101,8 @@ def guidance_on(task, seed, count, jobs):
 
 
 def share_text(success):
-    low, high = interval(success)
-    return f"{100 * success.mean():.0f} % ({100 * low:.0f} to {100 * high:.0f})"
-
-
-def interval(success):
-    """Wilson's, 95 %."""
-    n, share, z = len(success), float(np.mean(success)), 1.959964
-    middle = (share + z * z / (2 * n)) / (1 + z * z / n)
-    half = z * np.sqrt(share * (1 - share) / n + (z / (2 * n)) ** 2) / (1 + z * z / n)
-    return middle - half, middle + half
+    share, low, high = limpet.share_of(success)
+    return f"{100 * share:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
 
 
 def flight_of(weights, seed):
@@ -134,7 +126,7 @@ def draw(folder, curve, shares, flights):
     left.set(xlabel="generation", ylabel="mean reward of an episode", title="learning")
     left.legend()
     for place, (name, success) in enumerate(shares.items()):
-        low, high = interval(success)
+        _, low, high = limpet.share_of(success)
         share = success.mean()
         middle.errorbar(place, share, yerr=[[share - low], [high - share]], fmt="o", capsize=6, ms=8)
         middle.annotate(f"{100 * share:.0f} %", (place, share), xytext=(10, -4), textcoords="offset points")

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/campaign/fliers.hpp"
+
+#include <system_error>
+
+#include "limpet/campaign/workers.hpp"
+#include "limpet/plant/lane_group.hpp"
+
+namespace limpet::campaign {
+namespace {
+
+void fly_lane(const Campaign& campaign, RunSource& source, const std::atomic<bool>* stop) noexcept {
+    try {
+        while (const auto run = source.next()) {
+            const RunRow row = fly_run(campaign, *run, stop);
+            if (stop != nullptr && *stop) {
+                return;
+            }
+            source.land(row);
+        }
+    } catch (...) {
+        source.fail(std::current_exception());
+    }
+}
+
+}  // namespace
+
+void fly_assigned(const Campaign& campaign, RunSource& source, const std::atomic<bool>* stop) {
+    plant::fly_side_by_side([&] { fly_lane(campaign, source, stop); });
+}
+
+Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
+               const std::atomic<bool>* stop) {
+    try {
+        while (threads_.size() < static_cast<std::size_t>(jobs)) {
+            ++flying_;
+            threads_.emplace_back([this, &campaign, &source, stop] {
+                fly_assigned(campaign, source, stop);
+                --flying_;
+            });
+        }
+    } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        --flying_;
+    }
+}
+
+}  // namespace limpet::campaign

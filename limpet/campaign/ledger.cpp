@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "limpet/campaign/ledger.hpp"
+
+#include <algorithm>
+
+namespace limpet::campaign {
+
+Ledger::Ledger(Results& results, const CampaignWatch& watch, int ranks)
+    : results_(results),
+      watch_(watch),
+      finished_(results.finished_runs()),
+      end_(results.shard().end(results.campaign().runs)),
+      next_(results.shard().begin(results.campaign().runs)) {
+    progress_.runs = end_ - next_;
+    progress_.finished = static_cast<std::uint32_t>(finished_.size());
+    progress_.outcomes = results.outcomes();
+    progress_.by_rank.resize(static_cast<std::size_t>(ranks));
+}
+
+std::optional<std::uint32_t> Ledger::next() {
+    const std::lock_guard lock(mutex_);
+    while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
+        ++next_;
+    }
+    const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
+    return stop || next_ >= end_ ? std::nullopt : std::optional(next_++);
+}
+
+void Ledger::land(const RunRow& row, int rank) {
+    const std::lock_guard lock(mutex_);
+    results_.add({row});
+    ++progress_.outcomes[row.outcome];
+    ++progress_.finished;
+    ++progress_.flown;
+    if (!progress_.by_rank.empty()) {
+        ++progress_.by_rank.at(static_cast<std::size_t>(rank));
+    }
+    progress_.elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (watch_.on_row) {
+        watch_.on_row(row);
+    }
+    if (watch_.on_progress) {
+        watch_.on_progress(progress_);
+    }
+}
+
+void Ledger::fail(std::exception_ptr why) noexcept {
+    const std::lock_guard lock(mutex_);
+    failed_ = failed_ ? failed_ : why;
+}
+
+Progress Ledger::conclude() {
+    const std::lock_guard lock(mutex_);
+    if (failed_) {
+        std::rethrow_exception(failed_);
+    }
+    results_.finish();
+    return progress_;
+}
+
+}  // namespace limpet::campaign

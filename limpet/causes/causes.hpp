@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "limpet/causes/cause_places.hpp"
+#include "limpet/core/random.hpp"
+#include "limpet/stability/map.hpp"
+#include "limpet/study/posterior.hpp"
+
+/// Why the paper's real vehicle swings while it waits and its simulation does not, with
+/// probabilities: what it does not publish is drawn from ranges with sources, what it does say
+/// weighs the draws.
+namespace limpet::causes {
+
+/// What differs between the simulation and the vehicle, or was never told of either.
+enum class Cause {
+    motors,    ///< slower than Gazebo's
+    delay,     ///< of the speed controllers and of the pipeline from gyro to output
+    arm,       ///< where the cup's joint is, and the inertia
+    gains,     ///< of the attitude loop and its filters, in the vehicle and its simulation alike
+    joint,     ///< slider, cup's joint and lip
+    wall_air,  ///< unsteady moment of the wake at the wall
+};
+inline constexpr std::size_t kCauses = 6;
+/// "motors", "dead time", ...
+[[nodiscard]] const char* to_text(Cause cause);
+
+/// A number that the paper does not publish.
+struct CauseInput {
+    CausePlace place;               ///< in a point
+    std::string name;               ///< for people, with its unit
+    std::vector<std::string> keys;  ///< of a scenario, that it is set to; empty: not the loop's
+    Cause cause;
+    double as_simulated;  ///< what the paper's simulation has, or the scenario
+    std::string prior;    ///< for people: "0.40 … 0.58"
+    std::string source;   ///< of the prior
+    double (*draw)(RandomStream& random);
+};
+[[nodiscard]] const std::vector<CauseInput>& cause_inputs();
+/// Numbers of all inputs, in their order.
+using CausePoint = Eigen::VectorXd;
+/// What the paper's simulation flew.
+[[nodiscard]] CausePoint as_simulated();
+/// Inputs of the causes that take part from their priors, others as simulated.
+[[nodiscard]] CausePoint draw_point(std::size_t subset, RandomStream& random);
+[[nodiscard]] inline bool takes_part(std::size_t subset, Cause cause) {
+    return ((subset >> static_cast<std::size_t>(cause)) & 1U) != 0;
+}
+/// `--set` texts that make a scenario a point.
+[[nodiscard]] stability::Overrides overrides_of(const CausePoint& point);
+
+/// What the linearised loop says of a point.
+struct PointSwing {
+    static constexpr double kNone_1_s = -5.0;  ///< growth where nothing swings: over at once
+    bool rests = false;                        ///< there is a rest to wait at
+    double growth_1_s = kNone_1_s;
+    double frequency_Hz = 0.0;
+};
+/// @param linear  in place of the linearised loop
+[[nodiscard]] PointSwing swing_of(const CausePoint& point,
+                                  const stability::SwingOf& linear = stability::linear_swing);
+
+/// How large the swing becomes: it begins at `start_deg`, is pushed by the wall's air, and grows.
+/// A flight's is that with a factor exp(scatter z), z standard normal.
+struct SwingSize {
+    double start_deg = 0.2;
+    double metal_scatter = 0.5;
+    double concrete_scatter = 0.5;
+    std::size_t flights = 0;  ///< by which these were found
+    double held = 0.0;        ///< share of other flights within the 95 % that it says
+};
+/// Largest amplitude of the pitch in waiting for so long [deg], the middle of many flights.
+[[nodiscard]] double swing_deg(const SwingSize& size, const CausePoint& point,
+                               const PointSwing& swing, double waited_s);
+/// Whole missions at points of the prior, one half to fit start and scatter, the other to be held
+/// against them.
+[[nodiscard]] SwingSize measure_size(std::size_t points, int jobs);
+
+/// What the paper says of the swing, or what a synthetic vehicle shows.
+struct SwingSaid {
+    double metal_from_deg = 5.0;     ///< "exceeding 5 deg. after 16 s"
+    double metal_to_deg = 10.0;      ///< assumed: "interrupted to avoid any incident", not beyond
+    double concrete_from_deg = 0.5;  ///< "oscillates", in a plot of +-10 deg (assumed)
+    double concrete_to_deg = 5.0;
+    double simulated_to_deg = 1.0;  ///< "remains stable"
+};
+inline constexpr double kMetalWait_s = 16.0;
+inline constexpr double kConcreteWait_s = 1.0;
+
+/// A draw of the prior, and what the linearised loop makes of it and of the paper's simulation.
+struct CauseDraw {
+    CausePoint point;
+    PointSwing swing;
+    PointSwing simulated;
+};
+/// Of each set of causes as many, by the bits of the causes that take part.
+using PriorDraws = std::vector<std::vector<CauseDraw>>;
+/// @param draws  of each set
+[[nodiscard]] PriorDraws draw_prior(std::size_t draws, std::uint64_t seed, int jobs,
+                                    const std::function<void()>& between = {});
+
+/// The prior's draws weighed by what was said; it refers to them.
+struct CausePosterior {
+    const PriorDraws* draws = nullptr;
+    std::vector<study::Weighted> weighted;  ///< one a set
+    /// Of the sets, all alike before.
+    [[nodiscard]] std::vector<double> set_probabilities() const;
+    /// That a cause takes part.
+    [[nodiscard]] double probability(Cause cause) const;
+    /// Quantile over sets and draws of what `of` says of a draw.
+    [[nodiscard]] double quantile(const std::function<double(const CauseDraw&)>& of,
+                                  double share) const;
+};
+[[nodiscard]] CausePosterior weigh(const PriorDraws& draws, const SwingSize& size,
+                                   const SwingSaid& said);
+
+/// A measurement that nobody has published, and how many bits it would tell of which causes take
+/// part.
+struct CauseMeasurement {
+    std::string name;
+    std::string accuracy;
+    double bits = 0.0;
+};
+/// Best first. Draws that explain next to nothing of what was said are left out.
+[[nodiscard]] std::vector<CauseMeasurement> measurements(const CausePosterior& posterior,
+                                                         std::uint64_t seed, int jobs);
+
+}  // namespace limpet::causes

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "limpet/campaign/statistics.hpp"
+#include "limpet/causes/cause_places.hpp"
+#include "limpet/causes/causes.hpp"
+#include "limpet/core/errors.hpp"
+#include "limpet/core/parallel.hpp"
+
+namespace limpet::causes {
+namespace {
+
+constexpr std::size_t kSets = 1U << kCauses;
+
+std::size_t bit(Cause cause) {
+    return std::size_t{1} << static_cast<std::size_t>(cause);
+}
+
+/// The paper's simulation of a point: the same arm, gains and joint, Gazebo's motors in still air,
+/// and of the dead time what the autopilot brings with it.
+CausePoint simulated(CausePoint point) {
+    const CausePoint gazebo = as_simulated();
+    for (const Eigen::Index i : {kLag, kRatio, kMoment}) {
+        point[i] = gazebo[i];
+    }
+    point[kDelay] *= point[kShared];
+    return point;
+}
+
+/// That a lognormal with this middle lies between two ends.
+double probability_between(double middle, double scatter, double from, double to) {
+    return normal_probability(std::log(to / middle) / scatter) -
+           normal_probability(std::log(from / middle) / scatter);
+}
+
+double likelihood(const CauseDraw& draw, const SwingSize& size, const SwingSaid& said) {
+    if (!draw.swing.rests || !draw.simulated.rests) {
+        return 0.0;  // both waited
+    }
+    const double metal = swing_deg(size, draw.point, draw.swing, kMetalWait_s);
+    const double concrete = swing_deg(size, draw.point, draw.swing, kConcreteWait_s);
+    const double still = swing_deg(size, simulated(draw.point), draw.simulated, kMetalWait_s);
+    return probability_between(metal, size.metal_scatter, said.metal_from_deg, said.metal_to_deg) *
+           probability_between(concrete, size.concrete_scatter, said.concrete_from_deg,
+                               said.concrete_to_deg) *
+           normal_probability(std::log(said.simulated_to_deg / still) / size.metal_scatter);
+}
+
+}  // namespace
+
+PriorDraws draw_prior(std::size_t draws, std::uint64_t seed, int jobs,
+                      const std::function<void()>& between) {
+    PriorDraws all(kSets, std::vector<CauseDraw>(draws));
+    const auto draw_of = [&](std::size_t i) -> CauseDraw& { return all[i / draws][i % draws]; };
+    for_each_index(kSets * draws, jobs, [&](std::size_t i) {
+        RandomStream random(seed, static_cast<std::uint32_t>(i % draws), Stream::scenario);
+        draw_of(i).point = draw_point(i / draws, random);
+    });
+    // The air moves the vehicle and not its loop, the simulation has neither air nor slow motors: a
+    // set has the swings of the one without them.
+    const auto without = [draws](std::size_t i, std::size_t causes) { return i / draws & ~causes; };
+    const std::size_t air = bit(Cause::wall_air), real = air | bit(Cause::motors);
+    for_each_index(kSets * draws, jobs, [&](std::size_t i) {
+        if (between) {
+            between();
+        }
+        CauseDraw& own = draw_of(i);
+        if (without(i, air) == i / draws) {
+            own.swing = swing_of(own.point);
+        }
+        if (without(i, real) == i / draws) {
+            own.simulated = swing_of(simulated(own.point));
+        }
+    });
+    for (std::size_t i = 0; i < kSets * draws; ++i) {
+        draw_of(i).swing = all[without(i, air)][i % draws].swing;
+        draw_of(i).simulated = all[without(i, real)][i % draws].simulated;
+    }
+    return all;
+}
+
+std::vector<double> CausePosterior::set_probabilities() const {
+    std::vector<double> all;
+    double sum = 0.0;
+    for (const study::Weighted& one : weighted) {
+        all.push_back(one.evidence());
+        sum += all.back();
+    }
+    require(sum > 0.0, "draws that explain something of what was said");
+    for (double& one : all) {
+        one /= sum;
+    }
+    return all;
+}
+
+double CausePosterior::probability(Cause cause) const {
+    const std::vector<double> all = set_probabilities();
+    double sum = 0.0;
+    for (std::size_t set = 0; set < all.size(); ++set) {
+        sum += takes_part(set, cause) ? all[set] : 0.0;
+    }
+    return sum;
+}
+
+double CausePosterior::quantile(const std::function<double(const CauseDraw&)>& of,
+                                double share) const {
+    study::Weighted together;
+    std::vector<double> values;
+    for (std::size_t set = 0; set < weighted.size(); ++set) {
+        for (std::size_t k = 0; k < weighted[set].weights.size(); ++k) {
+            together.weights.push_back(weighted[set].weights[k]);
+            values.push_back(of((*draws)[set][k]));
+        }
+    }
+    return together.quantile(values, share);
+}
+
+CausePosterior weigh(const PriorDraws& draws, const SwingSize& size, const SwingSaid& said) {
+    CausePosterior posterior{.draws = &draws, .weighted = {}};
+    for (const std::vector<CauseDraw>& set : draws) {
+        study::Weighted& own = posterior.weighted.emplace_back();
+        for (const CauseDraw& draw : set) {
+            own.weights.push_back(likelihood(draw, size, said));
+        }
+    }
+    return posterior;
+}
+
+std::vector<CauseMeasurement> measurements(const CausePosterior& posterior, std::uint64_t seed,
+                                           int jobs) {
+    // Those that explain something; the others hardly count and are many.
+    constexpr double kHardly = 1e-3;
+    double most = 0.0;
+    for (const study::Weighted& one : posterior.weighted) {
+        most = std::max(most, *std::max_element(one.weights.begin(), one.weights.end()));
+    }
+    std::vector<const CauseDraw*> counted;
+    std::vector<std::size_t> sets;
+    std::vector<double> weights;
+    for (std::size_t set = 0; set < posterior.weighted.size(); ++set) {
+        for (std::size_t k = 0; k < posterior.weighted[set].weights.size(); ++k) {
+            if (posterior.weighted[set].weights[k] > kHardly * most) {
+                counted.push_back(&(*posterior.draws)[set][k]);
+                sets.push_back(set);
+                weights.push_back(posterior.weighted[set].weights[k]);
+            }
+        }
+    }
+    std::vector<double> without_integrator(counted.size());
+    for_each_index(counted.size(), jobs, [&](std::size_t i) {
+        CausePoint off = counted[i]->point;
+        off[kRateI] = 0.0;
+        without_integrator[i] = swing_of(off).growth_1_s;
+    });
+
+    struct Shown {
+        const char* name;
+        const char* accuracy;
+        double deviation;
+        std::function<double(std::size_t i)> of;
+    };
+    const auto input = [&counted](Eigen::Index place) {
+        return [&counted, place](std::size_t i) { return counted[i]->point[place]; };
+    };
+    const std::vector<Shown> shown = {
+        {"growth of the swing, from its log", "0.02 1/s", 0.02,
+         [&](std::size_t i) { return counted[i]->swing.growth_1_s; }},
+        {"frequency of the swing, from its log", "0.02 Hz", 0.02,
+         [&](std::size_t i) { return counted[i]->swing.frequency_Hz; }},
+        {"growth with the rate integrator off", "0.02 1/s", 0.02,
+         [&](std::size_t i) { return without_integrator[i]; }},
+        {"step response of a motor on the stand", "2 ms", 0.002, input(kLag)},
+        {"dead time, from gyro and actuator records", "2 ms", 0.002, input(kDelay)},
+        {"place of the joint, by a ruler", "5 mm", 0.005, input(kJointX)},
+        {"inertia, hung up and swung", "0.003 kg m2", 0.003, input(kInertia)},
+        {"rate gains that flew", "1 %", 0.01, input(kRateK)},
+        {"slider's stiffness, by a scale", "20 N/m", 20.0, input(kStiffness)},
+        {"moment of the air at the wall, on a stand", "0.01 N m", 0.01, input(kMoment)},
+    };
+    constexpr std::size_t kBins = 24;
+    std::vector<CauseMeasurement> all;
+    for (const Shown& one : shown) {
+        RandomStream random(seed, 1, Stream::test);
+        std::vector<double> measured, blind;
+        for (std::size_t i = 0; i < counted.size(); ++i) {
+            measured.push_back(one.of(i) + one.deviation * random.normal());
+            blind.push_back(random.uniform());
+        }
+        // What draws so few and so weighted tell by chance alone is taken off.
+        const double bits = study::information_bits(sets, measured, weights, kBins) -
+                            study::information_bits(sets, blind, weights, kBins);
+        all.push_back({one.name, one.accuracy, std::max(0.0, bits)});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.bits > b.bits; });
+    return all;
+}
+
+}  // namespace limpet::causes
