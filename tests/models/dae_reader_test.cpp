@@ -126,10 +126,10 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
     const auto with = [&](const char* what, const char* instead) {
         return said(replaced(good, what, instead));
     };
-    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 4</p>"), HasSubstr("a.dae:7: a face has point 4"));
-    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 -1</p>"), HasSubstr("a.dae:7: <p> \"-1\""));
-    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3</p>"), HasSubstr("a.dae:7: "));
-    EXPECT_THAT(with("3 1 3 2 3 3</p>", "3 1 3 2</p>"), HasSubstr("a.dae:7: "));
+    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 4</p>"), HasSubstr("a.dae:8: a face has point 4"));
+    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 -1</p>"), HasSubstr("a.dae:8: <p> \"-1\""));
+    EXPECT_THAT(with("3 2 3 3</p>", "3 2 3</p>"), HasSubstr("a.dae:8: "));
+    EXPECT_THAT(with("3 1 3 2 3 3</p>", "3 1 3 2</p>"), HasSubstr("a.dae:8: "));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0</float_array>"), HasSubstr("asks for more than"));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 x</float_array>"), HasSubstr("\"x\""));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 1e999</float_array>"), HasSubstr("point 4"));
@@ -137,7 +137,7 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(with("count=\"4\" stride", "count=\"4000000000\" stride"),
                 HasSubstr("must be from 0"));
     EXPECT_THAT(with("offset=\"0\"", "offset=\"1000000\""), HasSubstr("must be from 0 to 31"));
-    EXPECT_THAT(with("url=\"#g\"", "url=\"other.dae#g\""), HasSubstr("a.dae:11: "));
+    EXPECT_THAT(with("url=\"#g\"", "url=\"other.dae#g\""), HasSubstr("a.dae:12: "));
     EXPECT_THAT(with("url=\"#g\"", "url=\"#s\""), HasSubstr("id of a <geometry>"));
     EXPECT_THAT(with("source=\"#s\"", "source=\"#g\""), HasSubstr("id of a <source>"));
     EXPECT_THAT(with("<instance_geometry url=\"#g\"/>", "<instance_controller url=\"#g\"/>"),
@@ -148,7 +148,7 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
                 HasSubstr("a.dae:3: "));
     EXPECT_THAT(said(dae("", kTriangles,
                          "<node><skew>1 2 3 4 5 6 7</skew><instance_geometry url=\"#g\"/></node>")),
-                HasSubstr("a.dae:11: <skew> above a geometry"));
+                HasSubstr("a.dae:12: <skew> above a geometry"));
     EXPECT_THAT(said(dae("",
                          "<polygons><input semantic=\"VERTEX\" offset=\"0\"/>"
                          "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>",

@@ -83,11 +83,11 @@ TEST(PlyReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(with("vertex 4", "vertex four"), HasSubstr("a.ply:5: "));
     EXPECT_THAT(with("property float x", "property float q"), HasSubstr("x, y and z"));
     EXPECT_THAT(with("property double z", "property half z"), HasSubstr("a.ply:8: \"half\""));
-    EXPECT_THAT(with("3 0 2 1", "3 0 2 9"), HasSubstr("a.ply:19: a face has point 9"));
-    EXPECT_THAT(with("3 0 2 1", "3 0 2 0.5"), HasSubstr("a.ply:19: "));
-    EXPECT_THAT(with("3 0 2 1", "2 0 2 1"), HasSubstr("a.ply:19: a face of 2 corners"));
-    EXPECT_THAT(with("0 2 0 255", "0 two 0 255"), HasSubstr("a.ply:17: \"two\""));
-    EXPECT_THAT(with("0 2 0 255", "0 1e999 0 255"), HasSubstr("a.ply:17: "));
+    EXPECT_THAT(with("3 0 2 1", "3 0 2 9"), HasSubstr("a.ply:20: a face has point 9"));
+    EXPECT_THAT(with("3 0 2 1", "3 0 2 0.5"), HasSubstr("a.ply:20: "));
+    EXPECT_THAT(with("3 0 2 1", "2 0 2 1"), HasSubstr("a.ply:20: a face of 2 corners"));
+    EXPECT_THAT(with("0 2 0 255", "0 two 0 255"), HasSubstr("a.ply:18: \"two\""));
+    EXPECT_THAT(with("0 2 0 255", "0 1e999 0 255"), HasSubstr("a.ply:18: "));
     EXPECT_THAT(with("vertex 4", "vertex 4000000000"), HasSubstr("a.ply:"));
 }
 
