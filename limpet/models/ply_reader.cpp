@@ -12,7 +12,7 @@
 
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/models/mesh_words.hpp"
+#include "limpet/core/words.hpp"
 
 namespace limpet::models {
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostParts = 500;
-constexpr std::size_t kMostOfAll = 3 * kMostTriangles;  // of all visuals
+constexpr std::size_t kMostOfAll = 2 * kMostTriangles;  // of all visuals
 constexpr double kLargest_m = 100.0;                    // shape
 constexpr double kFarthest_m = 1000.0;                  // of a part from what it hangs on
 
@@ -268,10 +268,11 @@ private:
             fail(mesh, fmt::format("mesh {}: {} {}", in_quotes(uri), path.string(), problem));
         }
         triangles_ += at->second->triangles.size();
-        if (triangles_ > kMostOfAll) {
-            fail(mesh, fmt::format("mesh {}: more than {} triangles in all: simplify what is only "
-                                   "looked at",
-                                   in_quotes(uri), kMostOfAll));
+        points_ += at->second->points.size();
+        if (triangles_ > kMostOfAll || points_ > kMostPoints) {
+            fail(mesh, fmt::format("mesh {}: more than {} triangles or {} points in all: simplify "
+                                   "what is only looked at",
+                                   in_quotes(uri), kMostOfAll, kMostPoints));
         }
         return at->second;
     }
@@ -372,6 +373,7 @@ private:
     UrdfRobot robot_;
     int visuals_ = 0;            ///< of all links
     std::size_t triangles_ = 0;  ///< of all visuals
+    std::size_t points_ = 0;
 };
 
 }  // namespace

@@ -55,8 +55,8 @@ struct UrdfRobot {
 /// @throws InputError "file:line: what": syntax, xacro, a number, a name twice, a joint between
 /// links
 ///         that are not there, no tree, a mass or an inertia that no body has, a mesh that is
-///         missing, cannot be read, reaches further than 100 m or has no area, more than three
-///         million triangles
+///         missing, cannot be read, reaches further than 100 m or has no area, more than two
+///         million triangles or three million points in all
 [[nodiscard]] UrdfRobot read_urdf(const std::filesystem::path& file);
 
 }  // namespace limpet::models

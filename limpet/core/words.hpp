@@ -10,10 +10,10 @@
 #include <optional>
 #include <string_view>
 
-namespace limpet::models {
+namespace limpet {
 
 /// A text taken apart into words between blanks; knows its line. Ten times as fast as a stream,
-/// which a mesh of 100 MB notices.
+/// which a mesh of 100 MB notices. Looks at the text, which outlives it.
 class Words {
 public:
     explicit Words(std::string_view text) : text_(text) {}
@@ -115,4 +115,4 @@ inline std::optional<long> integer_of(std::string_view word) {
                : std::nullopt;
 }
 
-}  // namespace limpet::models
+}  // namespace limpet
