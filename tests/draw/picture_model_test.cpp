@@ -74,7 +74,7 @@ TEST(PictureModel, NoFileIsNamedWhateverBlanksStandAround) {
         for (const char* shape :
              {"<include{}file=\"/etc/passwd\"/>", "<include file{}=\"/etc/passwd\"/>",
               "<include file={}\"/etc/passwd\"/>"}) {
-            EXPECT_THAT(refusal(with(fmt::format(fmt::runtime(shape), blank))),
+            EXPECT_THAT(refusal(with(fmt::vformat(shape, fmt::make_format_args(blank)))),
                         HasSubstr("model.xml:"))
                 << shape << " " << static_cast<int>(*blank);
         }
