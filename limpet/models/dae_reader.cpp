@@ -11,8 +11,8 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/core/xml_marks.hpp"
 #include "limpet/core/words.hpp"
+#include "limpet/core/xml_marks.hpp"
 
 namespace limpet::models {
 
@@ -57,7 +57,8 @@ struct Faces {
 class Reader {
 public:
     Reader(std::string name, std::string text)
-        : name_(std::move(name)), text_(std::move(text)), mesh_(name_, "DAE") {}
+        : text_(std::move(text)),
+          mesh_(std::move(name), "DAE", [this](std::size_t offset) { return line_of(offset); }) {}
 
     Mesh read() {
         if (xml_marks(text_) > kMostMarks) {
@@ -66,7 +67,7 @@ public:
         pugi::xml_document document;
         const auto parsed = document.load_buffer(text_.data(), text_.size());
         if (!parsed) {
-            mesh_.at(line_of(parsed.offset));
+            mesh_.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 1)));
             mesh_.fail(parsed.description());
         }
         const auto root = document.child("COLLADA");
@@ -88,13 +89,17 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t line_of(std::ptrdiff_t offset) const {
-        const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(
-                                             offset, 0, static_cast<std::ptrdiff_t>(text_.size()));
+    [[nodiscard]] std::size_t line_of(std::size_t offset) const {
+        const auto end =
+            text_.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text_.size()));
         return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
     }
+    /// What comes next stands in this element.
+    void at(pugi::xml_node node) {
+        mesh_.at(static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 1)));
+    }
     [[noreturn]] void fail(pugi::xml_node node, const std::string& what) {
-        mesh_.at(line_of(node.offset_debug()));
+        at(node);
         mesh_.fail(what);
     }
 
@@ -273,7 +278,7 @@ private:
             fail(accessor, fmt::format("<accessor>: asks for more than the {} numbers of its array",
                                        values.size()));
         }
-        mesh_.at(line_of(source.offset_debug()));
+        at(source);
         for (std::size_t i = 0; i < count; ++i) {
             const double* p = values.data() + offset + i * stride;
             mesh_.point(pose * Vector3(p[0], p[1], p[2]));
@@ -317,7 +322,7 @@ private:
     template <class Size>
     void add_polygons(const Faces& faces, pugi::xml_node list, const Size& size_of) {
         const std::vector<long> all = corners(list, faces);
-        mesh_.at(line_of(list.offset_debug()));
+        at(list);
         std::size_t from = 0;
         for (std::size_t i = 0; from < all.size(); ++i) {
             const std::size_t count = size_of(i);
@@ -353,7 +358,7 @@ private:
     }
     void add_strip(const Faces& faces, pugi::xml_node list) {
         const std::vector<long> all = corners(list, faces);
-        mesh_.at(line_of(list.offset_debug()));
+        at(list);
         for (std::size_t i = 2; i < all.size(); ++i) {  // every other one runs the other way
             polygon(faces, i % 2 == 0 ? std::array{all[i - 2], all[i - 1], all[i]}
                                       : std::array{all[i - 1], all[i - 2], all[i]});
@@ -388,7 +393,7 @@ private:
                 add_strip(faces, list);
             } else {  // polygons and trifans: a fan about the first corner
                 const std::vector<long> all = corners(list, faces);
-                mesh_.at(line_of(list.offset_debug()));
+                at(list);
                 polygon(faces, all);
             }
         }
@@ -419,7 +424,6 @@ private:
         }
     }
 
-    std::string name_;
     std::string text_;
     MeshBuilder mesh_;
     Ids ids_;

@@ -22,8 +22,10 @@ constexpr double kLeastArea_m2 = 1e-12;
 }  // namespace
 
 void MeshBuilder::fail(const std::string& what) const {
-    throw InputError(line_ > 0 ? fmt::format("{}:{}: {}", name_, line_, what)
-                               : fmt::format("{}: {}", name_, what));
+    if (place_ == 0) {
+        throw InputError(fmt::format("{}: {}", name_, what));
+    }
+    throw InputError(fmt::format("{}:{}: {}", name_, line_of_ ? line_of_(place_) : place_, what));
 }
 
 void MeshBuilder::point(const Vector3& p) {
@@ -57,7 +59,7 @@ void MeshBuilder::polygon(std::span<const long> corners) {
 
 Mesh MeshBuilder::take() {
     if (mesh_.triangles.empty()) {
-        line_ = 0;
+        place_ = 0;
         fail(fmt::format("{} {} without a triangle", kind_ == "OBJ" || kind_ == "STL" ? "an" : "a",
                          kind_));
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,12 +26,16 @@ inline constexpr std::size_t kMostMesh_MB = 100;
 /// What the readers of meshes have in common: bounds, indices that are there, polygons.
 class MeshBuilder {
 public:
-    /// @param name  of the file, as in messages @param kind  "OBJ"
-    MeshBuilder(std::string name, std::string kind)
-        : name_(std::move(name)), kind_(std::move(kind)) {}
+    /// Where something stands becomes a line when it is told: counting lines takes time.
+    using LineOf = std::function<std::size_t(std::size_t place)>;
 
-    /// What comes next stands on this line; 0 in a file without lines.
-    void at(std::size_t line) { line_ = line; }
+    /// @param name  of the file, as in messages @param kind  "OBJ"
+    /// @param line_of  of a place; without it a place is a line
+    MeshBuilder(std::string name, std::string kind, LineOf line_of = {})
+        : name_(std::move(name)), kind_(std::move(kind)), line_of_(std::move(line_of)) {}
+
+    /// What comes next stands here; 0 in a file without lines.
+    void at(std::size_t place) { place_ = place; }
     /// @throws InputError "file:line: what": not finite, more than kMostPoints
     void point(const Vector3& p);
     /// A polygon as a fan about its first corner.
@@ -47,7 +52,8 @@ public:
 private:
     std::string name_;
     std::string kind_;
-    std::size_t line_ = 0;
+    LineOf line_of_;
+    std::size_t place_ = 0;
     Mesh mesh_;
 };
 

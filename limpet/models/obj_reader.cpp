@@ -53,6 +53,9 @@ void read_face(Words& words, MeshBuilder& mesh, std::vector<long>& corners) {
             mesh.fail(fmt::format("f: {}: must be a point from 1 to {}, or from -{} to -1",
                                   in_quotes(word), count, count));
         }
+        if (corners.size() > kMostPoints) {
+            mesh.fail(fmt::format("f: more than {} corners", kMostPoints));
+        }
         corners.push_back(*index > 0 ? *index - 1 : count + *index);
     }
     mesh.polygon(corners);

@@ -52,6 +52,7 @@ struct Property {
     std::string name;
     const Type* type = nullptr;
     const Type* count = nullptr;  ///< of a list
+    bool corners = false;         ///< a face's
 };
 
 struct Element {
@@ -127,6 +128,8 @@ private:
         }
         property.type = type_of(word);
         property.name = words_.on_line();
+        property.corners = property.count != nullptr && elements_.back().name == "face" &&
+                           (property.name == "vertex_indices" || property.name == "vertex_index");
         elements_.back().properties.push_back(std::move(property));
         if (elements_.back().properties.size() > kMostProperties) {
             mesh_.fail(fmt::format("more than {} properties", kMostProperties));
@@ -209,18 +212,31 @@ private:
         if (count < 0) {
             mesh_.fail(fmt::format("a list of {} in \"{}\"", count, element.name));
         }
-        list_.clear();
-        const bool corners = element.name == "face" &&
-                             (property.name == "vertex_indices" || property.name == "vertex_index");
-        for (long i = 0; i < count; ++i) {  // ends where the file does
-            if (corners) {
-                list_.push_back(next_integer(*property.type, element));
-            } else {
-                (void)next(*property.type, element);
-            }
+        if (!property.corners) {
+            skip(count, *property.type, element);
+            return;
         }
-        if (corners) {
-            mesh_.polygon(list_);
+        if (count > static_cast<long>(kMostPoints)) {
+            mesh_.fail(
+                fmt::format("a face of {} corners, must have at most {}", count, kMostPoints));
+        }
+        list_.clear();
+        for (long i = 0; i < count; ++i) {
+            list_.push_back(next_integer(*property.type, element));
+        }
+        mesh_.polygon(list_);
+    }
+    void skip(long count, const Type& type, const Element& element) {
+        if (form_ != Form::ascii) {
+            const auto bytes = static_cast<std::size_t>(count) * type.bytes;
+            if (bytes_.size() - at_ < bytes) {
+                fail_short(element);
+            }
+            at_ += bytes;
+            return;
+        }
+        for (long i = 0; i < count; ++i) {  // ends where the file does
+            (void)next(type, element);
         }
     }
     void read_element(const Element& element) {
