@@ -19,6 +19,7 @@
 #include "limpet/core/xml_marks.hpp"
 
 namespace limpet::draw {
+namespace picture {
 namespace {
 
 constexpr std::size_t kMostBytes = 200'000'000;
@@ -191,9 +192,9 @@ auto named(const All& all, std::string_view name) {
                         [name](const auto& one) { return one.name == name; });
 }
 
-class Reader {
+class PictureModel {
 public:
-    explicit Reader(const std::string& mjcf) : mjcf_(mjcf) {}
+    explicit PictureModel(const std::string& mjcf) : mjcf_(mjcf) {}
 
     std::string read() {
         if (mjcf_.empty() || mjcf_.size() > kMostBytes || xml_marks(mjcf_) > kMostMarks) {
@@ -386,9 +387,10 @@ private:
 };
 
 }  // namespace
+}  // namespace picture
 
 std::string picture_model(const std::string& mjcf) {
-    return Reader(mjcf).read();
+    return picture::PictureModel(mjcf).read();
 }
 
 }  // namespace limpet::draw

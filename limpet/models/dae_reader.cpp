@@ -18,17 +18,17 @@ namespace limpet::models {
 
 namespace {
 
-constexpr int kDeepest = 100;
+constexpr int kDeepestNode = 100;
 constexpr int kMostNodes = 20000;  // that are placed
 constexpr std::size_t kMostNumbers = 3 * kMostPoints;
 constexpr std::size_t kMostOffset = 31;  // of an input
 constexpr std::size_t kMostScanned = 500'000'000;
 constexpr std::size_t kMostMarks = 4'000'000;  // as in a <p> for each of a million polygons
 
-using Numbers = std::vector<double>;
+using DaeNumbers = std::vector<double>;
 
 /// The attributes that ids are looked up by.
-class Ids : public pugi::xml_tree_walker {
+class DaeIds : public pugi::xml_tree_walker {
 public:
     bool for_each(pugi::xml_node& node) override {
         if (const auto id = node.attribute("id")) {
@@ -46,7 +46,7 @@ private:
 };
 
 /// Corners of faces, as one of the elements of a <mesh> has them.
-struct Faces {
+struct DaeFaces {
     pugi::xml_node element;
     std::size_t stride = 0;  ///< indices a corner
     std::size_t offset = 0;  ///< of the point's among them
@@ -54,9 +54,9 @@ struct Faces {
     bool mirrored = false;
 };
 
-class Reader {
+class DaeFile {
 public:
-    Reader(std::string name, std::string text)
+    DaeFile(std::string name, std::string text)
         : text_(std::move(text)),
           mesh_(std::move(name), "DAE", [this](std::size_t offset) { return line_of(offset); }) {}
 
@@ -123,8 +123,8 @@ private:
         }
         return Words(text);
     }
-    Numbers numbers(pugi::xml_node node, std::size_t most) {
-        Numbers values;
+    DaeNumbers numbers(pugi::xml_node node, std::size_t most) {
+        DaeNumbers values;
         Words words = words_of(node);
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             const auto value = number_of(word);
@@ -138,8 +138,8 @@ private:
         }
         return values;
     }
-    Numbers numbers_of(pugi::xml_node node, std::size_t count) {
-        Numbers values = numbers(node, count);
+    DaeNumbers numbers_of(pugi::xml_node node, std::size_t count) {
+        DaeNumbers values = numbers(node, count);
         if (values.size() != count) {
             fail(node, fmt::format("<{}>: must be {} numbers", node.name(), count));
         }
@@ -191,7 +191,7 @@ private:
         for (const auto step : node.children()) {
             const std::string_view kind = step.name();
             if (kind == "matrix") {
-                const Numbers m = numbers_of(step, 16);
+                const DaeNumbers m = numbers_of(step, 16);
                 Eigen::Matrix4d all;
                 std::copy(m.begin(), m.end(), all.data());
                 all.transposeInPlace();  // it is written by rows
@@ -199,16 +199,16 @@ private:
                 affine.matrix().topRows<3>() = all.topRows<3>();
                 pose = pose * affine;
             } else if (kind == "translate") {
-                const Numbers p = numbers_of(step, 3);
+                const DaeNumbers p = numbers_of(step, 3);
                 pose.translate(Vector3(p[0], p[1], p[2]));
             } else if (kind == "rotate") {
-                const Numbers r = numbers_of(step, 4);
+                const DaeNumbers r = numbers_of(step, 4);
                 const Vector3 axis(r[0], r[1], r[2]);
                 if (axis.norm() > 0.0) {
                     pose.rotate(Eigen::AngleAxisd(radians(r[3]), axis.normalized()));
                 }
             } else if (kind == "scale") {
-                const Numbers s = numbers_of(step, 3);
+                const DaeNumbers s = numbers_of(step, 3);
                 pose.scale(Vector3(s[0], s[1], s[2]));
             } else if (kind == "lookat" || kind == "skew") {
                 unread = step;
@@ -218,8 +218,8 @@ private:
     }
 
     void place(pugi::xml_node node, Eigen::Affine3d pose, pugi::xml_node unread, int depth) {
-        if (depth > kDeepest) {
-            fail(node, fmt::format("nodes deeper than {}, or in a ring", kDeepest));
+        if (depth > kDeepestNode) {
+            fail(node, fmt::format("nodes deeper than {}, or in a ring", kDeepestNode));
         }
         if (++placed_ > kMostNodes) {
             fail(node, fmt::format("more than {} nodes are placed", kMostNodes));
@@ -247,7 +247,7 @@ private:
         }
     }
 
-    const Numbers& array(pugi::xml_node node) {
+    const DaeNumbers& array(pugi::xml_node node) {
         const auto [at, added] = arrays_.try_emplace(node.hash_value());
         if (added) {
             at->second = numbers(node, kMostNumbers - read_);
@@ -270,7 +270,7 @@ private:
         const std::size_t count = whole(accessor, "count", 0, kMostPoints);
         const std::size_t stride = whole(accessor, "stride", 1, kMostNumbers);
         const std::size_t offset = whole(accessor, "offset", 0, kMostNumbers);
-        const Numbers& values = array(target(accessor, "source", "float_array"));
+        const DaeNumbers& values = array(target(accessor, "source", "float_array"));
         if (stride < 3) {
             fail(accessor, fmt::format("<accessor> stride=\"{}\": must be at least 3", stride));
         }
@@ -286,7 +286,7 @@ private:
     }
 
     /// Whole corners of a list of indices, each by its point.
-    std::vector<long> corners(pugi::xml_node list, const Faces& faces) {
+    std::vector<long> corners(pugi::xml_node list, const DaeFaces& faces) {
         std::vector<long> points;
         Words words = words_of(list);
         std::size_t at = 0;
@@ -310,7 +310,7 @@ private:
         return points;
     }
 
-    void polygon(const Faces& faces, std::span<const long> all) {
+    void polygon(const DaeFaces& faces, std::span<const long> all) {
         corners_.assign(all.begin(), all.end());
         if (faces.mirrored) {
             std::reverse(corners_.begin(), corners_.end());
@@ -320,7 +320,7 @@ private:
 
     /// Polygons of one <p>, each of as many corners as `sizes` says.
     template <class Size>
-    void add_polygons(const Faces& faces, pugi::xml_node list, const Size& size_of) {
+    void add_polygons(const DaeFaces& faces, pugi::xml_node list, const Size& size_of) {
         const std::vector<long> all = corners(list, faces);
         at(list);
         std::size_t from = 0;
@@ -333,9 +333,9 @@ private:
             from += count;
         }
     }
-    void add_polylist(const Faces& faces) {
+    void add_polylist(const DaeFaces& faces) {
         const auto sizes_node = faces.element.child("vcount");
-        const Numbers sizes = numbers(sizes_node, kMostTriangles);
+        const DaeNumbers sizes = numbers(sizes_node, kMostTriangles);
         double corners = 0.0;
         for (const double size : sizes) {
             if (!(size >= 3.0 && size <= static_cast<double>(kMostPoints)) ||
@@ -356,7 +356,7 @@ private:
                  fmt::format("<vcount>: asks for {:.0f} corners, <p> has fewer", corners));
         }
     }
-    void add_strip(const Faces& faces, pugi::xml_node list) {
+    void add_strip(const DaeFaces& faces, pugi::xml_node list) {
         const std::vector<long> all = corners(list, faces);
         at(list);
         for (std::size_t i = 2; i < all.size(); ++i) {  // every other one runs the other way
@@ -365,7 +365,7 @@ private:
         }
     }
 
-    void add_faces(Faces faces) {
+    void add_faces(DaeFaces faces) {
         const std::string_view kind = faces.element.name();
         bool points = false;
         for (const auto input : faces.element.children("input")) {
@@ -426,8 +426,8 @@ private:
 
     std::string text_;
     MeshBuilder mesh_;
-    Ids ids_;
-    std::map<std::size_t, Numbers> arrays_;
+    DaeIds ids_;
+    std::map<std::size_t, DaeNumbers> arrays_;
     std::size_t read_ = 0;     ///< numbers of arrays
     std::size_t scanned_ = 0;  ///< bytes
     int placed_ = 0;
@@ -437,7 +437,7 @@ private:
 }  // namespace
 
 Mesh read_dae(const std::filesystem::path& file) {
-    return Reader(file.string(), read_file(file, {"mesh of a DAE", kMostMesh_MB})).read();
+    return DaeFile(file.string(), read_file(file, {"mesh of a DAE", kMostMesh_MB})).read();
 }
 
 }  // namespace limpet::models

@@ -16,7 +16,7 @@ namespace limpet::models {
 
 namespace {
 
-constexpr double kFarthest_m = 100.0;  // of a vehicle's mesh from its own origin
+constexpr double kReach_m = 100.0;  // of a vehicle's mesh from its own origin
 constexpr double kLeastArea_m2 = 1e-12;
 
 }  // namespace
@@ -97,11 +97,11 @@ std::string mesh_problem(const Mesh& mesh, const Vector3& scale) {
     for (const Vector3& point : mesh.points) {
         farthest_m = std::max(farthest_m, point.cwiseProduct(scale).cwiseAbs().maxCoeff());
     }
-    if (!(farthest_m <= kFarthest_m)) {
+    if (!(farthest_m <= kReach_m)) {
         return fmt::format(
             "reaches {:.4g} m from its origin, must be within {} m (a file in millimetres wants "
             "scale=\"0.001 0.001 0.001\")",
-            farthest_m, kFarthest_m);
+            farthest_m, kReach_m);
     }
     double area_m2 = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {

@@ -18,14 +18,14 @@ namespace limpet::models {
 
 namespace {
 
-enum class Form {
+enum class PlyForm {
     ascii,
     little,
     big
 };
 
 /// How a number lies in a binary file.
-struct Type {
+struct PlyType {
     std::string_view name;
     std::string_view other_name;
     std::size_t bytes;
@@ -39,39 +39,39 @@ double number_at(const char* bytes) {
     return static_cast<double>(value);
 }
 
-constexpr Type kTypes[] = {{"char", "int8", 1, number_at<std::int8_t>},
-                           {"uchar", "uint8", 1, number_at<std::uint8_t>},
-                           {"short", "int16", 2, number_at<std::int16_t>},
-                           {"ushort", "uint16", 2, number_at<std::uint16_t>},
-                           {"int", "int32", 4, number_at<std::int32_t>},
-                           {"uint", "uint32", 4, number_at<std::uint32_t>},
-                           {"float", "float32", 4, number_at<float>},
-                           {"double", "float64", 8, number_at<double>}};
+constexpr PlyType kPlyTypes[] = {{"char", "int8", 1, number_at<std::int8_t>},
+                                 {"uchar", "uint8", 1, number_at<std::uint8_t>},
+                                 {"short", "int16", 2, number_at<std::int16_t>},
+                                 {"ushort", "uint16", 2, number_at<std::uint16_t>},
+                                 {"int", "int32", 4, number_at<std::int32_t>},
+                                 {"uint", "uint32", 4, number_at<std::uint32_t>},
+                                 {"float", "float32", 4, number_at<float>},
+                                 {"double", "float64", 8, number_at<double>}};
 
-struct Property {
+struct PlyProperty {
     std::string name;
-    const Type* type = nullptr;
-    const Type* count = nullptr;  ///< of a list
-    bool corners = false;         ///< a face's
+    const PlyType* type = nullptr;
+    const PlyType* count = nullptr;  ///< of a list
+    bool corners = false;            ///< a face's
 };
 
-struct Element {
+struct PlyElement {
     std::string name;
     long count = 0;
-    std::vector<Property> properties;
+    std::vector<PlyProperty> properties;
 };
 
 constexpr std::size_t kMostElements = 20;
 constexpr std::size_t kMostProperties = 100;
 
-class Reader {
+class PlyFile {
 public:
-    Reader(const std::string& name, const std::string& bytes)
+    PlyFile(const std::string& name, const std::string& bytes)
         : bytes_(bytes), words_(bytes), mesh_(name, "PLY") {}
 
     Mesh read() {
         read_header();
-        for (const Element& element : elements_) {
+        for (const PlyElement& element : elements_) {
             read_element(element);
         }
         return mesh_.take();
@@ -81,11 +81,11 @@ private:
     [[noreturn]] void refuse(std::string_view word, const char* allowed) const {
         mesh_.fail(fmt::format("{}: must be {}", in_quotes(word), allowed));
     }
-    const Type* type_of(std::string_view word) const {
+    const PlyType* type_of(std::string_view word) const {
         const auto* found = std::find_if(
-            std::begin(kTypes), std::end(kTypes),
-            [&](const Type& type) { return word == type.name || word == type.other_name; });
-        if (found == std::end(kTypes)) {
+            std::begin(kPlyTypes), std::end(kPlyTypes),
+            [&](const PlyType& type) { return word == type.name || word == type.other_name; });
+        if (found == std::end(kPlyTypes)) {
             refuse(word, "a type: char, uchar, short, ushort, int, uint, float or double");
         }
         return found;
@@ -94,17 +94,17 @@ private:
     void read_format() {
         const std::string_view word = words_.on_line();
         if (word == "ascii") {
-            form_ = Form::ascii;
+            form_ = PlyForm::ascii;
         } else if (word == "binary_little_endian") {
-            form_ = Form::little;
+            form_ = PlyForm::little;
         } else if (word == "binary_big_endian") {
-            form_ = Form::big;
+            form_ = PlyForm::big;
         } else {
             refuse(word, "ascii, binary_little_endian or binary_big_endian");
         }
     }
     void read_element_line() {
-        Element element;
+        PlyElement element;
         element.name = words_.on_line();
         const std::string_view count = words_.on_line();
         element.count = integer_of(count).value_or(-1);
@@ -120,7 +120,7 @@ private:
         if (elements_.empty()) {
             mesh_.fail("a property must stand after its element");
         }
-        Property property;
+        PlyProperty property;
         std::string_view word = words_.on_line();
         if (word == "list") {
             property.count = type_of(words_.on_line());
@@ -140,7 +140,7 @@ private:
         if (!words_.next_line() || words_.on_line() != "ply") {
             mesh_.fail("no PLY: must begin with \"ply\"");
         }
-        std::optional<Form> form;
+        std::optional<PlyForm> form;
         while (true) {
             if (!words_.next_line()) {
                 mesh_.fail("the file ends within its header, which ends with `end_header`");
@@ -164,18 +164,18 @@ private:
         if (!form) {
             mesh_.fail("the header has no format");
         }
-        if (form_ != Form::ascii) {
+        if (form_ != PlyForm::ascii) {
             mesh_.at(0);
             at_ = std::min(words_.end_of_line() + 1, bytes_.size());
         }
     }
 
-    [[noreturn]] void fail_short(const Element& element) const {
+    [[noreturn]] void fail_short(const PlyElement& element) const {
         mesh_.fail(fmt::format("cut short: it ends within its {} {} of \"{}\"", element.count,
                                element.count == 1 ? "piece" : "pieces", element.name));
     }
-    double next(const Type& type, const Element& element) {
-        if (form_ == Form::ascii) {
+    double next(const PlyType& type, const PlyElement& element) {
+        if (form_ == PlyForm::ascii) {
             const std::string_view word = words_.next();
             mesh_.at(words_.line());
             if (word.empty()) {
@@ -193,12 +193,12 @@ private:
         char bytes[8] = {};
         std::memcpy(bytes, bytes_.data() + at_, type.bytes);
         at_ += type.bytes;
-        if ((form_ == Form::big) == (std::endian::native == std::endian::little)) {
+        if ((form_ == PlyForm::big) == (std::endian::native == std::endian::little)) {
             std::reverse(bytes, bytes + type.bytes);
         }
         return type.read(bytes);
     }
-    long next_integer(const Type& type, const Element& element) {
+    long next_integer(const PlyType& type, const PlyElement& element) {
         const double value = next(type, element);
         if (!(std::abs(value) <= 2147483647.0) || value != std::floor(value)) {
             mesh_.fail(
@@ -207,7 +207,7 @@ private:
         return static_cast<long>(value);
     }
 
-    void read_list(const Property& property, const Element& element) {
+    void read_list(const PlyProperty& property, const PlyElement& element) {
         const long count = next_integer(*property.count, element);
         if (count < 0) {
             mesh_.fail(fmt::format("a list of {} in \"{}\"", count, element.name));
@@ -226,8 +226,8 @@ private:
         }
         mesh_.polygon(list_);
     }
-    void skip(long count, const Type& type, const Element& element) {
-        if (form_ != Form::ascii) {
+    void skip(long count, const PlyType& type, const PlyElement& element) {
+        if (form_ != PlyForm::ascii) {
             const auto bytes = static_cast<std::size_t>(count) * type.bytes;
             if (bytes_.size() - at_ < bytes) {
                 fail_short(element);
@@ -239,7 +239,7 @@ private:
             (void)next(type, element);
         }
     }
-    void read_element(const Element& element) {
+    void read_element(const PlyElement& element) {
         if (element.properties.empty()) {
             return;
         }
@@ -247,7 +247,7 @@ private:
         unsigned found = 0;
         for (long i = 0; i < element.count; ++i) {
             Vector3 point = Vector3::Zero();
-            for (const Property& property : element.properties) {
+            for (const PlyProperty& property : element.properties) {
                 if (property.count != nullptr) {
                     read_list(property, element);
                     continue;
@@ -272,8 +272,8 @@ private:
     const std::string& bytes_;
     Words words_;
     MeshBuilder mesh_;
-    Form form_ = Form::ascii;
-    std::vector<Element> elements_;
+    PlyForm form_ = PlyForm::ascii;
+    std::vector<PlyElement> elements_;
     std::vector<long> list_;
     std::size_t at_ = 0;  ///< in a binary file
 };
@@ -282,7 +282,7 @@ private:
 
 Mesh read_ply(const std::filesystem::path& file) {
     const std::string bytes = read_file(file, {"mesh of a PLY", kMostMesh_MB});
-    return Reader(file.string(), bytes).read();
+    return PlyFile(file.string(), bytes).read();
 }
 
 }  // namespace limpet::models

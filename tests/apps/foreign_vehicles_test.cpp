@@ -14,7 +14,7 @@
 #include "../support/png.hpp"
 #include "program.hpp"
 
-namespace limpet {
+namespace limpet::foreign {
 namespace {
 
 using testing::AllOf;
@@ -336,4 +336,4 @@ TEST_F(ForeignVehicle, AStrangeSceneIsRefusedBeforeItIsDrawn) {
 }
 
 }  // namespace
-}  // namespace limpet
+}  // namespace limpet::foreign

@@ -9,7 +9,7 @@
 #include "../support/flights.hpp"
 #include "limpet/core/errors.hpp"
 
-namespace limpet::draw {
+namespace limpet::draw::picture {
 namespace {
 
 using testing::AllOf;
@@ -174,4 +174,4 @@ TEST(PictureModel, MeshesHaveTheirPoints) {
 }
 
 }  // namespace
-}  // namespace limpet::draw
+}  // namespace limpet::draw::picture

@@ -12,11 +12,11 @@ namespace {
 using testing::HasSubstr;
 
 /// Corners of a tetrahedron, a third number after each point, as exporters mix normals in.
-constexpr const char* kTriangles =
+constexpr const char* kDaeTriangles =
     "<triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"1\"/>"
     "<input semantic=\"NORMAL\" source=\"#n\" offset=\"0\"/>"
     "<p>0 0 0 2 0 1  1 0 1 1 1 3  2 0 2 3 2 2  3 1 3 2 3 3</p></triangles>";
-constexpr const char* kNode = "<node><instance_geometry url=\"#g\"/></node>";
+constexpr const char* kDaeNode = "<node><instance_geometry url=\"#g\"/></node>";
 
 /// A file whose geometry spans 1, 2 and 3 units along x, y and z.
 std::string dae(const std::string& asset, const std::string& faces, const std::string& nodes,
@@ -40,8 +40,8 @@ std::string dae(const std::string& asset, const std::string& faces, const std::s
         asset, faces, libraries, nodes);
 }
 
-Mesh read(const std::string& asset, const std::string& faces = kTriangles,
-          const std::string& nodes = kNode, const std::string& libraries = "") {
+Mesh read_dae_of(const std::string& asset, const std::string& faces = kDaeTriangles,
+                 const std::string& nodes = kDaeNode, const std::string& libraries = "") {
     return read_as("a.dae", dae(asset, faces, nodes, libraries));
 }
 
@@ -51,19 +51,19 @@ void expect_extent(const Mesh& mesh, const Vector3& low, const Vector3& high) {
 }
 
 TEST(DaeReader, TheFilesUnitAndAxesAreHeeded) {
-    const Mesh up_z = read("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>");
+    const Mesh up_z = read_dae_of("<unit meter=\"1\"/><up_axis>Z_UP</up_axis>");
     EXPECT_EQ(up_z.triangles.size(), 4U);
     EXPECT_NEAR(volume(up_z), 1.0, 1e-12);
     expect_extent(up_z, {0, 0, 0}, {1, 2, 3});
     const Mesh millimetres =
-        read("<unit name=\"millimeter\" meter=\"0.001\"/><up_axis>Z_UP</up_axis>");
+        read_dae_of("<unit name=\"millimeter\" meter=\"0.001\"/><up_axis>Z_UP</up_axis>");
     EXPECT_NEAR(volume(millimetres), 1e-9, 1e-15);
     for (const char* y : {"<up_axis>Y_UP</up_axis>", ""}) {  // what is y there is z here
-        const Mesh up_y = read(y);
+        const Mesh up_y = read_dae_of(y);
         EXPECT_NEAR(volume(up_y), 1.0, 1e-12);
         expect_extent(up_y, {0, -3, 0}, {1, 0, 2});
     }
-    const Mesh up_x = read("<up_axis>X_UP</up_axis>");
+    const Mesh up_x = read_dae_of("<up_axis>X_UP</up_axis>");
     EXPECT_NEAR(volume(up_x), 1.0, 1e-12);
     expect_extent(up_x, {-2, -3, 0}, {0, 0, 1});
 }
@@ -71,25 +71,26 @@ TEST(DaeReader, TheFilesUnitAndAxesAreHeeded) {
 TEST(DaeReader, NodesPlaceTheirGeometriesOneInTheOther) {
     const char* asset = "<up_axis>Z_UP</up_axis>";
     const Mesh moved =
-        read(asset, kTriangles,
-             "<node><translate>10 0 0</translate><rotate>0 0 1 90</rotate>"
-             "<node><scale>2 1 1</scale><instance_geometry url=\"#g\"/></node></node>");
+        read_dae_of(asset, kDaeTriangles,
+                    "<node><translate>10 0 0</translate><rotate>0 0 1 90</rotate>"
+                    "<node><scale>2 1 1</scale><instance_geometry url=\"#g\"/></node></node>");
     EXPECT_NEAR(volume(moved), 2.0, 1e-12);
     expect_extent(moved, {8, 0, 0}, {10, 2, 3});
-    const Mesh by_matrix = read(asset, kTriangles,
-                                "<node><matrix>1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1</matrix>"
-                                "<instance_geometry url=\"#g\"/></node>");
+    const Mesh by_matrix = read_dae_of(asset, kDaeTriangles,
+                                       "<node><matrix>1 0 0 5  0 1 0 6  0 0 1 7  0 0 0 1</matrix>"
+                                       "<instance_geometry url=\"#g\"/></node>");
     expect_extent(by_matrix, {5, 6, 7}, {6, 8, 10});
-    const Mesh mirrored = read(asset, kTriangles,
-                               "<node><scale>1 -1 1</scale><instance_geometry url=\"#g\"/></node>");
+    const Mesh mirrored = read_dae_of(
+        asset, kDaeTriangles, "<node><scale>1 -1 1</scale><instance_geometry url=\"#g\"/></node>");
     EXPECT_NEAR(volume(mirrored), 1.0, 1e-12) << "its outside stays outside";
     expect_extent(mirrored, {0, -2, 0}, {1, 0, 3});
-    const Mesh twice = read(asset, kTriangles,
-                            std::string(kNode) +
-                                "<node><translate>0 0 100</translate>"
-                                "<instance_node url=\"#n1\"/></node>",
-                            "<library_nodes><node id=\"n1\"><instance_geometry url=\"#g\"/></node>"
-                            "</library_nodes>");
+    const Mesh twice =
+        read_dae_of(asset, kDaeTriangles,
+                    std::string(kDaeNode) +
+                        "<node><translate>0 0 100</translate>"
+                        "<instance_node url=\"#n1\"/></node>",
+                    "<library_nodes><node id=\"n1\"><instance_geometry url=\"#g\"/></node>"
+                    "</library_nodes>");
     EXPECT_EQ(twice.triangles.size(), 8U);
     expect_extent(twice, {0, 0, 0}, {1, 2, 103});
 }
@@ -109,7 +110,7 @@ TEST(DaeReader, EveryKindOfFaces) {
                     "<triangles>{0}<p>0 3 2 1 2 3</p></triangles>",
                     input)};
     for (const std::string& faces : kinds) {
-        const Mesh mesh = read(asset, faces);
+        const Mesh mesh = read_dae_of(asset, faces);
         EXPECT_EQ(mesh.triangles.size(), 4U) << faces;
         EXPECT_NEAR(volume(mesh), 1.0, 1e-12) << faces;
     }
@@ -121,7 +122,7 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(said("<COLLADA>"), HasSubstr("a.dae:1: "));
     EXPECT_THAT(said("<mujoco/>"), HasSubstr("no DAE"));
     EXPECT_THAT(said("<COLLADA version=\"1.4.1\"/>"), HasSubstr("a.dae:1: no <visual_scene>"));
-    const std::string good = dae("", kTriangles, kNode);
+    const std::string good = dae("", kDaeTriangles, kDaeNode);
     EXPECT_EQ(said(good), "");
     const auto with = [&](const char* what, const char* instead) {
         return said(replaced(good, what, instead));
@@ -146,19 +147,19 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
                 HasSubstr("a.dae:3: "));
     EXPECT_THAT(with("<asset></asset>", "<asset><up_axis>W_UP</up_axis></asset>"),
                 HasSubstr("a.dae:3: "));
-    EXPECT_THAT(said(dae("", kTriangles,
+    EXPECT_THAT(said(dae("", kDaeTriangles,
                          "<node><skew>1 2 3 4 5 6 7</skew><instance_geometry url=\"#g\"/></node>")),
                 HasSubstr("a.dae:12: <skew> above a geometry"));
     EXPECT_THAT(said(dae("",
                          "<polygons><input semantic=\"VERTEX\" offset=\"0\"/>"
                          "<ph><p>0 1 2</p><h>0 1 2</h></ph></polygons>",
-                         kNode)),
+                         kDaeNode)),
                 HasSubstr("holes"));
-    EXPECT_THAT(said(dae("", "<lines/>", kNode)), HasSubstr("without a triangle"));
+    EXPECT_THAT(said(dae("", "<lines/>", kDaeNode)), HasSubstr("without a triangle"));
 }
 
 TEST(DaeReader, EndsWhereNodesCallThemselvesOrGrowWithoutEnd) {
-    EXPECT_THAT(refusal_as("a.dae", dae("", kTriangles,
+    EXPECT_THAT(refusal_as("a.dae", dae("", kDaeTriangles,
                                         "<node id=\"n\"><instance_node url=\"#n\"/></node>")),
                 HasSubstr("in a ring"));
     std::string nodes;
@@ -169,9 +170,10 @@ TEST(DaeReader, EndsWhereNodesCallThemselvesOrGrowWithoutEnd) {
             i, i + 1);
     }
     nodes += "<node id=\"n60\"/>";
-    EXPECT_THAT(refusal_as("a.dae", dae("", kTriangles, "<node><instance_node url=\"#n0\"/></node>",
-                                        "<library_nodes>" + nodes + "</library_nodes>")),
-                HasSubstr("nodes are placed"));
+    EXPECT_THAT(
+        refusal_as("a.dae", dae("", kDaeTriangles, "<node><instance_node url=\"#n0\"/></node>",
+                                "<library_nodes>" + nodes + "</library_nodes>")),
+        HasSubstr("nodes are placed"));
     std::string deep = "<COLLADA>";
     for (int i = 0; i < 5'000'000; ++i) {
         deep += "<a>";

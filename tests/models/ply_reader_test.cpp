@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A tetrahedron of volume 1, with a colour for each point and a flag after each face.
-std::string header(const char* format, const char* index = "vertex_indices") {
+std::string ply_header(const char* format, const char* index = "vertex_indices") {
     return fmt::format(
         "ply\nformat {} 1.0\ncomment by a scanner\nobj_info none\nelement vertex 4\n"
         "property float x\nproperty float32 y\nproperty double z\nproperty uchar red\n"
@@ -24,23 +24,25 @@ std::string header(const char* format, const char* index = "vertex_indices") {
         "element edge 1\nproperty int vertex1\nend_header\n",
         format, index);
 }
-constexpr std::array<std::array<float, 3>, 4> kPoints = {
+constexpr std::array<std::array<float, 3>, 4> kPlyPoints = {
     {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}};
-constexpr std::array<std::array<int, 3>, 4> kFaces = {{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+constexpr std::array<std::array<int, 3>, 4> kPlyFaces = {
+    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
-std::string ascii() {
-    std::string text = header("ascii");
-    for (const auto& [x, y, z] : kPoints) {
+std::string ply_text() {
+    std::string text = ply_header("ascii");
+    for (const auto& [x, y, z] : kPlyPoints) {
         text += fmt::format("{} {} {} 255\n", x, y, z);
     }
-    for (const auto& [a, b, c] : kFaces) {
+    for (const auto& [a, b, c] : kPlyFaces) {
         text += fmt::format("3 {} {} {} -1\n", a, b, c);
     }
     return text + "7\n";
 }
 
-std::string binary(bool big) {
-    std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian", "vertex_index");
+std::string ply_bytes(bool big) {
+    std::string bytes =
+        ply_header(big ? "binary_big_endian" : "binary_little_endian", "vertex_index");
     const auto put = [&](auto value) {
         std::string raw(reinterpret_cast<const char*>(&value), sizeof value);
         if (big) {
@@ -48,10 +50,10 @@ std::string binary(bool big) {
         }
         bytes += raw;
     };
-    for (const auto& [x, y, z] : kPoints) {
+    for (const auto& [x, y, z] : kPlyPoints) {
         put(x), put(y), put(static_cast<double>(z)), put(std::uint8_t{255});
     }
-    for (const auto& [a, b, c] : kFaces) {
+    for (const auto& [a, b, c] : kPlyFaces) {
         put(std::uint8_t{3}), put(a), put(b), put(c), put(std::int16_t{-1});
     }
     put(7);
@@ -59,7 +61,7 @@ std::string binary(bool big) {
 }
 
 TEST(PlyReader, TextAndBothOrdersOfBytesGiveTheSameBody) {
-    for (const std::string& bytes : {ascii(), binary(false), binary(true)}) {
+    for (const std::string& bytes : {ply_text(), ply_bytes(false), ply_bytes(true)}) {
         const Mesh mesh = read_as("a.ply", bytes);
         EXPECT_EQ(mesh.points.size(), 4U);
         EXPECT_EQ(mesh.triangles.size(), 4U);
@@ -76,7 +78,7 @@ TEST(PlyReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(said("ply\nend_header\n"), HasSubstr("a.ply:2: the header has no format"));
     EXPECT_EQ(said("ply\nformat ascii 1.0\nend_header\n"), "a.ply: a PLY without a triangle");
     const auto with = [&](const char* what, const char* instead) {
-        return said(replaced(ascii(), what, instead));
+        return said(replaced(ply_text(), what, instead));
     };
     EXPECT_THAT(with("ascii", "text"), HasSubstr("a.ply:2: \"text\": must be ascii"));
     EXPECT_THAT(with("vertex 4", "vertex -4"), HasSubstr("a.ply:5: "));
@@ -92,7 +94,7 @@ TEST(PlyReader, RefusesWhatIsNoneWhereItStands) {
 }
 
 TEST(PlyReader, RefusesEveryBeginningOfAFile) {
-    for (const std::string& bytes : {ascii(), binary(false), binary(true)}) {
+    for (const std::string& bytes : {ply_text(), ply_bytes(false), ply_bytes(true)}) {
         for (std::size_t size = 0; size + 4 < bytes.size(); ++size) {
             EXPECT_NE(refusal_as("a.ply", bytes.substr(0, size)), "") << size;
         }

@@ -65,7 +65,7 @@ protected:
     UrdfRobot read(const std::string& mesh, const std::string& file = "urdf/x.urdf") const {
         put(file, "<robot name=\"r\">\n<link name=\"a\"><visual><geometry>\n<mesh " + mesh +
                       "/></geometry></visual></link></robot>");
-        return read_urdf(folder_ / file);
+        return models::read_urdf(folder_ / file);
     }
     std::string error(const std::string& mesh, const std::string& file = "urdf/x.urdf") const {
         try {
@@ -131,7 +131,7 @@ TEST_F(UrdfMeshes, AFileThatManyLinksWearIsReadOnce) {
         "<robot name=\"r\"><link name=\"a\"><visual><geometry><mesh filename=\"a.obj\"/></geometry>"
         "</visual><visual><geometry><mesh filename=\"../urdf/a.obj\"/></geometry></visual></link>"
         "</robot>");
-    const UrdfRobot robot = read_urdf(folder_ / "urdf/y.urdf");
+    const UrdfRobot robot = models::read_urdf(folder_ / "urdf/y.urdf");
     EXPECT_EQ(robot.links.at(0).visuals.at(0).mesh, robot.links[0].visuals.at(1).mesh);
 }
 
@@ -146,7 +146,7 @@ TEST_F(UrdfMeshes, AVehicleHasTwoMillionTrianglesAtMost) {
         visuals += "\n<visual><geometry><mesh filename=\"a.obj\"/></geometry></visual>";
     }
     put("urdf/y.urdf", "<robot name=\"r\"><link name=\"a\">" + visuals + "</link></robot>");
-    EXPECT_THAT([&] { (void)read_urdf(folder_ / "urdf/y.urdf"); },
+    EXPECT_THAT([&] { (void)models::read_urdf(folder_ / "urdf/y.urdf"); },
                 testing::ThrowsMessage<InputError>(testing::AllOf(
                     HasSubstr("y.urdf:4: "), HasSubstr("more than 2000000 triangles or"))));
 }
