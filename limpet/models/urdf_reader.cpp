@@ -216,7 +216,8 @@ private:
             if (uri.rfind(scheme, 0) != 0) {
                 continue;
             }
-            const fs::path within = uri.substr(scheme.size());
+            const std::size_t name = uri.find_first_not_of('/', scheme.size());  // some write three
+            const fs::path within = name == uri.npos ? "" : uri.substr(name);
             const std::string package = within.empty() ? "" : within.begin()->string();
             const fs::path rest = within.lexically_relative(package);
             std::vector<fs::path> places;

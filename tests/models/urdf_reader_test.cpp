@@ -111,6 +111,7 @@ TEST_F(UrdfMeshes, APackageIsFoundByItsFolderItsManifestAndBesideTheFile) {
     EXPECT_EQ(error("filename=\"package://arm/meshes/a.obj\"", "src/arm/urdf/x.urdf"), "");
     EXPECT_EQ(error("filename=\"package://leg/meshes/b.obj\"", "src/renamed/urdf/x.urdf"), "");
     EXPECT_EQ(error("filename=\"package://cup/c.obj\"", "src/arm/urdf/x.urdf"), "") << "beside";
+    EXPECT_EQ(error("filename=\"package:///arm/meshes/a.obj\"", "src/arm/urdf/x.urdf"), "");
     EXPECT_EQ(error("filename=\"model://cup/c.obj\"", "src/arm/urdf/x.urdf"), "");
     EXPECT_EQ(error("filename=\"package://whatever/meshes/a.obj\"", "src/arm/urdf/x.urdf"), "")
         << "the folder above the file's";
