@@ -14,6 +14,7 @@
 #include "limpet/campaign/campaign.hpp"
 #include "limpet/companion/config.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/propeller_file.hpp"
@@ -155,9 +156,14 @@ void check_yaml(const Checked& it) {
     }
 }
 
+/// How a file's name ends, also while it is being written: flight.mcap.part.
+std::string ending_of(const fs::path& file) {
+    return (file.extension() == ".part" ? file.stem() : file).extension().string();
+}
+
 /// By how its name ends, and YAML by what is in it.
 void check_file(const Checked& it) {
-    const std::string ending = it.file.extension().string();
+    const std::string ending = ending_of(it.file);
     if (ending == ".mcap") {
         check_recording(it.file.string());
     } else if (ending == ".csv" || ending == ".ulg") {
@@ -210,14 +216,13 @@ void check_name(const std::string& name) {
     std::vector<Entry> all = all_entries(), found;
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),
                  [&](const Entry& entry) { return entry.name == name; });
-    std::error_code ignored;
     if (found.size() == 1) {
         found.front().check({name, found.front().file});
     } else if (found.size() > 1) {
         throw InputError(fmt::format("{}: is a {} and a {}; say {} or {}", in_quotes(name),
                                      found[0].kind, found[1].kind, found[0].file.string(),
                                      found[1].file.string()));
-    } else if (!name.empty() && fs::exists(name, ignored)) {
+    } else if (!name.empty() && is_there(name)) {
         check_file({name, name});
     } else {
         std::vector<std::string_view> names;
@@ -233,7 +238,7 @@ void check_name(const std::string& name) {
 
 void check_wanted(const std::string& wanted) {
     const fs::path path(wanted);
-    const std::string ending = path.extension().string();
+    const std::string ending = ending_of(path);
     const bool file = scenario::is_path(wanted) || ending == ".mcap" || ending == ".csv" ||
                       ending == ".ulg" || ending == ".txt";
     if (file && path.parent_path() == "samples") {  // as pages print it, from any folder

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 #include "command_line.hpp"
@@ -72,6 +73,8 @@ int main(int argc, char** argv) {
         return fail(ExitCode::interrupted, error.what());
     } catch (const limpet::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
+    } catch (const std::filesystem::filesystem_error& error) {  // a link to itself, no room
+        return fail(ExitCode::bad_input, error.path1().string() + ": " + error.code().message());
     } catch (const std::exception& error) {
         if (std::ferror(stdout) != 0) {
             return fail(ExitCode::bad_input, kNoOutput);

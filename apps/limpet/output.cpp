@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/write_file.hpp"
 #include "terminal.hpp"
 
@@ -21,7 +22,7 @@ fs::path make_folder(const fs::path& folder) {
         throw InputError("--out " + folder.string() +
                          ": cannot make this folder: " + error.message());
     }
-    if (!fs::is_directory(folder)) {
+    if (!is_folder(folder)) {
         throw InputError("--out " + folder.string() + ": is not a folder");
     }
     if (access(folder.c_str(), W_OK | X_OK) != 0) {

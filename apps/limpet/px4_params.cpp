@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -36,7 +37,7 @@ bool is_vehicle(const std::string& wanted) {
     if (scenario::is_path(wanted)) {
         return scenario::kind_of(wanted) == scenario::FileKind::vehicle;
     }
-    return fs::exists(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
+    return is_there(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
 }
 
 /// A vehicle is taken as a scenario that changes nothing of it.

@@ -3,50 +3,58 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
-#include <string_view>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/draw/picture_model.hpp"
 
 namespace limpet::draw {
 namespace {
 
 using loaded::mujoco;
 
-/// An attribute `file`, `fileup`...: MuJoCo would read whatever it is told to.
-bool names_a_file(const std::string& mjcf) {
-    constexpr std::string_view kBlanks = " \t\r\n\"'/";
-    for (std::size_t at = mjcf.find("file"); at != mjcf.npos; at = mjcf.find("file", at + 1)) {
-        const std::size_t end = mjcf.find_first_not_of("abcdefghijklmnopqrstuvwxyz", at);
-        const std::size_t sign = mjcf.find_first_not_of(" \t\r\n", end);
-        if (at > 0 && kBlanks.find(mjcf[at - 1]) != kBlanks.npos && sign != mjcf.npos &&
-            mjcf[sign] == '=') {
-            return true;
-        }
-    }
-    return false;
+/// MuJoCo's words in one line.
+std::string in_one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
 }
+
+/// Files that MuJoCo finds in memory.
+class Files {
+public:
+    Files() { mujoco().mj_defaultVFS(files_.get()); }
+    ~Files() { mujoco().mj_deleteVFS(files_.get()); }
+    Files(const Files&) = delete;
+    Files& operator=(const Files&) = delete;
+
+    [[nodiscard]] mjVFS* get() const { return files_.get(); }
+    /// @return whether it was taken
+    [[nodiscard]] bool add(const char* name, const std::string& text) const {
+        if (mujoco().mj_makeEmptyFileVFS(get(), name, static_cast<int>(text.size())) != 0) {
+            return false;
+        }
+        std::memcpy(files_->filedata[mujoco().mj_findFileVFS(get(), name)], text.data(),
+                    text.size());
+        return true;
+    }
+
+private:
+    std::unique_ptr<mjVFS> files_ = std::make_unique<mjVFS>();
+};
 
 }  // namespace
 
 MujocoModel compile_mjcf(const std::string& mjcf) {
     constexpr const char* kName = "model.xml";
-    const auto files = std::make_unique<mjVFS>();
-    mujoco().mj_defaultVFS(files.get());
-    if (names_a_file(mjcf)) {
-        throw InputError("model.xml: names a file, which the model of a recording does not");
+    const Files files;
+    if (!files.add(kName, picture_model(mjcf))) {
+        throw InputError("model.xml: too large");
     }
-    if (mjcf.empty() ||
-        mujoco().mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(mjcf.size())) != 0) {
-        throw InputError("model.xml: empty, or too large");
-    }
-    std::memcpy(files->filedata[mujoco().mj_findFileVFS(files.get(), kName)], mjcf.data(),
-                mjcf.size());
     char message[1000] = "";
     MujocoModel model(mujoco().mj_loadXML(kName, files.get(), message, sizeof message));
-    mujoco().mj_deleteVFS(files.get());
     if (!model) {
-        throw InputError(fmt::format("model.xml: {}", message));
+        throw InputError(fmt::format("model.xml: {}", in_one_line(message)));
     }
     return model;
 }

@@ -13,8 +13,8 @@ struct DeleteModel {
 };
 using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
 
-/// The model.xml of a recording, compiled.
-/// @throws InputError with MuJoCo's words
+/// The model.xml of a recording, compiled: what a picture needs of it (picture_model.hpp).
+/// @throws InputError as picture_model, or with MuJoCo's words
 [[nodiscard]] MujocoModel compile_mjcf(const std::string& mjcf);
 
 }  // namespace limpet::draw

@@ -18,6 +18,7 @@ using loaded::mujoco;
 
 constexpr int kSamples = 4;
 constexpr double kAngleOfSight_deg = 28.0;
+constexpr double kFarthest_m = 1e5;
 constexpr float kBlur = 0.30F;  // how much a turning propeller hides
 
 /// One line for all that is not there.
@@ -37,8 +38,9 @@ void require_libraries() {
 
 using Pixels = std::vector<std::uint8_t>;  // three a pixel, rows from bottom to top
 
+/// The model is somebody's, and so is what MuJoCo finds in it.
 void throw_error(const char* message) {
-    throw InternalError(std::string("MuJoCo: ") + message);
+    throw InputError(std::string("MuJoCo: ") + message);
 }
 void keep_silent(const char*) {}
 
@@ -68,6 +70,14 @@ int base_address(const mjModel& model) {
         throw InputError("model.xml: there is no body \"base\" with a free joint");
     }
     return model.jnt_qposadr[joint];
+}
+
+/// Whether a picture of it can be drawn.
+bool is_somewhere(const Pose& pose) {
+    const auto near = [](const Vector3& p_m) { return p_m.cwiseAbs().maxCoeff() <= kFarthest_m; };
+    return near(pose.position_m) && (!pose.payload_m || near(*pose.payload_m)) &&
+           pose.attitude.coeffs().allFinite() && pose.attitude.norm() > 1e-6 &&
+           near({pose.slider_m, pose.cup_pitch_rad, pose.cup_yaw_rad});
 }
 
 Image shrunk(const Pixels& large, int width_px, int height_px, int by) {
@@ -134,7 +144,7 @@ struct Stage::Parts {
     void make_renderer() {
         try {
             mujoco().mjr_makeContext(model.get(), &renderer, mjFONTSCALE_100);
-        } catch (const InternalError& problem) {
+        } catch (const InputError& problem) {
             mujoco().mjv_freeScene(&scene);
             throw NotInstalled(fmt::format(
                 "cannot draw: {}; needed: apt-get install libegl-dev libgl-dev", problem.what()));
@@ -223,6 +233,12 @@ std::optional<WallFace> Stage::wall() const {
 }
 
 Image Stage::photograph(const Pose& pose, const View& view) {
+    if (!is_somewhere(pose)) {
+        throw InputError(
+            fmt::format("cannot draw: a pose must be finite numbers, within {:g} m, with "
+                        "an attitude",
+                        kFarthest_m));
+    }
     Parts& p = *parts_;
     if (!p.screen.use()) {
         throw InputError("cannot draw: OpenGL's context was lost");

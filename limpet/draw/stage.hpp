@@ -58,6 +58,8 @@ public:
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
+    /// @throws InputError for a pose that is not finite, farther than 100 km, or without an
+    /// attitude
     [[nodiscard]] Image photograph(const Pose& pose, const View& view);
     [[nodiscard]] std::optional<WallFace> wall() const;
     /// Vertical angle of sight of the camera [rad].

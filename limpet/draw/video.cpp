@@ -10,13 +10,16 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 
 namespace limpet::draw {
 namespace {
@@ -30,7 +33,21 @@ std::vector<std::string> coder_of(const std::filesystem::path& file) {
     return {"-c:v", "libx264", "-crf", "22", "-preset", "medium", "-movflags", "+faststart"};
 }
 
+constexpr const char* kNone = "ffmpeg is not installed (apt-get install ffmpeg)";
+
 }  // namespace
+
+void require_ffmpeg() {
+    const char* given = std::getenv("PATH");
+    std::istringstream folders(given != nullptr ? given : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::filesystem::path program = std::filesystem::path(folder) / "ffmpeg";
+        if (is_file(program) && access(program.c_str(), X_OK) == 0) {
+            return;
+        }
+    }
+    throw NotInstalled(kNone);
+}
 
 Video::Video(const std::filesystem::path& file, int width_px, int height_px, int frames_a_second)
     : log_(file.string() + ".log"), width_px_(width_px), height_px_(height_px) {
@@ -84,9 +101,10 @@ Video::Video(const std::filesystem::path& file, int width_px, int height_px, int
     to_ffmpeg_ = ends[0];
     if (problem != 0) {
         close(to_ffmpeg_);
-        throw InputError(problem == ENOENT || problem == EACCES
-                             ? "ffmpeg is not installed (apt-get install ffmpeg)"
-                             : fmt::format("ffmpeg cannot be started: {}", std::strerror(problem)));
+        if (problem == ENOENT || problem == EACCES) {
+            throw NotInstalled(kNone);
+        }
+        throw InputError(fmt::format("ffmpeg cannot be started: {}", std::strerror(problem)));
     }
 }
 

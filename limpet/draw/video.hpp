@@ -9,12 +9,16 @@
 
 namespace limpet::draw {
 
+/// Asked before the pictures of a film are drawn, which takes minutes.
+/// @throws NotInstalled where there is no ffmpeg on the PATH
+void require_ffmpeg();
+
 /// A film by ffmpeg, a program: .mp4 (H.264) or .webm (VP9), by the file's name. The same pictures
 /// make the same bytes. It runs as long as this; one that is not finished is ended.
 class Video {
 public:
     /// @param file  is written over
-    /// @throws InputError when ffmpeg is not installed
+    /// @throws NotInstalled where there is no ffmpeg
     Video(const std::filesystem::path& file, int width_px, int height_px, int frames_a_second);
     ~Video();
     Video(const Video&) = delete;

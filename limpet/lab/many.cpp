@@ -8,6 +8,7 @@
 
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/lab/request.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -122,7 +123,7 @@ fs::path Many::place_for(const campaign::Campaign& campaign) const {
         return scratch_;
     }
     fs::path folder = keep_ / campaign.name;
-    for (int n = 2; fs::exists(folder); ++n) {
+    for (int n = 2; is_there(folder); ++n) {
         folder = keep_ / fmt::format("{}_{}", campaign.name, n);
     }
     return folder;

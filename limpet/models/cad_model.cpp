@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <set>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/models/model_text.hpp"
@@ -201,15 +203,38 @@ vehicle::BodyInertia in_B(vehicle::BodyInertia body, const Vector3& centre_m) {
     return body;
 }
 
-bool is_stl(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".stl";
+    return text;
 }
+
+/// Names of meshes in a recording: as their files are called, each file another one, whichever its
+/// folder and however a file system takes capitals.
+class RecordedNames {
+public:
+    std::string of(const std::filesystem::path& file) {
+        const auto [at, added] = names_.try_emplace(file.string());
+        if (added) {
+            const bool stl = lower_case(file.extension().string()) == ".stl";
+            const std::string ending = stl ? file.extension().string() : ".stl";
+            const std::string stem = file.stem().string();
+            at->second = stem + ending;
+            for (int n = 2; !taken_.insert(lower_case(at->second)).second; ++n) {
+                at->second = fmt::format("{}_{}{}", stem, n, ending);
+            }
+        }
+        return at->second;
+    }
+
+private:
+    std::map<std::string, std::string> names_;
+    std::set<std::string> taken_;
+};
 
 void draw_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
                 const Vector3& centre_m) {
+    RecordedNames mesh_names;
     for (const UrdfLink& link : robot.links) {
         const PlacedLink& at = placed.at(link.name);
         int number = 0;
@@ -223,10 +248,12 @@ void draw_parts(CadModel& cad, const UrdfRobot& robot, const Placed& placed,
             part.body = at.body;
             part.p_F_m = at.body == "base" ? p_B_m : Vector3(p_B_m - cad.joint_B_m);
             part.q_F = flu(Quaternion(pose.linear()));
-            part.rgba = part.rgba.value_or(std::array<double, 4>{0.75, 0.75, 0.76, 1.0});
-            if (part.shape == Shape::mesh && is_stl(part.mesh_file)) {
-                part.mesh = std::make_shared<const Mesh>(read_stl(part.mesh_file));
+            if (part.shape == Shape::mesh) {
+                const std::filesystem::path file = part.mesh_file;
+                part.mesh_name = mesh_names.of(file);
+                part.own_colours = !part.rgba && lower_case(file.extension().string()) != ".stl";
             }
+            part.rgba = part.rgba.value_or(std::array<double, 4>{0.75, 0.75, 0.76, 1.0});
             cad.parts.push_back(std::move(part));
         }
     }

@@ -126,23 +126,23 @@ void write_part(pugi::xml_node body, const Part& part, bool visuals, const char*
     }
 }
 
-/// What cannot be drawn: a mesh of which there is only the file's name.
-bool is_blank(const Part& part) {
-    return part.shape == Shape::mesh && !part.mesh;
-}
-
 /// Triangles stand in the text itself: MuJoCo is given no files.
 void write_meshes(pugi::xml_node root, const std::vector<Part>& parts) {
+    constexpr std::size_t kLeastPoints = 4;  // that MuJoCo takes
     for (const Part& part : parts) {
-        if (part.shape != Shape::mesh || is_blank(part)) {
+        if (part.shape != Shape::mesh) {
             continue;
         }
+        Mesh mesh = scaled(*part.mesh, part.size_m);
+        while (mesh.points.size() < kLeastPoints) {
+            mesh.points.push_back(mesh.points.front());
+        }
         std::string points;
-        for (const Vector3& point : part.mesh->points) {
-            points += text(Vector3(point.cwiseProduct(part.size_m))) + " ";
+        for (const Vector3& point : mesh.points) {
+            points += text(point) + " ";
         }
         std::string triangles;
-        for (const auto& corners : part.mesh->triangles) {
+        for (const auto& corners : mesh.triangles) {
             triangles += fmt::format("{} {} {} ", corners[0], corners[1], corners[2]);
         }
         auto asset = root.child("asset");
@@ -154,7 +154,7 @@ void write_parts(pugi::xml_node body, const std::vector<Part>& parts) {
     const std::string name = body.attribute("name").value();
     for (const Part& part : parts) {
         const std::string_view at = part.body == "cup_yoke" ? "cup" : part.body;
-        if (at == name && !is_blank(part)) {
+        if (at == name) {
             write_part(body, part, true, "1");
         }
     }

@@ -38,8 +38,8 @@ struct Scene {
 [[nodiscard]] std::string write_sdf(const vehicle::Airframe& airframe);
 /// URDF of the vehicle; links and joints named as in the other two.
 [[nodiscard]] std::string write_urdf(const vehicle::Airframe& airframe);
-/// How a description calls meshes: package://VEHICLE/NAME, which a recording carries along; or the
-/// files here, for viewers of this machine.
+/// How a description calls meshes: package://VEHICLE/NAME (Part::mesh_name), which a recording
+/// carries along; or the files here, for viewers of this machine.
 enum class MeshNames {
     of_package,
     of_files
@@ -48,7 +48,5 @@ enum class MeshNames {
 /// cup_yoke, cup, lip, lidar_left, lidar_right).
 [[nodiscard]] std::string write_robot_description(const vehicle::Airframe& airframe,
                                                   MeshNames meshes = MeshNames::of_package);
-/// NAME of a mesh's file.
-[[nodiscard]] std::string mesh_name(const std::string& path);
 
 }  // namespace limpet::models

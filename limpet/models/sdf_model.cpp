@@ -23,8 +23,8 @@ void write_inertial(pugi::xml_node link, const Link& spec) {
 void write_visual(pugi::xml_node link, const Part& part) {
     auto visual = add(link, "visual", "name", part.name);
     write_geometry(visual, part);
-    if (part.shape == Shape::mesh && !part.mesh) {
-        return;  // a file with colours of its own
+    if (part.own_colours) {
+        return;  // Gazebo reads the file
     }
     const auto& rgba = colour(part);
     write_colour(visual, rgba, look(part.paint).specular);

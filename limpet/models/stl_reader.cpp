@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t kHeader = 84;  // 80 bytes of anything, then the number of triangles
 constexpr std::size_t kFacet = 50;   // normal, three points, two bytes
-constexpr std::size_t kMost = 1000000;
 
 /// Gathers points, each once.
 class Joiner {
@@ -34,8 +33,8 @@ public:
             triangle[i] = index(corners[i]);
         }
         mesh_.triangles.push_back(triangle);
-        if (mesh_.triangles.size() > kMost) {
-            throw InputError(fmt::format("{}: more than {} triangles", name_, kMost));
+        if (mesh_.triangles.size() > kMostTriangles) {
+            throw InputError(fmt::format("{}: more than {} triangles", name_, kMostTriangles));
         }
     }
     [[nodiscard]] Mesh take() {
@@ -124,7 +123,7 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
 
 Mesh read_stl(const std::filesystem::path& file) {
     const std::string name = file.string();
-    const std::string bytes = read_file(file, {"mesh of an STL", 100});
+    const std::string bytes = read_file(file, {"mesh of an STL", kMostMesh_MB});
     if (bytes.empty()) {
         throw InputError(name + ": an empty file, not an STL");
     }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "limpet/core/frames.hpp"
+#include "limpet/models/mesh.hpp"
 
 namespace limpet::models {
-
-/// Triangles of a shape, in the file's own axes and unit.
-struct Mesh {
-    std::vector<Vector3> points;
-    std::vector<std::array<int, 3>> triangles;  ///< of points, counter-clockwise seen from outside
-};
 
 /// Reads STL, binary or ASCII, and joins points that are the same.
 /// @throws InputError naming the file: not there, not STL, cut short, not finite, no triangle, more

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet::models {
@@ -20,6 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostParts = 500;
+constexpr std::size_t kMostOfAll = 2 * kMostTriangles;  // of all visuals
+constexpr double kLargest_m = 100.0;                    // shape
+constexpr double kFarthest_m = 1000.0;                  // of a part from what it hangs on
 
 /// A file being read, which knows on which line a node stands.
 class Reader {
@@ -38,6 +44,7 @@ public:
         if (!parsed) {
             throw InputError(fmt::format("{}: {}", place(parsed.offset), parsed.description()));
         }
+        refuse_xacro(document);
         const auto robot = document.child("robot");
         if (!robot) {
             throw InputError(robot_.file + ": no URDF: there is no <robot>");
@@ -77,6 +84,38 @@ private:
         throw InputError(place(node) + ": " + what);
     }
 
+    /// A URDF before xacro has put in its macros lacks what they stand for.
+    void refuse_xacro(const pugi::xml_document& document) const {
+        const auto refuse = [&](pugi::xml_node node, const std::string& what) {
+            fail(node,
+                 fmt::format("{}: this is xacro, not a URDF yet: name the output of `xacro {} "
+                             "> {}`",
+                             what, for_shell(robot_.file),
+                             for_shell(file_.stem().stem().string() + ".urdf")));
+        };
+        const auto found = document.find_node([](pugi::xml_node node) {
+            const auto attributes = node.attributes();
+            return is_macro(node) ||
+                   std::any_of(attributes.begin(), attributes.end(), is_expression);
+        });
+        if (found && is_macro(found)) {
+            refuse(found, fmt::format("<{}>", found.name()));
+        }
+        if (found) {
+            const auto attribute = found.find_attribute(is_expression);
+            refuse(found, fmt::format("{} {}={}", found.name(), attribute.name(),
+                                      in_quotes(attribute.value())));
+        }
+    }
+    static bool is_macro(pugi::xml_node node) {
+        return std::string_view(node.name()).substr(0, 6) == "xacro:";
+    }
+    /// ${mass}, $(find package)
+    static bool is_expression(pugi::xml_attribute attribute) {
+        const std::string_view value = attribute.value();
+        return value.find("${") != value.npos || value.find("$(") != value.npos;
+    }
+
     [[nodiscard]] std::vector<double> numbers(pugi::xml_node node, const char* key,
                                               std::size_t count) const {
         std::istringstream in(node.attribute(key).value());
@@ -104,6 +143,10 @@ private:
     void read_origin(pugi::xml_node parent, Vector3& p_m, Quaternion& q) const {
         const auto origin = parent.child("origin");
         p_m = vector(origin, "xyz", Vector3::Zero());
+        if (!(p_m.cwiseAbs().maxCoeff() <= kFarthest_m)) {
+            fail(origin, fmt::format("origin xyz=\"{}\": must be within {} m",
+                                     origin.attribute("xyz").value(), kFarthest_m));
+        }
         const Vector3 rpy = vector(origin, "rpy", Vector3::Zero());
         q = Eigen::AngleAxisd(rpy.z(), Vector3::UnitZ()) *
             Eigen::AngleAxisd(rpy.y(), Vector3::UnitY()) *
@@ -152,54 +195,120 @@ private:
         }
     }
 
-    [[nodiscard]] fs::path mesh_path(pugi::xml_node mesh) const {
-        std::string uri = mesh.attribute("filename").value();
-        fs::path path;
-        if (constexpr std::string_view kPackage = "package://"; uri.rfind(kPackage, 0) == 0) {
-            uri.erase(0, kPackage.size());
-            const auto slash = uri.find('/');
-            const std::string package = uri.substr(0, slash);
-            fs::path folder = file_.parent_path().parent_path();
-            for (fs::path above = file_.parent_path(); above.has_relative_path();
-                 above = above.parent_path()) {
-                if (above.filename() == package) {
-                    folder = above;
-                    break;
+    /// The folder above the file that a package is: by its name, or by the one in its package.xml.
+    [[nodiscard]] static bool is_package(const fs::path& folder, const std::string& name) {
+        if (folder.filename() == name) {
+            return true;
+        }
+        const fs::path manifest = folder / "package.xml";
+        if (!is_file(manifest)) {
+            return false;
+        }
+        pugi::xml_document document;
+        const std::string text = read_file(manifest, {"package.xml", 1});
+        return document.load_buffer(text.data(), text.size()) &&
+               document.child("package").child("name").text().get() == name;
+    }
+    /// Where an address may lie; the first that is there is meant.
+    [[nodiscard]] std::vector<fs::path> places_of(std::string uri) const {
+        const fs::path own = file_.parent_path();
+        for (const std::string_view scheme : {"package://", "model://"}) {
+            if (uri.rfind(scheme, 0) != 0) {
+                continue;
+            }
+            const std::size_t name = uri.find_first_not_of('/', scheme.size());  // some write three
+            const fs::path within = name == uri.npos ? "" : uri.substr(name);
+            const std::string package = within.empty() ? "" : within.begin()->string();
+            const fs::path rest = within.lexically_relative(package);
+            std::vector<fs::path> places;
+            for (fs::path above = own; above.has_relative_path(); above = above.parent_path()) {
+                if (is_package(above, package)) {
+                    places.push_back(above / rest);
                 }
+                places.push_back(above / within);  // a package beside one of these
             }
-            path = folder / (slash == std::string::npos ? "" : uri.substr(slash + 1));
-        } else {
-            if (constexpr std::string_view kFile = "file://"; uri.rfind(kFile, 0) == 0) {
-                uri.erase(0, kFile.size());
-            }
-            path = file_.parent_path() / uri;
+            places.push_back(own.parent_path() / rest);
+            return places;
         }
-        if (uri.empty() || !fs::is_regular_file(path)) {
+        if (constexpr std::string_view kFile = "file://"; uri.rfind(kFile, 0) == 0) {
+            uri.erase(0, kFile.size());
+        }
+        return {own / uri};
+    }
+    [[nodiscard]] fs::path mesh_path(pugi::xml_node mesh) const {
+        const std::string uri = mesh.attribute("filename").value();
+        const std::vector<fs::path> places = places_of(uri);
+        const auto found = std::find_if(places.begin(), places.end(),
+                                        [](const fs::path& place) { return is_file(place); });
+        if (uri.empty() || found == places.end()) {
+            std::string looked;
+            for (const fs::path& place : places) {
+                looked += (looked.empty() ? "" : ", ") + place.lexically_normal().string();
+            }
+            fail(mesh, fmt::format("mesh {}: there is no file {}", in_quotes(uri), looked));
+        }
+        return found->lexically_normal();
+    }
+    /// Each file once, however many links wear it.
+    [[nodiscard]] std::shared_ptr<const Mesh> mesh_of(const fs::path& path, pugi::xml_node mesh,
+                                                      const Vector3& scale) {
+        const auto [at, added] = meshes_.try_emplace(path.string());
+        const char* uri = mesh.attribute("filename").value();
+        try {
+            if (added) {
+                at->second = std::make_shared<const Mesh>(read_mesh(path));
+            }
+        } catch (const InputError& error) {
+            fail(mesh, fmt::format("mesh {}: {}", in_quotes(uri), error.what()));
+        }
+        if ((scale.array() == 0.0).any()) {
             fail(mesh,
-                 fmt::format("mesh \"{}\": there is no file {}", mesh.attribute("filename").value(),
-                             path.lexically_normal().string()));
+                 fmt::format("mesh scale=\"{}\": must not be 0", mesh.attribute("scale").value()));
         }
-        return path.lexically_normal();
+        if (const std::string problem = mesh_problem(*at->second, scale); !problem.empty()) {
+            fail(mesh, fmt::format("mesh {}: {} {}", in_quotes(uri), path.string(), problem));
+        }
+        triangles_ += at->second->triangles.size();
+        points_ += at->second->points.size();
+        if (triangles_ > kMostOfAll || points_ > kMostPoints) {
+            fail(mesh, fmt::format("mesh {}: more than {} triangles or {} points in all: simplify "
+                                   "what is only looked at",
+                                   in_quotes(uri), kMostOfAll, kMostPoints));
+        }
+        return at->second;
     }
 
-    [[nodiscard]] Part read_shape(pugi::xml_node visual) const {
+    /// Edges, radii and lengths.
+    [[nodiscard]] Vector3 size(pugi::xml_node shape, const char* key, Vector3 size_m) const {
+        if (!((size_m.array() > 0.0).all() && size_m.maxCoeff() <= kLargest_m)) {
+            fail(shape, fmt::format("{} {}=\"{}\": must be above 0 and at most {} m", shape.name(),
+                                    key, shape.attribute(key).value(), kLargest_m));
+        }
+        return size_m;
+    }
+
+    [[nodiscard]] Part read_shape(pugi::xml_node visual) {
         Part shape;
         read_origin(visual, shape.p_F_m, shape.q_F);
         const auto geometry = visual.child("geometry");
         if (const auto mesh = geometry.child("mesh")) {
             shape.shape = Shape::mesh;
-            shape.mesh_file = mesh_path(mesh).string();
+            const fs::path path = mesh_path(mesh);
+            shape.mesh_file = path.string();
             shape.size_m = vector(mesh, "scale", Vector3::Ones());
+            shape.mesh = mesh_of(path, mesh, shape.size_m);
         } else if (const auto box = geometry.child("box")) {
             shape.shape = Shape::box;
-            shape.size_m = vector(box, "size");
+            shape.size_m = size(box, "size", vector(box, "size"));
         } else if (const auto cylinder = geometry.child("cylinder")) {
             shape.shape = Shape::cylinder;
             const double radius_m = number(cylinder, "radius");
+            (void)size(cylinder, "radius", Vector3::Constant(radius_m));
             shape.size_m = {radius_m, radius_m, number(cylinder, "length")};
+            (void)size(cylinder, "length", shape.size_m);
         } else if (const auto sphere = geometry.child("sphere")) {
             shape.shape = Shape::sphere;
-            shape.size_m = Vector3::Constant(number(sphere, "radius"));
+            shape.size_m = size(sphere, "radius", Vector3::Constant(number(sphere, "radius")));
         } else {
             fail(visual, "a visual without a mesh, box, cylinder or sphere");
         }
@@ -261,8 +370,11 @@ private:
     fs::path file_;
     std::string text_;
     std::map<std::string, std::array<double, 4>> colours_;
+    std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
     UrdfRobot robot_;
-    int visuals_ = 0;  ///< of all links
+    int visuals_ = 0;            ///< of all links
+    std::size_t triangles_ = 0;  ///< of all visuals
+    std::size_t points_ = 0;
 };
 
 }  // namespace

@@ -49,10 +49,14 @@ struct UrdfRobot {
     }
 };
 
-/// Reads links, joints and visuals. `package://NAME/...` is looked up in the folder NAME that the
-/// file lies in, or in the folder above the file's.
-/// @throws InputError "file:line: what": syntax, a number, a name twice, a joint between links that
-///         are not there, no tree, a mass or an inertia that no body has, a mesh that is missing
+/// Reads links, joints, visuals and their meshes. `package://NAME/...` is looked up in the folders
+/// above the file: one that is called NAME or has a package.xml of that name, or one NAME beside
+/// these; at last in the folder above the file's. The same for `model://`.
+/// @throws InputError "file:line: what": syntax, xacro, a number, a name twice, a joint between
+/// links
+///         that are not there, no tree, a mass or an inertia that no body has, a mesh that is
+///         missing, cannot be read, reaches further than 100 m or has no area, more than two
+///         million triangles or three million points in all
 [[nodiscard]] UrdfRobot read_urdf(const std::filesystem::path& file);
 
 }  // namespace limpet::models

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
-
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/links.hpp"
 #include "limpet/models/model_text.hpp"
@@ -39,10 +37,9 @@ struct Names {
         return called(airframe, part);
     }
     /// Nothing of this machine goes into a recording.
-    [[nodiscard]] std::string mesh(const std::string& path) const {
-        return meshes == MeshNames::of_package
-                   ? "package://" + airframe.name + "/" + mesh_name(path)
-                   : "file://" + path;
+    [[nodiscard]] std::string mesh(const Part& part) const {
+        return meshes == MeshNames::of_package ? "package://" + airframe.name + "/" + part.mesh_name
+                                               : "file://" + part.mesh_file;
     }
 };
 
@@ -56,7 +53,7 @@ void write_geometry(pugi::xml_node parent, const Part& part, const Names& names)
             break;
         case Shape::sphere: add(geometry, "sphere", "radius", part.size_m.x()); break;
         case Shape::mesh:
-            add(geometry, "mesh", "filename", names.mesh(part.mesh_file), "scale", part.size_m);
+            add(geometry, "mesh", "filename", names.mesh(part), "scale", part.size_m);
             break;
     }
 }
@@ -128,10 +125,6 @@ pugi::xml_node write_robot(pugi::xml_document& document, const Names& names) {
 }
 
 }  // namespace
-
-std::string mesh_name(const std::string& path) {
-    return std::filesystem::path(path).filename().string();
-}
 
 std::string write_urdf(const vehicle::Airframe& airframe) {
     pugi::xml_document document;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/paper/claims.hpp"
@@ -51,7 +52,7 @@ std::vector<report::Claim> judged(const Study& study, const std::vector<StudyPar
             require(!all || claim.figure.empty(), "the figure of a statement is on the page");
             claim.figure.clear();
         }
-        if (!claim.recording.empty() && !std::filesystem::exists(study.folder / claim.recording)) {
+        if (!claim.recording.empty() && !is_there(study.folder / claim.recording)) {
             require(!all, "the recording of a statement is there");
             claim.recording.clear();
         }

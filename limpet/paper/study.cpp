@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/paper/reproduce.hpp"
 #include "limpet/report/view.hpp"
@@ -50,10 +51,10 @@ void Study::picture(const std::string& id, const std::string& flight, const std:
     fs::create_directories(folder / "figures");
     const fs::path from = folder / "flights" / flight / picture;
     const fs::path view = fs::path("flights") / flight / "view.html";
-    figure.view = fs::exists(folder / view) ? view : fs::path();
+    figure.view = is_there(folder / view) ? view : fs::path();
     fs::copy_file(from.string() + ".png", folder / figure.png,
                   fs::copy_options::overwrite_existing);
-    if (fs::exists(from.string() + ".svg")) {
+    if (is_there(from.string() + ".svg")) {
         fs::copy_file(from.string() + ".svg", folder / figure.svg,
                       fs::copy_options::overwrite_existing);
     } else {
@@ -101,7 +102,7 @@ report::PageSection Study::section(const StudyPart& part) {
             require(!table->rows.empty(), "a part brings the rows of its tables");
             fill(table->caption);
         } else if (auto* figure = std::get_if<report::PageFigure>(&block)) {
-            require(fs::exists(folder / figure->png), "a part draws its figures");
+            require(is_there(folder / figure->png), "a part draws its figures");
             fill(figure->caption);
         }
     }

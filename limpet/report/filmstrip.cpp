@@ -177,22 +177,35 @@ std::filesystem::path make_film(const record::Recording& recording, draw::Stage&
     return draw::draw(sketch, pixels, stem, folder, false).front();
 }
 
-/// The stretch between the first picture and the last as a film.
+constexpr int kFrames_Hz = 25;
+
+/// The stretch between the first picture and the last, as a film shows it.
+/// @throws InputError where it is too long for a film: half an hour takes as long to draw
+record::Window window_of_video(const record::Recording& recording,
+                               const std::vector<Moment>& moments) {
+    constexpr double kAround_s = 0.5, kLongest_s = 1800.0;
+    const record::Window whole = whole_flight(recording);
+    const record::Window window{std::max(moments.front().time_s - kAround_s, whole.from_s),
+                                std::min(moments.back().time_s + kAround_s, whole.to_s)};
+    if (!(window.span_s() <= kLongest_s)) {
+        throw InputError(fmt::format("{}: a video of {:.6g} s, must be at most {} s long",
+                                     recording.path.string(), window.span_s(), kLongest_s));
+    }
+    return window;
+}
+
 std::filesystem::path make_video(const record::Recording& recording,
                                  const std::vector<Moment>& moments,
                                  const std::filesystem::path& file, const Work& work) {
-    constexpr int kFrames_Hz = 25;
-    constexpr double kAround_s = 0.5;
     draw::Stage stage(recording.attachment("model.xml")->text, kFrameWidth_px, kFrameHeight_px, 1);
     const Camera camera(recording, moments, stage.wall());
-    const record::Window whole = whole_flight(recording);
-    const double from_s = std::max(moments.front().time_s - kAround_s, whole.from_s);
-    const double to_s = std::min(moments.back().time_s + kAround_s, whole.to_s);
-    const int frames = static_cast<int>(std::lround((to_s - from_s) * kFrames_Hz)) + 1;
+    const record::Window window = window_of_video(recording, moments);
+    const int frames = static_cast<int>(std::lround(window.span_s() * kFrames_Hz)) + 1;
     draw::Video video(file, kFrameWidth_px, kFrameHeight_px, kFrames_Hz);
     for (int i = 0; i < frames; ++i) {
         work.say(fmt::format("{}: frame {} of {}", file.filename().string(), i + 1, frames));
-        const draw::Pose pose = pose_at(recording, from_s + static_cast<double>(i) / kFrames_Hz);
+        const draw::Pose pose =
+            pose_at(recording, window.from_s + static_cast<double>(i) / kFrames_Hz);
         video.add(stage.photograph(pose, camera.at(pose)));
     }
     video.finish();
@@ -217,26 +230,37 @@ draw::Pictures film(const record::Recording& recording, const std::filesystem::p
     if (recording.table("/truth/pose").time_s.empty()) {
         throw InputError(fmt::format("{}: no poses in /truth/pose", recording.path.string()));
     }
+    struct Strip {
+        std::vector<Moment> moments;
+        const char* what;
+        const char* stem;
+    };
+    std::vector<Strip> strips = {{perching_moments(recording), "perching", "perching_film"},
+                                 {take_off_moments(recording), "take-off", "take_off_film"}};
+    const auto is_empty = [](const Strip& strip) { return strip.moments.empty(); };
+    strips.erase(std::remove_if(strips.begin(), strips.end(), is_empty), strips.end());
+    if (strips.empty()) {
+        strips.push_back({flight_moments(recording), "flight", "flight_film"});
+    }
+    if (!video.empty()) {  // before the first picture is drawn
+        draw::require_ffmpeg();
+        for (const Strip& strip : strips) {
+            (void)window_of_video(recording, strip.moments);
+        }
+    }
     const draw::gnuplot::TemporaryFolder scratch;
     auto stage = std::make_unique<draw::Stage>(model->text, kFrameWidth_px, kFrameHeight_px);
     std::vector<std::filesystem::path> made;
-    std::vector<std::pair<std::vector<Moment>, std::filesystem::path>> videos;
-    const auto make = [&](const std::vector<Moment>& moments, const char* what, const char* stem) {
-        if (!moments.empty()) {
-            made.push_back(make_film(recording, *stage, moments, title_of(recording, what), stem,
-                                     scratch.path(), work));
-            videos.emplace_back(moments, scratch.path() / fmt::format("{}.{}", stem, video));
-        }
-    };
-    make(perching_moments(recording), "perching", "perching_film");
-    make(take_off_moments(recording), "take-off", "take_off_film");
-    if (made.empty()) {
-        make(flight_moments(recording), "flight", "flight_film");
+    for (const auto& [moments, what, stem] : strips) {
+        made.push_back(make_film(recording, *stage, moments, title_of(recording, what), stem,
+                                 scratch.path(), work));
     }
     stage.reset();  // one renderer at a time
-    for (const auto& [moments, file] : videos) {
-        if (!video.empty()) {
-            made.push_back(make_video(recording, moments, file, work));
+    if (!video.empty()) {
+        for (const Strip& strip : strips) {
+            made.push_back(make_video(recording, strip.moments,
+                                      scratch.path() / fmt::format("{}.{}", strip.stem, video),
+                                      work));
         }
     }
     work.say();

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/write_file.hpp"
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/draw/html.hpp"
@@ -310,8 +311,8 @@ std::string page_html(const Page& page, const std::filesystem::path& folder) {
 }
 
 void require_ours(const std::filesystem::path& folder) {
-    if (std::filesystem::exists(folder / "index.html") &&
-        !std::filesystem::exists(folder / "results.json")) {
+    if (is_there(folder / "index.html") &&
+        !is_there(folder / "results.json")) {
         throw InputError(fmt::format(
             "--out {}: holds an index.html that is no page of ours; give another folder",
             folder.string()));

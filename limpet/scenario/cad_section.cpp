@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/models/cad_model.hpp"
 #include "limpet/scenario/parts.hpp"
@@ -53,7 +54,7 @@ std::shared_ptr<const models::CadModel> load_model(const YamlNode& model, const 
         fail(model, "needs urdf, the path of a URDF");
     }
     const fs::path file = folder / read_text(*urdf);
-    if (!fs::is_regular_file(file)) {
+    if (!is_file(file)) {
         fail(*urdf, fmt::format("there is no file {}", shown_path(file)));
     }
     models::UrdfRobot robot = models::read_urdf(shown_path(file));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/version.hpp"
 #include "limpet/models/drawing.hpp"
@@ -20,9 +21,9 @@ void attach_meshes(const vehicle::Airframe& airframe, std::vector<mcap::Attachme
         if (part.shape != models::Shape::mesh) {
             continue;
         }
-        const std::string name = models::mesh_name(part.mesh_file);
-        if (find_named(all, name) == nullptr) {
-            all.push_back({.name = name,
+        require(part.mesh != nullptr, "a vehicle's meshes are read with it");
+        if (find_named(all, part.mesh_name) == nullptr) {
+            all.push_back({.name = part.mesh_name,
                            .media_type = std::string(record::kMeshMediaType),
                            .text = models::stl_of(*part.mesh)});
         }

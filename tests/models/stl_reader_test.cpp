@@ -9,6 +9,7 @@
 #include <string>
 
 #include "limpet/core/errors.hpp"
+#include "meshes.hpp"
 
 namespace limpet::models {
 namespace {
@@ -65,16 +66,6 @@ std::string ascii() {
         text += "  endloop\nendfacet\n";
     }
     return text + "endsolid part\n";
-}
-
-/// By the divergence theorem.
-double volume(const Mesh& mesh) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const auto at = [&mesh](int i) { return mesh.points.at(static_cast<std::size_t>(i)); };
-        sum += at(a).dot(at(b).cross(at(c))) / 6.0;
-    }
-    return sum;
 }
 
 TEST_F(StlReader, BinaryAndAsciiGiveTheSameBody) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
@@ -150,7 +151,7 @@ std::optional<SetupArguments> flight_from(XmlRpcValue value) {
 }
 
 void tell_flight(SetupArguments flight) {
-    if (std::filesystem::is_regular_file(flight.scenario)) {
+    if (is_file(flight.scenario)) {
         flight.scenario = std::filesystem::absolute(flight.scenario).string();
     }
     ::ros::param::set(kFlightParameter, flight_value(flight));
