@@ -23,7 +23,7 @@ struct TopicReader {
 
 /// A reader of the channel's messages, which fills the topic's table.
 /// @throws InputError when they are of a kind that is not read
-void open(const mcap::Contents& contents, const mcap::Channel& channel, TableAllowance& allowance,
+void open(const mcap::Contents& contents, const mcap::Channel& channel, Allowance& allowance,
           TopicReader& topic) {
     topic.table.topic = channel.topic;
     const auto schema = contents.schemas.find(channel.schema_id);
@@ -96,7 +96,7 @@ const mcap::Attachment* Recording::attachment(std::string_view name) const {
 Recording read_recording(const std::filesystem::path& path) {
     std::error_code ignored;  // what is no file is refused by the reader
     const auto file_bytes = std::filesystem::file_size(path, ignored);
-    TableAllowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
+    Allowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
     std::vector<std::string> problems;
     std::size_t unread = 0;
