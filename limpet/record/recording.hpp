@@ -37,6 +37,8 @@ struct Recording {
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
     std::string damage;  ///< what is missing, in one sentence; empty when whole
+    /// Topics of kinds that do not become columns, "topic /x is not taken: why", each.
+    std::vector<std::string> not_taken;
 
     /// @throws InputError naming the topics that are there
     [[nodiscard]] const Table& table(std::string_view topic) const;
@@ -47,8 +49,9 @@ struct Recording {
 };
 
 /// Reads a whole recording, or what is whole in a damaged one: see Recording::damage. Any MCAP file
-/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone; topics of another kind are
-/// left out and named in `damage`.
+/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone. Topics of another encoding,
+/// of arrays of messages, of services' events and of wide characters are named in `not_taken`, those
+/// whose definition makes no sense in `damage`.
 /// @throws InputError if path is no MCAP file
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 

@@ -52,11 +52,6 @@ struct Table {
     }
 };
 
-/// Messages of a kind that does not become columns: no fault of the file's.
-struct NotTaken : InputError {
-    using InputError::InputError;
-};
-
 /// Elements of a dynamic array that become columns; what is behind them is read and dropped.
 inline constexpr std::size_t kMaxArrayColumns = 64;
 

@@ -126,9 +126,59 @@ TEST(Recording, ReadsOtherPeoplesTopicsAndNamesThoseItCannot) {
     const Recording recording = read_recording(folder / "a.mcap");
     ASSERT_EQ(recording.tables.size(), 1u);
     EXPECT_EQ(recording.series("/good", "height_pa").values.size(), 1u);
-    EXPECT_THAT(recording.damage,
-                AllOf(HasSubstr("1 damaged record left out, first a message that is shorter"),
-                      HasSubstr("topic /bad is not read")));
+    EXPECT_EQ(recording.damage,
+              "1 damaged record left out, first a message that is shorter than its schema");
+    EXPECT_THAT(recording.not_taken,
+                testing::ElementsAre("topic /bad is not taken: messages in \"json\" with a schema "
+                                     "in \"jsonschema\"; those in cdr with a schema in ros2msg "
+                                     "are"));
+}
+
+TEST(Recording, WhatDoesNotBecomeColumnsIsNamedAndNoDamage) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const mcap::Bytes message = {0, 1, 0, 0, 0, 0, 0, 0};
+        const std::string end = "\n" + std::string(80, '=') + "\nMSG: p/";
+        const std::pair<const char*, std::string> kinds[] = {
+            {"p/msg/Cloud", "Point[] points" + end + "Point\nfloat64 x\n"},
+            {"p/srv/Add_Event", "Add_Request[<=1] request" + end + "srv/Add_Request\nint64 a\n"},
+            {"p/msg/Wide", "wstring text\n"}};
+        for (const auto& [type, text] : kinds) {
+            const auto schema = writer.add_schema(type, "ros2msg", text);
+            writer.write(writer.add_channel(schema, type, "cdr"), 1, message);
+        }
+        writer.close();
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_EQ(recording.damage, "");
+    ASSERT_EQ(recording.not_taken.size(), 3U);
+    EXPECT_THAT(recording.not_taken[0], HasSubstr("an array of messages: p/msg/Point points"));
+    EXPECT_THAT(recording.not_taken[1], HasSubstr("a service's events"));
+    EXPECT_THAT(recording.not_taken[2], HasSubstr("wstring"));
+}
+
+TEST(Recording, EventsOfAllChannelsAreInOrder) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const auto event = writer.add_schema("limpet_msgs/msg/Event", "ros2msg", "string name\n");
+        const auto one = writer.add_channel(event, "/events", "cdr");
+        const auto other = writer.add_channel(event, "/events", "cdr");
+        const auto write = [&](std::uint16_t channel, std::uint64_t time_ns, char name) {
+            writer.write(channel, time_ns,
+                         mcap::Bytes{0, 1, 0, 0, 2, 0, 0, 0, static_cast<std::uint8_t>(name), 0});
+        };
+        write(one, 1, 'a');
+        write(other, 2, 'b');
+        write(one, 3, 'c');
+        writer.close();
+    }
+    std::string names;
+    for (const RecordedEvent& event : read_recording(folder / "a.mcap").events) {
+        names += event.name;
+    }
+    EXPECT_EQ(names, "abc");
 }
 
 TEST(Recording, ATopicWithoutEndCostsThatTopicAlone) {

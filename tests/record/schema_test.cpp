@@ -213,7 +213,7 @@ TEST_F(TableReaderTest, RefusesSchemasWithoutEnd) {
     };
     EXPECT_THAT(refused("p/T again\n"), HasSubstr("message within itself"));
     EXPECT_THAT(refused("p/Unknown x\n"), HasSubstr("unknown type: p/msg/Unknown"));
-    EXPECT_THAT(refused("p/T[] list\n"), HasSubstr("dynamic array of messages"));
+    EXPECT_THAT(refused("p/T[] list\n"), HasSubstr("an array of messages: p/msg/T list"));
     EXPECT_THAT(refused("float64[999999999] x\n"), HasSubstr("more than 10000 fields"));
     EXPECT_THAT(refused("float64 " + std::string(129, 'x') + "\n"), HasSubstr("allowed 1..128"));
 }
@@ -237,6 +237,62 @@ TEST_F(TableReaderTest, CountsFieldsWithoutAColumn) {
         }
     }
     EXPECT_THAT(refused(tree + separator + "\nMSG: p/T16\n"), HasSubstr("more than 10000 fields"));
+}
+
+/// ROS 2 gives a message without fields a byte, in which a constant is no field.
+TEST_F(TableReaderTest, ANestedMessageWithoutFieldsIsAByte) {
+    const std::string end = "\n" + std::string(80, '=') + "\nMSG: p/";
+    Table table;
+    TableReader reader(parse_ros2msg("p/T", "uint8 a\nE e\nuint8 b\nE[3] list\nfloat64 c" + end +
+                                                "E\nuint8 KIND=3\n"),
+                       table, allowance);
+    const std::vector<std::uint8_t> message = {0, 1, 0, 0,                       // head
+                                               7, 0, 8, 0, 0, 0, 0, 0,           // and two up to 8
+                                               0, 0, 0, 0, 0, 0, 4,    0x40};    // 2.5
+    reader.append(1, message);
+    EXPECT_EQ(table.columns.size(), 3U);
+    EXPECT_EQ(table.find("a")->values[0], 7.0);
+    EXPECT_EQ(table.find("b")->values[0], 8.0);
+    EXPECT_EQ(table.find("c")->values[0], 2.5);
+    EXPECT_THROW(reader.append(2, std::span(message).first(8)), mcap::Malformed);
+    EXPECT_EQ(table.time_ns.size(), 1U);
+}
+
+TEST_F(TableReaderTest, WholeNumbersKeepTheirDigits) {
+    Table table;
+    TableReader reader(
+        parse_ros2msg("p/T", "uint64 u\nint64 i\nbuiltin_interfaces/Time t\nuint64[] list\n"),
+        table, allowance);
+    std::vector<std::uint8_t> message = {0, 1, 0, 0};
+    const auto put = [&message](auto value) {
+        for (std::size_t k = 0; k < sizeof value; ++k) {
+            message.push_back(static_cast<std::uint8_t>(value >> (8 * k)));
+        }
+    };
+    put(std::uint64_t{1'700'000'000'123'456'789});
+    put(std::int64_t{-9'007'199'254'740'993});
+    put(std::int32_t{1'700'000'000});
+    put(std::uint32_t{123'456'789});
+    put(std::uint32_t{1});
+    put(std::uint32_t{0});
+    put(~std::uint64_t{0});
+    reader.append(1'700'000'000'000'000'001, message);
+    EXPECT_EQ(table.time_ns[0], 1'700'000'000'000'000'001U);
+    EXPECT_EQ(table.find("u")->whole[0], 1'700'000'000'123'456'789);
+    EXPECT_EQ(table.find("u")->values[0], 1'700'000'000'123'456'789.0);
+    EXPECT_EQ(table.find("i")->whole[0], -9'007'199'254'740'993);
+    EXPECT_EQ(table.find("t")->whole[0], 1'700'000'000'123'456'789);
+    EXPECT_EQ(table.find("list[0]")->kind, Whole::uint64);
+    EXPECT_EQ(table.find("list[0]")->whole[0], -1);
+    EXPECT_EQ(table.find("list[0]")->values[0], 18'446'744'073'709'551'615.0);
+    EXPECT_THROW(reader.append(2, std::span(message).first(10)), mcap::Malformed);
+    EXPECT_EQ(table.find("u")->whole.size(), 1U);
+}
+
+TEST(Schema, NamesOfServicesStay) {
+    EXPECT_EQ(full_type_name("p/T"), "p/msg/T");
+    EXPECT_EQ(full_type_name("p/msg/T"), "p/msg/T");
+    EXPECT_EQ(full_type_name("p/srv/T_Event"), "p/srv/T_Event");
 }
 
 TEST_F(TableReaderTest, TheAllowanceIsTheWholeRecordings) {
