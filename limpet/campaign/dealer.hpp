@@ -40,7 +40,7 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-/// The same in the calling thread.
-void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop);
+/// The same in the calling thread; what is thrown goes to the dealer.
+void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) noexcept;
 
 }  // namespace limpet::campaign

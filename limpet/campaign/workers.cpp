@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <type_traits>
 
@@ -124,8 +125,12 @@ Progress Ledger::conclude() {
     return progress_;
 }
 
-void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
-    plant::fly_side_by_side([&] { fly_lane(campaign, dealer, stop); });
+void fly_dealt(const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) noexcept {
+    try {
+        plant::fly_side_by_side([&] { fly_lane(campaign, dealer, stop); });
+    } catch (...) {
+        dealer.fail(std::current_exception());
+    }
 }
 
 Fliers::Fliers(int jobs, const Campaign& campaign, Dealer& dealer, const std::atomic<bool>* stop) {
@@ -138,6 +143,8 @@ Fliers::Fliers(int jobs, const Campaign& campaign, Dealer& dealer, const std::at
             });
         }
     } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        --flying_;
+    } catch (const std::bad_alloc&) {  // nor memory for them
         --flying_;
     }
 }

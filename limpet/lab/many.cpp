@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/many.hpp"
 
+#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -146,7 +147,7 @@ void Many::begin(std::string_view request) {
     problem_.clear();
     stop_ = false;
     running_ = true;
-    thread_ = std::jthread([this] {
+    const auto fly = [this] {
         // One processor is the page's.
         const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
         try {
@@ -167,7 +168,13 @@ void Many::begin(std::string_view request) {
             problem_ = error.what();
         }
         running_ = false;
-    });
+    };
+    try {
+        thread_ = std::jthread(fly);
+    } catch (...) {
+        running_ = false;
+        throw;
+    }
 }
 
 std::string Many::rows(std::string_view request) {

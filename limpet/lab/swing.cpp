@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/swing.hpp"
 
+#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -127,10 +128,18 @@ void Swing::begin(std::string_view request) {
     // One processor is the page's.
     working_ = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
     for (int k = working_; k > 0; --k) {
-        threads_.emplace_back([this] {
-            fill();
-            --working_;
-        });
+        try {
+            threads_.emplace_back([this] {
+                fill();
+                --working_;
+            });
+        } catch (const std::exception&) {  // no more threads, or memory for them
+            working_ -= k;
+            if (threads_.empty()) {
+                throw;
+            }
+            return;
+        }
     }
 }
 
@@ -140,6 +149,9 @@ void Swing::fill() {
         try {
             point = point_of(map_.scenario, map_.point(order_[k]));
         } catch (const InputError&) {  // these two do not go together
+        } catch (const std::bad_alloc&) {
+            stop_ = true;
+            return;
         }
         const std::lock_guard lock(guards_points_);
         points_[order_[k]] = point;

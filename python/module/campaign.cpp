@@ -9,6 +9,7 @@
 #include <atomic>
 #include <future>
 
+#include "air.hpp"
 #include "limpet/campaign/campaign_file.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
@@ -52,6 +53,7 @@ std::vector<std::string> success_of(const std::string& yaml) {
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
                                    int jobs, bool resume, const OnProgress& on_progress) {
     constexpr int kMostJobs = 1024;  // as the program's
+    const InTheAir in_the_air;
     if (jobs < 1 || jobs > kMostJobs) {
         throw InputError(
             fmt::format("campaign(): jobs = {} is out of range, allowed 1..{}", jobs, kMostJobs));
@@ -79,6 +81,9 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     while (!wait()) {
         if (on_progress) {
             on_progress(finished, asked.runs);
+        }
+        if (interpreter_ends()) {
+            throw InterpreterEnds();
         }
         if (PyErr_CheckSignals() != 0) {
             throw py::error_already_set();
