@@ -162,6 +162,7 @@ void calibrate(CalibrateOptions options) {
         }
         require_known_motion(scenario.airframe, options.vehicle);
         fit = identify_vehicle(data, scenario.airframe);
+        fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
     } catch (const InputError& error) {
         const std::string why = error.what();
         throw InputError(why.find(options.log) == std::string::npos ? options.log + ": " + why

@@ -85,7 +85,7 @@ draw::Pictures write_tables(const record::Recording& recording, const std::files
     files.insert(files.end(), attached.begin(), attached.end());
     work.say();
     std::vector<std::string> remarks = record::renamed_topics(recording);
-    remarks.insert(remarks.end(), recording.not_taken.begin(), recording.not_taken.end());
+    remarks.insert(remarks.end(), recording.remarks.begin(), recording.remarks.end());
     return {.files = draw::publish(files, folder / "csv"), .missing = std::move(remarks)};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -15,6 +16,8 @@ struct TooMuch : InputError {
 
 /// Messages within messages: a definition that goes deeper is one that was made to harm.
 inline constexpr int kMostLevels = 16;
+/// Characters of a field, of a topic where it becomes a column's or a table's name.
+inline constexpr std::size_t kLongestFieldName = 128;
 
 /// What one file of others' may take, all its parts together: memory and time. A reader makes one
 /// for a file and hands it to all that read a part of it; each takes its share before it keeps or

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
+#include <map>
 #include <sstream>
 
 #include "limpet/core/errors.hpp"
@@ -25,17 +27,21 @@ using record::Table;
 class Rows {
 public:
     Rows(const record::Recording& recording, std::string_view topic)
-        : table_(find_by(recording.tables, &Table::topic, topic)) {}
+        : table_(find_by(recording.tables, &Table::topic, topic)) {
+        for (std::size_t i = 0; table_ != nullptr && i < table_->columns.size(); ++i) {
+            columns_.emplace(table_->columns[i].name, &table_->columns[i]);
+        }
+    }
     [[nodiscard]] std::size_t count() const {
         return table_ == nullptr ? 0 : table_->time_s.size();
     }
     [[nodiscard]] const std::vector<double>& time_s() const { return table_->time_s; }
     [[nodiscard]] bool has(std::string_view column) const {
-        return table_ != nullptr && table_->find(column) != nullptr;
+        return columns_.find(column) != columns_.end();
     }
     [[nodiscard]] double at(std::string_view column, std::size_t row) const {
-        const record::Column* found = table_->find(column);
-        return found == nullptr ? kNaN : found->values[row];
+        const auto found = columns_.find(column);
+        return found == columns_.end() ? kNaN : found->second->values[row];
     }
     [[nodiscard]] Vector3 xyz(const std::string& path, std::size_t row) const {
         return {at(path + ".x", row), at(path + ".y", row), at(path + ".z", row)};
@@ -46,6 +52,7 @@ public:
 
 private:
     const Table* table_;
+    std::map<std::string_view, const record::Column*> columns_;  ///< a log may have thousands
 };
 
 /// Commands of the motors that there are: PX4 logs twelve and says NaN of those that are not.
@@ -70,7 +77,7 @@ void add_commands(const Rows& rows, const char* name, FlightData& data) {
 
 FlightData of_recording(const record::Recording& recording) {
     using record::ros::flu_from_frd;
-    FlightData data{.damage = recording.damage, .kind = "recording"};
+    FlightData data{.damage = recording.damage, .remarks = recording.remarks, .kind = "recording"};
     if (const auto* text = recording.attachment("scenario.yaml")) {
         data.scenario_yaml = text->text;
     }
@@ -120,8 +127,114 @@ void add_velocities(const Rows& position, const Rows& attitude, FlightData& data
     }
 }
 
+/// A parameter of the log; nothing where it has none, or -1, "as all".
+std::optional<double> parameter(const record::Recording& log, const std::string& name) {
+    const auto all = log.metadata.find(std::string(record::kPx4Parameters));
+    if (all == log.metadata.end()) {
+        return std::nullopt;
+    }
+    const auto found = all->second.find(name);
+    const auto value = found == all->second.end() ? std::nullopt : decimal(found->second);
+    return value && *value >= 0.0 ? value : std::nullopt;
+}
+
+/// Where an output's scale begins and ends [us].
+struct PwmScale {
+    double low = 1000.0, high = 2000.0;  ///< PX4's defaults
+};
+
+/// @param bank     "MAIN" or "AUX"
+/// @param channel  from 1
+PwmScale pwm_scale(const record::Recording& log, const std::string& bank, std::size_t channel) {
+    PwmScale scale;
+    for (const std::string& name : {std::string("PWM_{}"), "PWM_" + bank + "_{}",
+                                    "PWM_" + bank + "_{}" + std::to_string(channel)}) {
+        scale.low = parameter(log, fmt::format(fmt::runtime(name), "MIN")).value_or(scale.low);
+        scale.high = parameter(log, fmt::format(fmt::runtime(name), "MAX")).value_or(scale.high);
+    }
+    return scale.high > scale.low ? scale : PwmScale{};
+}
+
+/// An output over a log, and whether a motor hangs on it: it moves.
+struct OutputRange {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    [[nodiscard]] bool moves() const { return most > least + 0.01 * std::max(1.0, most); }
+    [[nodiscard]] bool is_pwm() const {
+        constexpr double kLeast_us = 800.0, kMost_us = 2200.0;
+        return most >= kLeast_us && most <= kMost_us && (least == 0.0 || least >= kLeast_us);
+    }
+    [[nodiscard]] bool is_share() const { return least >= 0.0 && most <= 1.0; }
+};
+
+/// The outputs up to the last that moves.
+std::vector<OutputRange> ranges_of(const Rows& rows) {
+    std::vector<OutputRange> ranges;
+    for (std::size_t i = 0; i < kMaxRotors && rows.has(fmt::format("output[{}]", i)); ++i) {
+        OutputRange range;
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            const double value = rows.at(fmt::format("output[{}]", i), row);
+            if (std::isfinite(value)) {
+                range.least = std::min(range.least, value);
+                range.most = std::max(range.most, value);
+            }
+        }
+        ranges.push_back(range);
+    }
+    while (!ranges.empty() && !ranges.back().moves()) {
+        ranges.pop_back();
+    }
+    return ranges;
+}
+
+/// PX4 up to v1.13: what goes to the motors' controllers, in microseconds. As actuator_motors has
+/// it since, 0..1 of thrust, before THR_MDL_FAC bends it (mixer_module; thrust = f s^2 + (1 - f) s).
+/// Source: docs.px4.io, "Thrust model"; PX4-Autopilot v1.13 src/lib/mixer_module
+void add_outputs(const record::Recording& log, FlightData& data) {
+    std::string topic = "actuator_outputs", bank = "MAIN";
+    std::vector<OutputRange> ranges = ranges_of(Rows(log, topic));
+    if (ranges.empty()) {
+        topic += ".1";
+        bank = "AUX";
+        ranges = ranges_of(Rows(log, topic));
+    }
+    const auto of_motors = [&ranges](bool (OutputRange::*is)() const) {
+        return std::all_of(ranges.begin(), ranges.end(), [is](const OutputRange& range) {
+            return !range.moves() || (range.*is)();
+        });
+    };
+    const bool share = of_motors(&OutputRange::is_share);
+    if (ranges.empty() || (!share && !of_motors(&OutputRange::is_pwm))) {
+        if (!ranges.empty()) {
+            data.remarks.push_back(topic +
+                                   " is neither PWM (800..2200 us) nor 0..1: motor commands are "
+                                   "not taken from it");
+        }
+        return;
+    }
+    const double bend = std::min(parameter(log, "THR_MDL_FAC").value_or(0.0), 1.0);
+    const Rows rows(log, topic);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const PwmScale scale = share ? PwmScale{0.0, 1.0} : pwm_scale(log, bank, i + 1);
+        const std::string column = fmt::format("output[{}]", i);
+        data.command.resize(rows.count(), RotorList<double>(ranges.size(), 0.0));
+        for (std::size_t row = 0; row < rows.count() && ranges[i].moves(); ++row) {
+            const double value = rows.at(column, row);
+            const double signal = std::isfinite(value)
+                                      ? (value - scale.low) / (scale.high - scale.low)
+                                      : 0.0;  // a motor that stands
+            const double s = std::clamp(signal, 0.0, 1.0);
+            data.command[row][i] = bend * s * s + (1.0 - bend) * s;
+        }
+    }
+    data.command_s = rows.time_s();
+    data.remarks.push_back(fmt::format(
+        "no actuator_motors: commands of {} motors are from {}, {}", ranges.size(), topic,
+        share ? "0..1" : "PWM by the log's PWM_*_MIN and MAX, else 1000..2000 us"));
+}
+
 FlightData of_px4(const record::Recording& log) {
-    FlightData data{.damage = log.damage, .kind = "PX4 log"};
+    FlightData data{.damage = log.damage, .remarks = log.remarks, .kind = "PX4 log"};
     const Rows sensors(log, "sensor_combined");
     for (std::size_t row = 0; row < sensors.count(); ++row) {
         data.rate_B_rad_s.push_back(sensors.each3("gyro_rad", row));
@@ -130,7 +243,11 @@ FlightData of_px4(const record::Recording& log) {
             row));
     }
     data.imu_s = sensors.count() > 0 ? sensors.time_s() : std::vector<double>{};
-    add_commands(Rows(log, "actuator_motors"), "control", data);
+    if (const Rows motors(log, "actuator_motors"); motors.count() > 0) {
+        add_commands(motors, "control", data);
+    } else {
+        add_outputs(log, data);
+    }
     add_velocities(Rows(log, "vehicle_local_position"), Rows(log, "vehicle_attitude"), data);
     const Rows cup(log, "limpet_cup");
     for (std::size_t row = 0; row < cup.count(); ++row) {
@@ -265,6 +382,19 @@ void cut(const FlightSpan& span, std::vector<double>& time_s, std::vector<Values
     keep(time_s);
 }
 
+/// Loggers write what several threads say: a sample may come after one that is later.
+record::Recording in_order(record::Recording recording) {
+    constexpr double kMostBack_s = 1.0;
+    for (Table& table : recording.tables) {
+        if (const std::size_t late = put_in_order(table, kMostBack_s); late > 0) {
+            recording.remarks.push_back(fmt::format(
+                "{}: {} sample{} out of order, put in {}", table.topic, late,
+                late == 1 ? "" : "s", late == 1 ? "its place" : "their places"));
+        }
+    }
+    return recording;
+}
+
 /// The fits walk from sample to sample: times rise, and not by more than an hour.
 void require_in_order(const std::filesystem::path& path, const char* what,
                       const std::vector<double>& time_s) {
@@ -288,9 +418,11 @@ FlightData read_flight(const std::filesystem::path& path, const FlightSpan& span
     const auto is = [&](std::string_view beginning, std::string_view extension) {
         return head.starts_with(beginning) || path.extension() == extension;
     };
-    FlightData data = is("\x89MCAP", ".mcap") ? of_recording(record::read_recording(path))
-                      : is("ULog", ".ulg")    ? of_px4(record::read_ulog(path))
-                                              : of_csv(path);
+    const bool ulog = is("ULog", ".ulg");
+    const bool recorded = record::begins_as_recording(head) || path.extension() == ".mcap";
+    FlightData data = recorded ? of_recording(in_order(record::read_recording(path)))
+                      : ulog   ? of_px4(in_order(record::read_ulog(path)))
+                               : of_csv(path);
     require_in_order(path, "a sample of the IMU", data.imu_s);
     require_in_order(path, "a motor command", data.command_s);
     require_in_order(path, "a velocity", data.velocity_s);

@@ -10,6 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
+#include "limpet/mcap/unpack.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {
@@ -157,6 +158,12 @@ const mcap::Attachment* Recording::attachment(std::string_view name) const {
     return find_by(attachments, &mcap::Attachment::name, name);
 }
 
+bool begins_as_recording(std::string_view head) {
+    return std::equal(mcap::kMagic.begin(), mcap::kMagic.end(), head.begin(), head.end(),
+                      [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }) ||
+           mcap::is_packed(head);
+}
+
 Recording read_recording(const std::filesystem::path& path) {
     std::error_code ignored;  // what is no file is refused by the reader
     const auto file_bytes = std::filesystem::file_size(path, ignored);
@@ -200,7 +207,7 @@ Recording read_recording(const std::filesystem::path& path) {
         recording.metadata[metadata.name] = std::move(metadata.values);
     }
     recording.events = events_of(recording.tables);
-    recording.not_taken = std::move(not_taken).told("are not taken");
+    recording.remarks = std::move(not_taken).told("are not taken");
     std::vector<std::string> problems = std::move(unread).told("are not read");
     if (!contents.damage.empty()) {
         problems.insert(problems.begin(), contents.damage);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <numeric>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
@@ -15,7 +17,6 @@ namespace limpet::record {
 namespace {
 
 constexpr std::size_t kMaxFields = 10'000;
-constexpr std::size_t kLongestName = 128;
 
 }  // namespace
 
@@ -143,9 +144,9 @@ void TableReader::flatten(const Types& types, const MessageType& type, const std
         const bool dynamic = field.shape == Field::Shape::dynamic_array;
         const auto named = types.find(field.nested_type);
         const MessageType* nested = named == types.end() ? nullptr : named->second;
-        if (field.name.size() > kLongestName) {
+        if (field.name.size() > kLongestFieldName) {
             throw InputError(fmt::format("{}: a field's name of {} characters, allowed 1..{}",
-                                         type.name, field.name.size(), kLongestName));
+                                         type.name, field.name.size(), kLongestFieldName));
         }
         if (!primitive && dynamic) {
             throw NotTaken(fmt::format("{}: an array of messages: {} {}", type.name,
@@ -280,6 +281,43 @@ void TableReader::read_array(Cdr& cdr, Step& step) {
             (void)cdr.number(step.primitive);
         }
     }
+}
+
+std::size_t put_in_order(Table& table, double most_back_s) {
+    std::size_t late = 0;
+    double latest_s = -std::numeric_limits<double>::infinity();
+    for (const double time_s : table.time_s) {
+        if (!(time_s >= latest_s - most_back_s)) {
+            return 0;
+        }
+        late += time_s < latest_s ? 1 : 0;
+        latest_s = std::max(latest_s, time_s);
+    }
+    if (late == 0) {
+        return 0;
+    }
+    std::vector<std::size_t> order(table.time_s.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&table](std::size_t a, std::size_t b) {
+        return table.time_s[a] < table.time_s[b];
+    });
+    const auto put = [&order](auto& values) {
+        auto sorted = values;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            sorted[k] = std::move(values[order[k]]);
+        }
+        values = std::move(sorted);
+    };
+    put(table.time_s);
+    put(table.time_ns);
+    for (Column& column : table.columns) {
+        put(column.values);
+        put(column.whole);
+    }
+    for (TextColumn& column : table.texts) {
+        put(column.values);
+    }
+    return late;
 }
 
 void TableReader::drop_last_row() {

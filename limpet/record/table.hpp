@@ -52,6 +52,11 @@ struct Table {
     }
 };
 
+/// Puts rows by their time, those of one time as they stood.
+/// @param most_back_s  where one stands further behind a later one, all stay: that is another order
+/// @return how many stood behind later ones and have been moved
+std::size_t put_in_order(Table& table, double most_back_s);
+
 /// Elements of a dynamic array that become columns; what is behind them is read and dropped.
 inline constexpr std::size_t kMaxArrayColumns = 64;
 

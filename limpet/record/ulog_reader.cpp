@@ -24,7 +24,6 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 16;
 constexpr std::size_t kMostElements = 10'000;  ///< of a message, all arrays and parts spelled out
-constexpr std::size_t kLongestName = 128;      ///< of a topic, of a field
 constexpr std::size_t kStampBytes = 8;
 
 /// A number in a message: how it is read and where it goes.
@@ -126,9 +125,9 @@ private:
             throw InputError(fmt::format("field {} has no name", in_quotes(field)));
         }
         const std::string_view own_name = field.substr(blank + 1);
-        if (own_name.empty() || own_name.size() > kLongestName) {
+        if (own_name.empty() || own_name.size() > kLongestFieldName) {
             throw InputError(fmt::format("a field's name of {} characters, allowed 1..{}",
-                                         own_name.size(), kLongestName));
+                                         own_name.size(), kLongestFieldName));
         }
         const FieldType type = field_type(field.substr(0, blank));
         const std::string name = prefix + std::string(own_name);
@@ -244,6 +243,27 @@ private:
                       content.substr(3));
         } else if (type == 'D' && content.size() > 2) {
             data(static_cast<int>(read_as<std::uint16_t>(content.data())), content.substr(2));
+        } else if (type == 'P' && !content.empty()) {
+            parameter(content);
+        }
+    }
+
+    /// Length of the key, "float THR_MDL_FAC", its value. What is no number is passed over.
+    void parameter(std::string_view content) {
+        const auto length = static_cast<std::size_t>(static_cast<std::uint8_t>(content[0]));
+        constexpr std::size_t kValueBytes = 4;
+        if (content.size() != 1 + length + kValueBytes) {
+            return;
+        }
+        const std::string_view key = content.substr(1, length);
+        const char* const value = content.data() + 1 + length;
+        const std::size_t blank = std::min(key.find(' '), key.size() - 1);
+        const std::string_view type = key.substr(0, blank);
+        if (type == "float" || type == "int32_t") {
+            allowance_.take_bytes(kNode_bytes);
+            recording_.metadata[std::string(kPx4Parameters)][std::string(key.substr(blank + 1))] =
+                fmt::format("{}", type == "float" ? read_as<float>(value)
+                                                  : read_as<std::int32_t>(value));
         }
     }
 
@@ -283,9 +303,9 @@ private:
 
     /// A topic that is subscribed again goes on where it was.
     void subscribe(int instance, int id, std::string_view name) {
-        if (name.size() > kLongestName) {
+        if (name.size() > kLongestFieldName) {
             refuse(fmt::format("a topic's name of {} characters, allowed 1..{}", name.size(),
-                               kLongestName));
+                               kLongestFieldName));
         }
         Logged logged{.layout = layout_of(name), .table = recording_.tables.size()};
         Table table;

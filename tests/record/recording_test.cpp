@@ -128,7 +128,7 @@ TEST(Recording, ReadsOtherPeoplesTopicsAndNamesThoseItCannot) {
     EXPECT_EQ(recording.series("/good", "height_pa").values.size(), 1u);
     EXPECT_EQ(recording.damage,
               "1 damaged record left out, first a message that is shorter than its schema");
-    EXPECT_THAT(recording.not_taken,
+    EXPECT_THAT(recording.remarks,
                 testing::ElementsAre("topic /bad is not taken: messages in \"json\" with a schema "
                                      "in \"jsonschema\"; those in cdr with a schema in ros2msg "
                                      "are"));
@@ -152,10 +152,10 @@ TEST(Recording, WhatDoesNotBecomeColumnsIsNamedAndNoDamage) {
     }
     const Recording recording = read_recording(folder / "a.mcap");
     EXPECT_EQ(recording.damage, "");
-    ASSERT_EQ(recording.not_taken.size(), 3U);
-    EXPECT_THAT(recording.not_taken[0], HasSubstr("an array of messages: p/msg/Point points"));
-    EXPECT_THAT(recording.not_taken[1], HasSubstr("a service's events"));
-    EXPECT_THAT(recording.not_taken[2], HasSubstr("wstring"));
+    ASSERT_EQ(recording.remarks.size(), 3U);
+    EXPECT_THAT(recording.remarks[0], HasSubstr("an array of messages: p/msg/Point points"));
+    EXPECT_THAT(recording.remarks[1], HasSubstr("a service's events"));
+    EXPECT_THAT(recording.remarks[2], HasSubstr("wstring"));
 }
 
 TEST(Recording, EventsOfAllChannelsAreInOrder) {
