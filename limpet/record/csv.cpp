@@ -111,11 +111,14 @@ std::string plain_name(std::string_view topic) {
 class Names {
 public:
     /// @return the name, or with "_2", "_3" ... where that is taken
+    std::string take(const std::filesystem::path& file) {
+        return take(file.stem().string(), file.extension().string());
+    }
     std::string take(const std::string& name, const std::string& ending) {
         std::string free = name;
         int& last = last_[lower(name + ending)];
         last = std::max(last, 1);
-        while (!take(free + ending)) {
+        while (!put(free + ending)) {
             free = fmt::format("{}_{}", name, ++last);
         }
         return free + ending;
@@ -123,7 +126,7 @@ public:
 
 private:
     /// With the name that it is written under until it is whole.
-    bool take(const std::string& name) {
+    bool put(const std::string& name) {
         const std::string part = lower(name + std::string(kPart));
         const bool free = taken_.count(lower(name)) == 0 && taken_.count(part) == 0;
         if (free) {
@@ -200,9 +203,9 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
 
 std::vector<std::string> csv_names(const Recording& recording) {
     Names names;
-    (void)names.take(std::string(kEventsFile), "");
+    (void)names.take(std::filesystem::path(kEventsFile));
     for (const mcap::Attachment& attachment : recording.attachments) {
-        (void)names.take(attachment.name, "");
+        (void)names.take(std::filesystem::path(attachment.name));
     }
     std::vector<std::string> list;
     for (const Table& table : recording.tables) {
@@ -230,9 +233,9 @@ std::vector<std::filesystem::path> write_attachments(const Recording& recording,
                                                      const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     Names names;
-    (void)names.take(std::string(kEventsFile), "");
+    (void)names.take(std::filesystem::path(kEventsFile));
     for (const mcap::Attachment& attachment : recording.attachments) {
-        files.push_back(write_whole(folder / names.take(attachment.name, ""),
+        files.push_back(write_whole(folder / names.take(std::filesystem::path(attachment.name)),
                                     [&](std::ostream& file) { file << attachment.text; }));
     }
     return files;

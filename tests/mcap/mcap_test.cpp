@@ -482,7 +482,7 @@ TEST(McapReader, ReadsFilesThatArePackedAsAWhole) {
     }
     store(folder / "text.zst", zstd_frame(bytes_of("surfaces:\n")));
     expect_refused(folder / "text.zst", "what is packed in it does not begin as an MCAP file does");
-    store(folder / "none.zst", {0x28, 0xB5, 0x2F, 0xFD, 0xFF, 0xFF});
+    store(folder / "none.zst", Bytes{0x28, 0xB5, 0x2F, 0xFD, 0xFF, 0xFF});
     expect_refused(folder / "none.zst", "what is packed in it does not begin");
 }
 

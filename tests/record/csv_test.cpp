@@ -94,7 +94,7 @@ TEST(Csv, NoFileIsWrittenOverAnother) {
     const auto files = write_csv(recording, folder / "made");
     EXPECT_THAT(csv_names(recording),
                 ElementsAre("a_b.csv", "a_b_2.csv", "a_b_3.csv", "A_B_4.csv", "events_2.csv",
-                            "a_b_2_2.csv", "note_2.csv", std::string(200, 'n') + ".csv"));
+                            "a_b_2_2.csv", "note_3.csv", std::string(200, 'n') + ".csv"));
     ASSERT_EQ(files.size(), 9U);
     for (int i = 0; i < 8; ++i) {
         EXPECT_EQ(load_text(files[static_cast<std::size_t>(i)]),
@@ -106,7 +106,7 @@ TEST(Csv, NoFileIsWrittenOverAnother) {
     for (std::size_t i = 0; i < attached.size(); ++i) {
         EXPECT_EQ(load_text(attached[i]), recording.attachments[i].text);
     }
-    EXPECT_EQ(load_text(folder / "made/note_2.csv"), "time_s,x\n0,7\n");
+    EXPECT_EQ(load_text(folder / "made/note_3.csv"), "time_s,x\n0,7\n");
     EXPECT_THAT(renamed_topics(recording),
                 testing::Contains("topic \"/a_b\" is in a_b_2.csv: another file has the name"));
 }
