@@ -175,7 +175,8 @@ void calibrate(CalibrateOptions options) {
                                      fmt::join(fit.notes, "; ")));
     }
     fmt::print("{}",
-               options.json ? json_of(fit, rows, data.kind).dump(2) + "\n" : text_of(fit, rows));
+               options.json ? json_of(fit, rows, data.kind)
+                       .dump(2, ' ', false, CalibrateJson::error_handler_t::replace) + "\n" : text_of(fit, rows));
     if (!options.json) {
         std::string sets = options.vehicle == CalibrateOptions().vehicle
                                ? ""
