@@ -174,9 +174,11 @@ void calibrate(CalibrateOptions options) {
         throw InputError(fmt::format("{}: tells none of the numbers: {}", options.log,
                                      fmt::join(fit.notes, "; ")));
     }
-    fmt::print("{}",
-               options.json ? json_of(fit, rows, data.kind)
-                       .dump(2, ' ', false, CalibrateJson::error_handler_t::replace) + "\n" : text_of(fit, rows));
+    fmt::print("{}", options.json
+                         ? json_of(fit, rows, data.kind)
+                                   .dump(2, ' ', false, CalibrateJson::error_handler_t::replace) +
+                               "\n"
+                         : text_of(fit, rows));
     if (!options.json) {
         std::string sets = options.vehicle == CalibrateOptions().vehicle
                                ? ""

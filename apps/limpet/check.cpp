@@ -164,7 +164,8 @@ void check_yaml(const Checked& it) {
 /// A recording, one that is being written or was cut short, or one that is packed as a whole.
 bool is_recording_name(const fs::path& file) {
     const std::string ending = file.extension().string();
-    const bool more = ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
+    const bool more =
+        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
     return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/px4_crew.hpp"
 
-#include <new>
 #include <fmt/format.h>
 
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -125,7 +125,8 @@ Progress run_campaign_on_px4(Results& results, const Px4Crew& crew, const Campai
         std::vector<std::jthread> seats;
         for (int number = 0; number < crew.instances; ++number) {
             try {
-                seats.emplace_back([&, number] { take_seat(results, crew, number, ledger, watch); });
+                seats.emplace_back(
+                    [&, number] { take_seat(results, crew, number, ledger, watch); });
             } catch (...) {  // no thread, no memory: without it nothing is right
                 ledger.fail(std::current_exception());
             }

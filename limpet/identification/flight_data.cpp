@@ -188,8 +188,8 @@ std::vector<OutputRange> ranges_of(const Rows& rows) {
 }
 
 /// PX4 up to v1.13: what goes to the motors' controllers, in microseconds. As actuator_motors has
-/// it since, 0..1 of thrust, before THR_MDL_FAC bends it (mixer_module; thrust = f s^2 + (1 - f) s).
-/// Source: docs.px4.io, "Thrust model"; PX4-Autopilot v1.13 src/lib/mixer_module
+/// it since, 0..1 of thrust, before THR_MDL_FAC bends it (mixer_module; thrust = f s^2 + (1 - f)
+/// s). Source: docs.px4.io, "Thrust model"; PX4-Autopilot v1.13 src/lib/mixer_module
 void add_outputs(const record::Recording& log, FlightData& data) {
     std::string topic = "actuator_outputs", bank = "MAIN";
     std::vector<OutputRange> ranges = ranges_of(Rows(log, topic));
@@ -387,9 +387,9 @@ record::Recording in_order(record::Recording recording) {
     constexpr double kMostBack_s = 1.0;
     for (Table& table : recording.tables) {
         if (const std::size_t late = put_in_order(table, kMostBack_s); late > 0) {
-            recording.remarks.push_back(fmt::format(
-                "{}: {} sample{} out of order, put in {}", table.topic, late,
-                late == 1 ? "" : "s", late == 1 ? "its place" : "their places"));
+            recording.remarks.push_back(fmt::format("{}: {} sample{} out of order, put in {}",
+                                                    table.topic, late, late == 1 ? "" : "s",
+                                                    late == 1 ? "its place" : "their places"));
         }
     }
     return recording;

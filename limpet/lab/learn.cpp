@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/learn.hpp"
 
-#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/lane_group.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/many.hpp"
 
-#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <fstream>
+#include <new>
 
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"

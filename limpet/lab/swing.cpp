@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/lab/swing.hpp"
 
-#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"

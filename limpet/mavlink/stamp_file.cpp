@@ -191,8 +191,7 @@ void StampFile::work(const std::stop_token& over, std::chrono::milliseconds ever
         std::string trouble;
         try {
             const int error = write_whole(path_, stamps, Flush::later);
-            trouble =
-                error == 0 ? "" : fmt::format("{}: {}", path_.string(), std::strerror(error));
+            trouble = error == 0 ? "" : fmt::format("{}: {}", path_.string(), std::strerror(error));
         } catch (const std::bad_alloc&) {
             trouble = "no memory";  // short enough to lie in the object
         }

@@ -35,9 +35,10 @@ void unpack_file(const std::string& name, Content& content) {
         std::min(unpacked_allowance_bytes(content.stored_bytes), kMost_bytes);
     content.bytes = unpacked_file(content.bytes, most);
     if (content.bytes.size() > most) {
-        throw InputError(fmt::format("{}: unpacks to more than {} MB, which no recording of {} "
-                                     "bytes does",
-                                     name, most / 1'000'000, content.stored_bytes));
+        throw InputError(
+            fmt::format("{}: unpacks to more than {} MB, which no recording of {} "
+                        "bytes does",
+                        name, most / 1'000'000, content.stored_bytes));
     }
 }
 
@@ -176,8 +177,7 @@ private:
         if (opcode == OpCode::schema || opcode == OpCode::attachment) {
             kept_.take_bytes(kRecord_bytes + content.size());
         } else if (opcode == OpCode::channel || opcode == OpCode::metadata) {
-            kept_.take_bytes(kRecord_bytes +
-                             content.size() / kLeastEntry_bytes * kEntry_bytes);
+            kept_.take_bytes(kRecord_bytes + content.size() / kLeastEntry_bytes * kEntry_bytes);
         }
     }
 

@@ -41,9 +41,8 @@ public:
         while (true) {
             std::size_t took = packed.size() - progress.at;
             std::size_t gave = room - written;
-            const std::size_t hint =
-                LZ4F_decompress(
-                context_, out + written, &gave, packed.data() + progress.at, &took, nullptr);
+            const std::size_t hint = LZ4F_decompress(context_, out + written, &gave,
+                                                     packed.data() + progress.at, &took, nullptr);
             if (LZ4F_isError(hint) != 0) {
                 LZ4F_resetDecompressionContext(context_);
                 progress.broken = true;
@@ -143,8 +142,8 @@ void Unpacker::unpack(std::string_view compression, ByteView stored, Bytes& out)
     Lz4& lz4 = contexts_->lz4;
     lz4.reset();
     Progress progress;
-    const std::size_t size = lz4.unpack(Cursor::text(stored), progress,
-                                        reinterpret_cast<char*>(out.data()), out.size());
+    const std::size_t size =
+        lz4.unpack(Cursor::text(stored), progress, reinterpret_cast<char*>(out.data()), out.size());
     std::size_t more = 0;
     if (!progress.whole && !progress.broken) {  // with the room full, its end is not read yet
         char beyond = 0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/rare/rare_campaign.hpp"
 
-#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -74,7 +74,7 @@ private:
                 workers.emplace_back(fly_on);
             }
         } catch (const std::system_error&) {  // those there are will do
-        } catch (const std::bad_alloc&) {  // nor is there memory for more
+        } catch (const std::bad_alloc&) {     // nor is there memory for more
         }
         fly_on();
     }

@@ -40,8 +40,7 @@ std::string value_text(const Column& column, std::size_t row) {
     const auto bits = static_cast<std::uint64_t>(whole);
     switch (column.kind) {
         case Whole::uint64: return fmt::format("{}", bits);
-        case Whole::nanoseconds:
-            return whole < 0 ? "-" + seconds_of(~bits + 1) : seconds_of(bits);
+        case Whole::nanoseconds: return whole < 0 ? "-" + seconds_of(~bits + 1) : seconds_of(bits);
         case Whole::int64:
         case Whole::none: break;
     }

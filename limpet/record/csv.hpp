@@ -14,7 +14,8 @@ namespace limpet::record {
 /// Writes a recording as CSV (RFC 4180, but lines end in "\n"): one file a topic, `/truth/pose` as
 /// truth_pose.csv, with units in the column names, and events.csv with the values of an event as
 /// `name=value;name=value`. Numbers are the shortest that read back exactly; nan and inf as such;
-/// times and 64-bit integers with all digits. No file is written over another: csv_names(). Each file is written beside its place and renamed: none is ever half there.
+/// times and 64-bit integers with all digits. No file is written over another: csv_names(). Each
+/// file is written beside its place and renamed: none is ever half there.
 /// @param folder  made if it is not there
 /// @return the files, in the order of the topics, events.csv last
 /// @throws InputError if a file cannot be written, naming it; Interrupted between two
@@ -22,8 +23,9 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
                                              const std::filesystem::path& folder,
                                              const Work& work = {});
 
-/// @return the files' names, one a table; empty for tables of events, which are in events.csv. Names
-/// differ from each other, from events.csv and from those of attachments, in more than capitals:
+/// @return the files' names, one a table; empty for tables of events, which are in events.csv.
+/// Names differ from each other, from events.csv and from those of attachments, in more than
+/// capitals:
 /// "_2" and so on is appended.
 [[nodiscard]] std::vector<std::string> csv_names(const Recording& recording);
 

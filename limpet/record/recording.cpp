@@ -69,12 +69,12 @@ void open(const mcap::Contents& contents, const mcap::Channel& channel, Allowanc
     const auto schema = contents.schemas.find(channel.schema_id);
     if (schema == contents.schemas.end() || schema->second.encoding != "ros2msg" ||
         channel.message_encoding != "cdr") {
-        throw NotTaken(fmt::format(
-            "messages in {} with {}; those in cdr with a schema in ros2msg are",
-            in_quotes(channel.message_encoding),
-            schema == contents.schemas.end()
-                ? std::string("no schema")
-                : "a schema in " + in_quotes(schema->second.encoding)));
+        throw NotTaken(
+            fmt::format("messages in {} with {}; those in cdr with a schema in ros2msg are",
+                        in_quotes(channel.message_encoding),
+                        schema == contents.schemas.end()
+                            ? std::string("no schema")
+                            : "a schema in " + in_quotes(schema->second.encoding)));
     }
     if (is_of_service(schema->second.name)) {
         throw NotTaken("a service's events, with requests and responses as arrays of messages");
@@ -170,30 +170,30 @@ Recording read_recording(const std::filesystem::path& path) {
     Allowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
     LeftOut unread, not_taken;
-    mcap::Contents contents = mcap::read(path, [&](const mcap::Contents& so_far,
-                                                   const mcap::Message& message) {
-        const auto [at, is_new] = topics.try_emplace(message.channel_id);
-        TopicReader& topic = at->second;
-        const mcap::Channel& channel = so_far.channels.at(message.channel_id);
-        try {
-            if (is_new && !is_of_scene(channel.topic)) {
-                open(so_far, channel, allowance, topic);
+    mcap::Contents contents =
+        mcap::read(path, [&](const mcap::Contents& so_far, const mcap::Message& message) {
+            const auto [at, is_new] = topics.try_emplace(message.channel_id);
+            TopicReader& topic = at->second;
+            const mcap::Channel& channel = so_far.channels.at(message.channel_id);
+            try {
+                if (is_new && !is_of_scene(channel.topic)) {
+                    open(so_far, channel, allowance, topic);
+                }
+                if (topic.reader) {
+                    topic.reader->append(message.log_time_ns, message.data);
+                }
+            } catch (const TooMuch& problem) {
+                throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
+            } catch (const NotTaken& problem) {
+                topic.reader.reset();
+                not_taken.add(
+                    fmt::format("topic {} is not taken: {}", plain(channel.topic), problem.what()));
+            } catch (const InputError& problem) {
+                topic.reader.reset();
+                unread.add(
+                    fmt::format("topic {} is not read: {}", plain(channel.topic), problem.what()));
             }
-            if (topic.reader) {
-                topic.reader->append(message.log_time_ns, message.data);
-            }
-        } catch (const TooMuch& problem) {
-            throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
-        } catch (const NotTaken& problem) {
-            topic.reader.reset();
-            not_taken.add(fmt::format("topic {} is not taken: {}", plain(channel.topic),
-                                      problem.what()));
-        } catch (const InputError& problem) {
-            topic.reader.reset();
-            unread.add(
-                fmt::format("topic {} is not read: {}", plain(channel.topic), problem.what()));
-        }
-    });
+        });
 
     Recording recording;
     recording.path = path;

@@ -54,10 +54,10 @@ struct Recording {
 [[nodiscard]] bool begins_as_recording(std::string_view head);
 
 /// Reads a whole recording, or what is whole in a damaged one: see Recording::damage. Any MCAP file
-/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone. Topics of another encoding,
-/// of arrays of messages, of services' events and of wide characters are named in `remarks`, those
-/// whose definition makes no sense in `damage`.
-/// A file that zstd or LZ4 has packed as a whole is read as it is.
+/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone. Topics of another
+/// encoding, of arrays of messages, of services' events and of wide characters are named in
+/// `remarks`, those whose definition makes no sense in `damage`. A file that zstd or LZ4 has packed
+/// as a whole is read as it is.
 /// @throws InputError if path is no MCAP file, or asks for more memory than one of its size may
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 

@@ -115,8 +115,7 @@ std::uint64_t cell_bytes(const Column& column) {
 
 }  // namespace
 
-TableReader::TableReader(const std::vector<MessageType>& types, Table& table,
-                         Allowance& allowance)
+TableReader::TableReader(const std::vector<MessageType>& types, Table& table, Allowance& allowance)
     : table_(table), allowance_(allowance) {
     table_.type = types.front().name;
     Types by_name;
@@ -153,8 +152,8 @@ void TableReader::flatten(const Types& types, const MessageType& type, const std
                                        field.nested_type, field.name));
         }
         if (!primitive && nested == nullptr) {
-            throw InputError(fmt::format("{}: unknown type: {} {}", type.name, field.nested_type,
-                                         field.name));
+            throw InputError(
+                fmt::format("{}: unknown type: {} {}", type.name, field.nested_type, field.name));
         }
         const std::size_t count = dynamic ? 1 : field.count;
         for (std::size_t i = 0; i < count; ++i) {

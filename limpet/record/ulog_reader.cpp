@@ -262,8 +262,8 @@ private:
         if (type == "float" || type == "int32_t") {
             allowance_.take_bytes(kNode_bytes);
             recording_.metadata[std::string(kPx4Parameters)][std::string(key.substr(blank + 1))] =
-                fmt::format("{}", type == "float" ? read_as<float>(value)
-                                                  : read_as<std::int32_t>(value));
+                fmt::format("{}",
+                            type == "float" ? read_as<float>(value) : read_as<std::int32_t>(value));
         }
     }
 

@@ -15,11 +15,11 @@ inline constexpr std::string_view kPx4Parameters = "px4_parameters";
 /// `distance_sensor.1`: a column a field, of arrays and nested messages one an element
 /// ("xyz[0]", "esc[1].esc_rpm"), times in seconds since the autopilot's boot.
 /// Parameters are metadata; logged texts and dropouts are passed over. A topic that is subscribed
-/// again goes on in its table; what a message is too short for is NaN. A log that ends in the middle of a
-/// message is read up to there (Recording::damage).
-/// @throws InputError one line: no such file, no log of PX4's, a definition that makes no sense, one
-/// that takes more memory or time than a log of its size may (core/allowance.hpp)
-/// Format: https://docs.px4.io/main/en/dev_log/ulog_file_format.html
+/// again goes on in its table; what a message is too short for is NaN. A log that ends in the
+/// middle of a message is read up to there (Recording::damage).
+/// @throws InputError one line: no such file, no log of PX4's, a definition that makes no sense,
+/// one that takes more memory or time than a log of its size may (core/allowance.hpp) Format:
+/// https://docs.px4.io/main/en/dev_log/ulog_file_format.html
 [[nodiscard]] Recording read_ulog(const std::filesystem::path& path);
 
 }  // namespace limpet::record

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/serve/server.hpp"
 
-#include <new>
 #include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <boost/asio/steady_timer.hpp>
+#include <new>
 #include <thread>
 
 #include "limpet/core/errors.hpp"

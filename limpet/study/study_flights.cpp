@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <new>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -38,7 +38,7 @@ public:
                     others.emplace_back(fly_on);
                 }
             } catch (const std::system_error&) {  // those there are will do
-            } catch (const std::bad_alloc&) {  // nor is there memory for more
+            } catch (const std::bad_alloc&) {     // nor is there memory for more
             }
             fly_on();
         }

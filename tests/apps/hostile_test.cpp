@@ -136,9 +136,9 @@ TEST(Hostile, NoMemoryEndsInALine) {
 #endif
     const Bench bench;
     const auto under = [&](const std::string& limit, const std::string& arguments) {
-        const std::string command =
-            "cd '" + bench.folder().string() + "' && ulimit -c 0 && ulimit " + limit + " && exec '" +
-            std::string(LIMPET_PROGRAM) + "' " + arguments + " >out 2>err";
+        const std::string command = "cd '" + bench.folder().string() +
+                                    "' && ulimit -c 0 && ulimit " + limit + " && exec '" +
+                                    std::string(LIMPET_PROGRAM) + "' " + arguments + " >out 2>err";
         const int status = std::system(("exec sh -c \"" + command + "\"").c_str());
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     };
@@ -151,8 +151,8 @@ TEST(Hostile, NoMemoryEndsInALine) {
             fs::remove_all(bench.folder() / "c");
             const int code = under("-v " + std::string(kB), verb);
             const std::string err = text_of(bench.folder() / "err");
-            EXPECT_TRUE(code == 0 || code == 2 || code == 127) << kB << " " << verb << ": " << code
-                                                               << " " << err;
+            EXPECT_TRUE(code == 0 || code == 2 || code == 127)
+                << kB << " " << verb << ": " << code << " " << err;
             if (code == 2) {
                 EXPECT_THAT(err, HasSubstr("limpet: ")) << kB << " " << verb;
                 EXPECT_THAT(err, Not(HasSubstr("terminate"))) << kB << " " << verb;

@@ -29,17 +29,19 @@ std::string log_parameter(const std::string& key, const auto& value) {
 /// As PX4 up to v1.13 logs: a gyro, and what goes to the motors' controllers.
 struct OldLog {
     std::string bytes = std::string("ULog\x01\x12\x35\x01", 8) + raw(std::uint64_t{0}) +
-                        log_message('F', "sensor_combined:uint64_t timestamp;float[3] gyro_rad;"
-                                         "float[3] accelerometer_m_s2;") +
-                        log_message('F', "actuator_outputs:uint64_t timestamp;uint32_t noutputs;"
-                                         "float[16] output;uint8_t[4] _padding0;");
+                        log_message('F',
+                                    "sensor_combined:uint64_t timestamp;float[3] gyro_rad;"
+                                    "float[3] accelerometer_m_s2;") +
+                        log_message('F',
+                                    "actuator_outputs:uint64_t timestamp;uint32_t noutputs;"
+                                    "float[16] output;uint8_t[4] _padding0;");
     void subscribe() {
         bytes += log_message('A', '\0' + raw(std::uint16_t{0}) + "sensor_combined") +
                  log_message('A', '\0' + raw(std::uint16_t{1}) + "actuator_outputs");
     }
     void gyro(double time_s, float x) {
-        bytes += log_message('D', raw(std::uint16_t{0}) + microseconds(time_s) + raw(x) +
-                                      std::string(20, '\0'));
+        bytes += log_message(
+            'D', raw(std::uint16_t{0}) + microseconds(time_s) + raw(x) + std::string(20, '\0'));
     }
     void outputs(double time_s, std::initializer_list<float> values) {
         std::string row = raw(std::uint16_t{1}) + microseconds(time_s) + raw(std::uint32_t{4});

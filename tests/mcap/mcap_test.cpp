@@ -367,9 +367,11 @@ void expect_refused(const std::filesystem::path& path, const std::string& why) {
     }
 }
 
-// What others pack, byte by byte from the formats' descriptions: the reader has it from their libraries.
+// What others pack, byte by byte from the formats' descriptions: the reader has it from their
+// libraries.
 
-/// A frame of LZ4 with one block, stored as it is where it is not packed (lz4_Frame_format.md 1.6.4).
+/// A frame of LZ4 with one block, stored as it is where it is not packed
+/// (lz4_Frame_format.md 1.6.4).
 Bytes lz4_frame(ByteView block, bool packed) {
     Expected e;
     e.raw({0x04, 0x22, 0x4D, 0x18, 0x60, 0x40, 0x82});

@@ -78,8 +78,11 @@ TEST(Csv, NoFileIsWrittenOverAnother) {
     const TestFolder folder;
     Recording recording;
     const auto add = [&recording](const char* topic, double x) {
-        recording.tables.push_back(
-            {.topic = topic, .type = "p/msg/P", .time_s = {0.0}, .columns = {{"x", {x}}}, .texts = {}});
+        recording.tables.push_back({.topic = topic,
+                                    .type = "p/msg/P",
+                                    .time_s = {0.0},
+                                    .columns = {{"x", {x}}},
+                                    .texts = {}});
     };
     add("/a/b", 1.0);
     add("/a_b", 2.0);
@@ -89,8 +92,10 @@ TEST(Csv, NoFileIsWrittenOverAnother) {
     add("/a_b_2", 6.0);
     add("/note", 7.0);
     add(std::string(300, 'n').c_str(), 8.0);
-    recording.attachments = {{"note.csv", "", "mine", 0}, {"note.csv", "", "again", 0},
-                             {"x.part", "", "part", 0},   {"x", "", "whole", 0}};
+    recording.attachments = {{"note.csv", "", "mine", 0},
+                             {"note.csv", "", "again", 0},
+                             {"x.part", "", "part", 0},
+                             {"x", "", "whole", 0}};
     const auto files = write_csv(recording, folder / "made");
     EXPECT_THAT(csv_names(recording),
                 ElementsAre("a_b.csv", "a_b_2.csv", "a_b_3.csv", "A_B_4.csv", "events_2.csv",
@@ -118,9 +123,13 @@ TEST(Csv, WholeNumbersAndTimesKeepTheirDigits) {
         {.topic = "/t",
          .type = "p/msg/P",
          .time_s = {1'700'000'000.1234567, 0.001},
-         .columns = {{"u", {1.7e18, 1.8446744073709552e19}, Whole::uint64, {1'700'000'000'123'456'789, -1}},
-                     {"i", {-9.2e18, kNaN}, Whole::int64, {-9'223'372'036'854'775'807, 0}},
-                     {"t", {-0.5, 1.7e9}, Whole::nanoseconds, {-500'000'000, 1'700'000'000'000'000'001}}},
+         .columns =
+             {{"u",
+               {1.7e18, 1.8446744073709552e19},
+               Whole::uint64,
+               {1'700'000'000'123'456'789, -1}},
+              {"i", {-9.2e18, kNaN}, Whole::int64, {-9'223'372'036'854'775'807, 0}},
+              {"t", {-0.5, 1.7e9}, Whole::nanoseconds, {-500'000'000, 1'700'000'000'000'000'001}}},
          .texts = {},
          .time_ns = {1'700'000'000'123'456'789, 1'000'000}});
     EXPECT_EQ(load_text(write_csv(recording, folder / "made")[0]),

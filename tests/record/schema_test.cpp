@@ -175,7 +175,8 @@ TEST_F(TableReaderTest, FlattensMessagesWithinMessagesAndArrays) {
     Table table;
     TableReader reader(parse_ros2msg("p/T", text), table, allowance);
     reader.append(0, std::vector<std::uint8_t>{0, 1, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0});
-    reader.append(1'000'000'000, std::vector<std::uint8_t>{0, 1, 0, 0, 5, 6, 7, 8, 2, 0, 0, 0, 9, 10});
+    reader.append(1'000'000'000,
+                  std::vector<std::uint8_t>{0, 1, 0, 0, 5, 6, 7, 8, 2, 0, 0, 0, 9, 10});
     EXPECT_THAT(column_names(table), ElementsAre("in[0].a", "in[0].b", "in[1].a", "in[1].b",
                                                  "list.length", "list[0]", "list[1]"));
     EXPECT_THAT(table.find("in[1].a")->values, ElementsAre(3.0, 7.0));
@@ -246,9 +247,9 @@ TEST_F(TableReaderTest, ANestedMessageWithoutFieldsIsAByte) {
     TableReader reader(parse_ros2msg("p/T", "uint8 a\nE e\nuint8 b\nE[3] list\nfloat64 c" + end +
                                                 "E\nuint8 KIND=3\n"),
                        table, allowance);
-    const std::vector<std::uint8_t> message = {0, 1, 0, 0,                       // head
-                                               7, 0, 8, 0, 0, 0, 0, 0,           // and two up to 8
-                                               0, 0, 0, 0, 0, 0, 4,    0x40};    // 2.5
+    const std::vector<std::uint8_t> message = {0, 1, 0, 0,                  // head
+                                               7, 0, 8, 0, 0, 0, 0, 0,      // and two up to 8
+                                               0, 0, 0, 0, 0, 0, 4, 0x40};  // 2.5
     reader.append(1, message);
     EXPECT_EQ(table.columns.size(), 3U);
     EXPECT_EQ(table.find("a")->values[0], 7.0);

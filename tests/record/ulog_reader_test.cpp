@@ -112,8 +112,7 @@ TEST(UlogReader, ASmallFileTakesLittleMemory) {
     const std::string name(60'000, 'n');
     const std::string whole = message('D', bytes(std::uint16_t{1}) + std::string(100, '\0'));
 
-    EXPECT_THAT(refusal(folder, kHead +
-                                    message('F', "a:uint64_t timestamp;float[9000] " + name) +
+    EXPECT_THAT(refusal(folder, kHead + message('F', "a:uint64_t timestamp;float[9000] " + name) +
                                     subscription(1, "a") + whole),
                 HasSubstr("a field's name of 60000 characters, allowed 1..128"));
 
@@ -184,11 +183,11 @@ TEST(UlogReader, ATopicThatIsSubscribedAgainGoesOn) {
 
 TEST(UlogReader, WhatIsNotInAMessageIsNoNumber) {
     const TestFolder folder;
-    const Recording log = read(
-        folder, kHead + message('F', "a:uint64_t timestamp;float x;double y") +
-                    subscription(1, "a") +
-                    message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}) + bytes(2.5F) +
-                                     bytes(7.0).substr(0, 5)));
+    const Recording log =
+        read(folder, kHead + message('F', "a:uint64_t timestamp;float x;double y") +
+                         subscription(1, "a") +
+                         message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}) +
+                                          bytes(2.5F) + bytes(7.0).substr(0, 5)));
     EXPECT_THAT(log.series("a", "x").values, ElementsAre(2.5));
     EXPECT_TRUE(std::isnan(log.series("a", "y").values[0]));
 }

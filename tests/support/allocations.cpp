@@ -7,7 +7,7 @@
 namespace {
 thread_local long count = 0;
 thread_local unsigned long bytes = 0;
-}
+}  // namespace
 
 void* operator new(std::size_t size) {
     ++count;
