@@ -158,6 +158,14 @@ const mcap::Attachment* Recording::attachment(std::string_view name) const {
     return find_by(attachments, &mcap::Attachment::name, name);
 }
 
+std::string_view summary_text(const Recording& recording) {
+    constexpr std::size_t kMost_bytes = 1'000'000;
+    const mcap::Attachment* attached = recording.attachment("summary.json");
+    return attached != nullptr && attached->text.size() <= kMost_bytes
+               ? std::string_view(attached->text)
+               : std::string_view();
+}
+
 bool begins_as_recording(std::string_view head) {
     return std::equal(mcap::kMagic.begin(), mcap::kMagic.end(), head.begin(), head.end(),
                       [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }) ||

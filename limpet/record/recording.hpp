@@ -49,6 +49,10 @@ struct Recording {
     [[nodiscard]] const mcap::Attachment* attachment(std::string_view name) const;
 };
 
+/// @return the attached summary.json; empty where there is none, or one that is larger than any
+/// flight's: as a tree it takes many times its size
+[[nodiscard]] std::string_view summary_text(const Recording& recording);
+
 /// @param head  eight bytes of a file
 /// @return whether it begins as read_recording() takes it, packed as a whole or not
 [[nodiscard]] bool begins_as_recording(std::string_view head);

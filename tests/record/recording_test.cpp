@@ -215,6 +215,18 @@ TEST(Recording, WhatIsBeyondAllIsRefusedAsAWhole) {
               (folder / "a.mcap").string() + ": more than 4000000 bytes of message definitions");
 }
 
+TEST(Recording, ASummaryThatIsNoFlightsIsNotTaken) {
+    Recording recording;
+    EXPECT_EQ(summary_text(recording), "");
+    recording.attachments = {{"summary.json", "application/json", "{}", 0}};
+    EXPECT_EQ(summary_text(recording), "{}");
+    recording.attachments[0].text.assign(1'000'001, '[');
+    EXPECT_EQ(summary_text(recording), "");
+    EXPECT_EQ(begins_as_recording("\x89MCAP0\r\n"), true);
+    EXPECT_EQ(begins_as_recording(std::string("\x04\x22\x4D\x18`@\x82x")), true);
+    EXPECT_EQ(begins_as_recording(std::string("ULog\x01\x12\x35\x01")), false);
+}
+
 TEST(Recording, RefusesWhatIsNone) {
     const TestFolder folder;
     EXPECT_THROW((void)read_recording(folder / "none.mcap"), InputError);
