@@ -143,7 +143,8 @@ TEST(Hostile, NoMemoryEndsInALine) {
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     };
     int short_of = 0, enough = 0;
-    for (const char* kB : {"90000", "110000", "130000", "160000", "200000", "300000", "4000000"}) {
+    for (const char* kB :
+         {"25000", "60000", "90000", "110000", "130000", "160000", "200000", "300000", "4000000"}) {
         for (const std::string& verb :
              {std::string("campaign smoke --jobs 8 --out c --quiet"),
               std::string("fly hover --set simulation.hover_s=0.1 --no-figures --out o"),
