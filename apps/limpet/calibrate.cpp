@@ -162,6 +162,7 @@ void calibrate(CalibrateOptions options) {
         }
         require_known_motion(scenario.airframe, options.vehicle);
         fit = identify_vehicle(data, scenario.airframe);
+        fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
     } catch (const InputError& error) {
         const std::string why = error.what();
         throw InputError(why.find(options.log) == std::string::npos ? options.log + ": " + why
@@ -173,8 +174,11 @@ void calibrate(CalibrateOptions options) {
         throw InputError(fmt::format("{}: tells none of the numbers: {}", options.log,
                                      fmt::join(fit.notes, "; ")));
     }
-    fmt::print("{}",
-               options.json ? json_of(fit, rows, data.kind).dump(2) + "\n" : text_of(fit, rows));
+    fmt::print("{}", options.json
+                         ? json_of(fit, rows, data.kind)
+                                   .dump(2, ' ', false, CalibrateJson::error_handler_t::replace) +
+                               "\n"
+                         : text_of(fit, rows));
     if (!options.json) {
         std::string sets = options.vehicle == CalibrateOptions().vehicle
                                ? ""

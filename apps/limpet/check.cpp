@@ -73,6 +73,9 @@ void check_recording(const std::string& file) {
     }
     fmt::print("{}: a whole recording, {} topics, {} events\n", file, recording.tables.size(),
                recording.events.size());
+    for (const std::string& remark : recording.remarks) {
+        fmt::print("  {}\n", remark);
+    }
 }
 
 /// What is checked, and how its user calls it: by a name or by its file.
@@ -145,6 +148,9 @@ void check_log(const Checked& it) {
         }
     }
     fmt::print("{}: a good log ({}), samples: {}\n", it.name, log.kind, fmt::join(parts, ", "));
+    for (const std::string& remark : log.remarks) {
+        fmt::print("  {}\n", remark);
+    }
 }
 
 void check_yaml(const Checked& it) {
@@ -156,15 +162,18 @@ void check_yaml(const Checked& it) {
     }
 }
 
-/// How a file's name ends, also while it is being written: flight.mcap.part.
-std::string ending_of(const fs::path& file) {
-    return (file.extension() == ".part" ? file.stem() : file).extension().string();
+/// A recording, one that is being written or was cut short, or one that is packed as a whole.
+bool is_recording_name(const fs::path& file) {
+    const std::string ending = file.extension().string();
+    const bool more =
+        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
+    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 
 /// By how its name ends, and YAML by what is in it.
 void check_file(const Checked& it) {
-    const std::string ending = ending_of(it.file);
-    if (ending == ".mcap") {
+    const std::string ending = it.file.extension().string();
+    if (is_recording_name(it.file)) {
         check_recording(it.file.string());
     } else if (ending == ".csv" || ending == ".ulg") {
         check_log(it);
@@ -238,8 +247,8 @@ void check_name(const std::string& name) {
 
 void check_wanted(const std::string& wanted) {
     const fs::path path(wanted);
-    const std::string ending = ending_of(path);
-    const bool file = scenario::is_path(wanted) || ending == ".mcap" || ending == ".csv" ||
+    const std::string ending = path.extension().string();
+    const bool file = scenario::is_path(wanted) || is_recording_name(path) || ending == ".csv" ||
                       ending == ".ulg" || ending == ".txt";
     if (file && path.parent_path() == "samples") {  // as pages print it, from any folder
         check_file({wanted, scenario::find_sample(wanted, {})});

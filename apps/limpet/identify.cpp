@@ -237,8 +237,11 @@ void identify(IdentifyOptions options) {
     if (draws) {
         (void)make_folder(folder);
     }
-    fmt::print("{}", options.json ? json_of(fit, rows, surface).dump(2) + "\n"
-                                  : text_of(fit, rows, surface));
+    fmt::print("{}", options.json
+                         ? json_of(fit, rows, surface)
+                                   .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+                               "\n"
+                         : text_of(fit, rows, surface));
     if (!draws) {
         return;
     }

@@ -132,7 +132,7 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
         json["own_share"] = *own_share;
     }
     std::vector<std::filesystem::path> files = {folder / "link.json"};
-    write_file(files.front(), json.dump(2) + "\n");
+    write_file(files.front(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (figures) {
         const auto drawn = draw(hil, folder);
         files.insert(files.end(), drawn.begin(), drawn.end());

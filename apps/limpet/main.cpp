@@ -4,9 +4,13 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
@@ -52,10 +56,38 @@ void fill_closed_streams() {
     }
 }
 
+/// Asks for no memory.
+ExitCode out_of_memory() noexcept {
+    constexpr std::string_view kLine =
+        "limpet: out of memory, or of threads: fewer jobs (--jobs), a smaller file, or a larger "
+        "limit (ulimit -v, -u)\n";
+    (void)!write(STDERR_FILENO, kLine.data(), kLine.size());
+    return ExitCode::bad_input;
+}
+
+bool is_shortage(const std::error_code& code) {
+    return code == std::errc::resource_unavailable_try_again ||
+           code == std::errc::not_enough_memory;
+}
+
+/// What has no memory left may come to an end where nothing can be caught.
+[[noreturn]] void end_in_a_line() noexcept {
+    try {
+        if (const std::exception_ptr thrown = std::current_exception()) {
+            std::rethrow_exception(thrown);
+        }
+    } catch (const std::bad_alloc&) {
+        _exit(static_cast<int>(out_of_memory()));
+    } catch (...) {  // a fault of ours: its place is worth more than a line
+    }
+    std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     fill_closed_streams();
+    std::set_terminate(end_in_a_line);
     std::signal(SIGXFSZ, SIG_IGN);  // a full disk is an error to report, not a death
     try {
         const ExitCode code =
@@ -75,7 +107,13 @@ int main(int argc, char** argv) {
         return fail(ExitCode::bad_input, error.what());
     } catch (const std::filesystem::filesystem_error& error) {  // a link to itself, no room
         return fail(ExitCode::bad_input, error.path1().string() + ": " + error.code().message());
+    } catch (const std::bad_alloc&) {
+        return static_cast<int>(out_of_memory());
     } catch (const std::exception& error) {
+        const auto* const of_system = dynamic_cast<const std::system_error*>(&error);
+        if (of_system != nullptr && is_shortage(of_system->code())) {
+            return static_cast<int>(out_of_memory());
+        }
         if (std::ferror(stdout) != 0) {
             return fail(ExitCode::bad_input, kNoOutput);
         }

@@ -84,7 +84,9 @@ draw::Pictures write_tables(const record::Recording& recording, const std::files
     const auto attached = write_attachments(recording, scratch.path() / "csv");
     files.insert(files.end(), attached.begin(), attached.end());
     work.say();
-    return {.files = draw::publish(files, folder / "csv"), .missing = {}};
+    std::vector<std::string> remarks = record::renamed_topics(recording);
+    remarks.insert(remarks.end(), recording.remarks.begin(), recording.remarks.end());
+    return {.files = draw::publish(files, folder / "csv"), .missing = std::move(remarks)};
 }
 
 /// Beside the recording, or in a folder, under its name.

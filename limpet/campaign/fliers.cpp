@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/fliers.hpp"
 
+#include <exception>
+#include <new>
 #include <system_error>
 
 #include "limpet/campaign/workers.hpp"
@@ -25,8 +27,13 @@ void fly_lane(const Campaign& campaign, RunSource& source, const std::atomic<boo
 
 }  // namespace
 
-void fly_assigned(const Campaign& campaign, RunSource& source, const std::atomic<bool>* stop) {
-    plant::fly_side_by_side([&] { fly_lane(campaign, source, stop); });
+void fly_assigned(const Campaign& campaign, RunSource& source,
+                  const std::atomic<bool>* stop) noexcept {
+    try {
+        plant::fly_side_by_side([&] { fly_lane(campaign, source, stop); });
+    } catch (...) {
+        source.fail(std::current_exception());
+    }
 }
 
 Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
@@ -40,6 +47,8 @@ Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
             });
         }
     } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        --flying_;
+    } catch (const std::bad_alloc&) {  // nor memory for them
         --flying_;
     }
 }

@@ -27,7 +27,8 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-/// The same in the calling thread.
-void fly_assigned(const Campaign& campaign, RunSource& source, const std::atomic<bool>* stop);
+/// The same in the calling thread; what is thrown goes to the source.
+void fly_assigned(const Campaign& campaign, RunSource& source,
+                  const std::atomic<bool>* stop) noexcept;
 
 }  // namespace limpet::campaign

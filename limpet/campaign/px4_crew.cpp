@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <thread>
 #include <vector>
 
@@ -94,6 +95,16 @@ void fly_assigned(const Seat& seat, const Campaign& campaign, RunSource& source,
     }
 }
 
+void take_seat(const Results& results, const Px4Crew& crew, int number, Ledger& ledger,
+               const CampaignWatch& watch) noexcept {
+    try {
+        const Seat seat(results.campaign(), crew, number, watch.stop);
+        fly_assigned(seat, results.campaign(), ledger, watch.stop);
+    } catch (...) {
+        ledger.fail(std::current_exception());
+    }
+}
+
 }  // namespace
 
 void Px4Crew::check() const {
@@ -113,10 +124,12 @@ Progress run_campaign_on_px4(Results& results, const Px4Crew& crew, const Campai
     {
         std::vector<std::jthread> seats;
         for (int number = 0; number < crew.instances; ++number) {
-            seats.emplace_back([&, number] {
-                const Seat seat(results.campaign(), crew, number, watch.stop);
-                fly_assigned(seat, results.campaign(), ledger, watch.stop);
-            });
+            try {
+                seats.emplace_back(
+                    [&, number] { take_seat(results, crew, number, ledger, watch); });
+            } catch (...) {  // no thread, no memory: without it nothing is right
+                ledger.fail(std::current_exception());
+            }
         }
     }
     return ledger.conclude();

@@ -179,7 +179,7 @@ std::string summary_json(const CampaignSummary& summary) {
                        {"failures", json_of(summary.failures, true)},
                        {"keys", keys},
                        {"metrics", metrics}};
-    return json.dump(2);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace limpet::campaign

@@ -122,7 +122,7 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
           {"p99", result.lateness.quantile_s(0.99)},
           {"p99_9", result.lateness.quantile_s(0.999)},
           {"worst", result.lateness.worst_s()}}}};
-    return json.dump(2);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace limpet::companion

@@ -76,11 +76,8 @@ ChannelDifference compare_channel(const FlightChannel& reference, const FlightCh
 /// The numbers of a flight's own summary.
 std::vector<std::pair<std::string, double>> metrics(const record::Recording& recording) {
     std::vector<std::pair<std::string, double>> found;
-    const mcap::Attachment* attached = recording.attachment("summary.json");
-    if (attached == nullptr) {
-        return found;
-    }
-    const auto json = nlohmann::ordered_json::parse(attached->text, nullptr, false);
+    const auto json =
+        nlohmann::ordered_json::parse(record::summary_text(recording), nullptr, false);
     if (!json.is_object() || !json.contains("metrics") || !json["metrics"].is_object()) {
         return found;
     }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <future>
+#include <system_error>
 #include <vector>
 
 namespace limpet {
@@ -26,8 +27,15 @@ void for_each_index(std::size_t count, int jobs, const Work& work) {
     };
     std::vector<std::future<void>> threads;
     const auto wanted = std::min(count, static_cast<std::size_t>(std::max(1, jobs)));
-    for (std::size_t i = 0; i < wanted; ++i) {
-        threads.push_back(std::async(std::launch::async, take));
+    try {
+        threads.reserve(wanted);
+        while (threads.size() < wanted) {
+            threads.push_back(std::async(std::launch::async, take));
+        }
+    } catch (const std::system_error&) {  // no more threads to be had: those there are will do
+        if (threads.empty()) {
+            take();
+        }
     }
     for (std::future<void>& thread : threads) {
         thread.get();  // the others end before their futures do

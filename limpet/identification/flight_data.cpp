@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
+#include <limits>
+#include <map>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
-#include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/identification/csv_line.hpp"
+#include "limpet/identification/flight_csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/ros_frames.hpp"
 #include "limpet/record/ulog_reader.hpp"
@@ -25,17 +25,21 @@ using record::Table;
 class Rows {
 public:
     Rows(const record::Recording& recording, std::string_view topic)
-        : table_(find_by(recording.tables, &Table::topic, topic)) {}
+        : table_(find_by(recording.tables, &Table::topic, topic)) {
+        for (std::size_t i = 0; table_ != nullptr && i < table_->columns.size(); ++i) {
+            columns_.emplace(table_->columns[i].name, &table_->columns[i]);
+        }
+    }
     [[nodiscard]] std::size_t count() const {
         return table_ == nullptr ? 0 : table_->time_s.size();
     }
     [[nodiscard]] const std::vector<double>& time_s() const { return table_->time_s; }
     [[nodiscard]] bool has(std::string_view column) const {
-        return table_ != nullptr && table_->find(column) != nullptr;
+        return columns_.find(column) != columns_.end();
     }
     [[nodiscard]] double at(std::string_view column, std::size_t row) const {
-        const record::Column* found = table_->find(column);
-        return found == nullptr ? kNaN : found->values[row];
+        const auto found = columns_.find(column);
+        return found == columns_.end() ? kNaN : found->second->values[row];
     }
     [[nodiscard]] Vector3 xyz(const std::string& path, std::size_t row) const {
         return {at(path + ".x", row), at(path + ".y", row), at(path + ".z", row)};
@@ -46,6 +50,7 @@ public:
 
 private:
     const Table* table_;
+    std::map<std::string_view, const record::Column*> columns_;  ///< a log may have thousands
 };
 
 /// Commands of the motors that there are: PX4 logs twelve and says NaN of those that are not.
@@ -70,7 +75,7 @@ void add_commands(const Rows& rows, const char* name, FlightData& data) {
 
 FlightData of_recording(const record::Recording& recording) {
     using record::ros::flu_from_frd;
-    FlightData data{.damage = recording.damage, .kind = "recording"};
+    FlightData data{.damage = recording.damage, .remarks = recording.remarks, .kind = "recording"};
     if (const auto* text = recording.attachment("scenario.yaml")) {
         data.scenario_yaml = text->text;
     }
@@ -120,8 +125,114 @@ void add_velocities(const Rows& position, const Rows& attitude, FlightData& data
     }
 }
 
+/// A parameter of the log; nothing where it has none, or -1, "as all".
+std::optional<double> parameter(const record::Recording& log, const std::string& name) {
+    const auto all = log.metadata.find(std::string(record::kPx4Parameters));
+    if (all == log.metadata.end()) {
+        return std::nullopt;
+    }
+    const auto found = all->second.find(name);
+    const auto value = found == all->second.end() ? std::nullopt : decimal(found->second);
+    return value && *value >= 0.0 ? value : std::nullopt;
+}
+
+/// Where an output's scale begins and ends [us].
+struct PwmScale {
+    double low = 1000.0, high = 2000.0;  ///< PX4's defaults
+};
+
+/// @param bank     "MAIN" or "AUX"
+/// @param channel  from 1
+PwmScale pwm_scale(const record::Recording& log, const std::string& bank, std::size_t channel) {
+    PwmScale scale;
+    for (const std::string& name : {std::string("PWM_{}"), "PWM_" + bank + "_{}",
+                                    "PWM_" + bank + "_{}" + std::to_string(channel)}) {
+        scale.low = parameter(log, fmt::format(fmt::runtime(name), "MIN")).value_or(scale.low);
+        scale.high = parameter(log, fmt::format(fmt::runtime(name), "MAX")).value_or(scale.high);
+    }
+    return scale.high > scale.low ? scale : PwmScale{};
+}
+
+/// An output over a log, and whether a motor hangs on it: it moves.
+struct OutputRange {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    [[nodiscard]] bool moves() const { return most > least + 0.01 * std::max(1.0, most); }
+    [[nodiscard]] bool is_pwm() const {
+        constexpr double kLeast_us = 800.0, kMost_us = 2200.0;
+        return most >= kLeast_us && most <= kMost_us && (least == 0.0 || least >= kLeast_us);
+    }
+    [[nodiscard]] bool is_share() const { return least >= 0.0 && most <= 1.0; }
+};
+
+/// The outputs up to the last that moves.
+std::vector<OutputRange> ranges_of(const Rows& rows) {
+    std::vector<OutputRange> ranges;
+    for (std::size_t i = 0; i < kMaxRotors && rows.has(fmt::format("output[{}]", i)); ++i) {
+        OutputRange range;
+        for (std::size_t row = 0; row < rows.count(); ++row) {
+            const double value = rows.at(fmt::format("output[{}]", i), row);
+            if (std::isfinite(value)) {
+                range.least = std::min(range.least, value);
+                range.most = std::max(range.most, value);
+            }
+        }
+        ranges.push_back(range);
+    }
+    while (!ranges.empty() && !ranges.back().moves()) {
+        ranges.pop_back();
+    }
+    return ranges;
+}
+
+/// PX4 up to v1.13: what goes to the motors' controllers, in microseconds. As actuator_motors has
+/// it since, 0..1 of thrust, before THR_MDL_FAC bends it (mixer_module; thrust = f s^2 + (1 - f)
+/// s). Source: docs.px4.io, "Thrust model"; PX4-Autopilot v1.13 src/lib/mixer_module
+void add_outputs(const record::Recording& log, FlightData& data) {
+    std::string topic = "actuator_outputs", bank = "MAIN";
+    std::vector<OutputRange> ranges = ranges_of(Rows(log, topic));
+    if (ranges.empty()) {
+        topic += ".1";
+        bank = "AUX";
+        ranges = ranges_of(Rows(log, topic));
+    }
+    const auto of_motors = [&ranges](bool (OutputRange::*is)() const) {
+        return std::all_of(ranges.begin(), ranges.end(), [is](const OutputRange& range) {
+            return !range.moves() || (range.*is)();
+        });
+    };
+    const bool share = of_motors(&OutputRange::is_share);
+    if (ranges.empty() || (!share && !of_motors(&OutputRange::is_pwm))) {
+        if (!ranges.empty()) {
+            data.remarks.push_back(topic +
+                                   " is neither PWM (800..2200 us) nor 0..1: motor commands are "
+                                   "not taken from it");
+        }
+        return;
+    }
+    const double bend = std::min(parameter(log, "THR_MDL_FAC").value_or(0.0), 1.0);
+    const Rows rows(log, topic);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const PwmScale scale = share ? PwmScale{0.0, 1.0} : pwm_scale(log, bank, i + 1);
+        const std::string column = fmt::format("output[{}]", i);
+        data.command.resize(rows.count(), RotorList<double>(ranges.size(), 0.0));
+        for (std::size_t row = 0; row < rows.count() && ranges[i].moves(); ++row) {
+            const double value = rows.at(column, row);
+            const double signal = std::isfinite(value)
+                                      ? (value - scale.low) / (scale.high - scale.low)
+                                      : 0.0;  // a motor that stands
+            const double s = std::clamp(signal, 0.0, 1.0);
+            data.command[row][i] = bend * s * s + (1.0 - bend) * s;
+        }
+    }
+    data.command_s = rows.time_s();
+    data.remarks.push_back(fmt::format(
+        "no actuator_motors: commands of {} motors are from {}, {}", ranges.size(), topic,
+        share ? "0..1" : "PWM by the log's PWM_*_MIN and MAX, else 1000..2000 us"));
+}
+
 FlightData of_px4(const record::Recording& log) {
-    FlightData data{.damage = log.damage, .kind = "PX4 log"};
+    FlightData data{.damage = log.damage, .remarks = log.remarks, .kind = "PX4 log"};
     const Rows sensors(log, "sensor_combined");
     for (std::size_t row = 0; row < sensors.count(); ++row) {
         data.rate_B_rad_s.push_back(sensors.each3("gyro_rad", row));
@@ -130,122 +241,17 @@ FlightData of_px4(const record::Recording& log) {
             row));
     }
     data.imu_s = sensors.count() > 0 ? sensors.time_s() : std::vector<double>{};
-    add_commands(Rows(log, "actuator_motors"), "control", data);
+    if (const Rows motors(log, "actuator_motors"); motors.count() > 0) {
+        add_commands(motors, "control", data);
+    } else {
+        add_outputs(log, data);
+    }
     add_velocities(Rows(log, "vehicle_local_position"), Rows(log, "vehicle_attitude"), data);
     const Rows cup(log, "limpet_cup");
     for (std::size_t row = 0; row < cup.count(); ++row) {
         data.pressure.t_s.push_back(cup.time_s()[row]);
         data.pressure.pressure_Pa.push_back(cup.at("pressure_pa", row));
     }
-    return data;
-}
-
-// --- CSV -----------------------------------------------------------------------------------------
-
-/// Where columns are; what is not there is past the end.
-struct CsvColumns {
-    std::vector<std::string> names;
-    [[nodiscard]] std::size_t of(const std::string& name) const {
-        return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
-                                        names.begin());
-    }
-    [[nodiscard]] bool has(const std::string& name) const { return of(name) < names.size(); }
-};
-
-/// A row's cell: nothing where it is empty.
-std::optional<double> cell(const CsvLine& line, const CsvColumns& columns,
-                           const std::vector<std::string_view>& fields, const std::string& name) {
-    const std::size_t at = columns.of(name);
-    if (at >= fields.size() || fields[at].empty()) {
-        return std::nullopt;
-    }
-    const auto value = decimal(std::string(fields[at]));
-    if (!value) {
-        line.refuse("{} is {}, not a finite number", name, in_quotes(fields[at]));
-    }
-    return value;
-}
-
-/// All three or none.
-std::optional<Vector3> three(const CsvLine& line, const CsvColumns& columns,
-                             const std::vector<std::string_view>& fields, const char* pattern) {
-    Vector3 v;
-    int there = 0;
-    for (int i = 0; i < 3; ++i) {
-        const std::string name = fmt::format(fmt::runtime(pattern), "xyz"[i]);
-        if (const auto value = cell(line, columns, fields, name)) {
-            v[i] = *value;
-            ++there;
-        }
-    }
-    if (there > 0 && there < 3) {
-        line.refuse("{} of the three {} are there", there, fmt::format(fmt::runtime(pattern), '*'));
-    }
-    return there == 3 ? std::optional(v) : std::nullopt;
-}
-
-void add_row(const CsvLine& line, const CsvColumns& columns, FlightData& data, double& last_s) {
-    const auto fields = csv_fields(line.text);
-    if (fields.size() != columns.names.size()) {
-        line.refuse("{} fields, the header has {}", fields.size(), columns.names.size());
-    }
-    const auto time_s = cell(line, columns, fields, "t_s");
-    if (!time_s || *time_s <= last_s) {
-        line.refuse("t_s must be there and rise");
-    }
-    last_s = *time_s;
-    const auto gyro = three(line, columns, fields, "gyro_{}_rad_s");
-    const auto accelerometer = three(line, columns, fields, "accel_{}_m_s2");
-    if (gyro) {
-        data.imu_s.push_back(last_s);
-        data.rate_B_rad_s.push_back(*gyro);
-        data.specific_force_B_m_s2.push_back(accelerometer.value_or(Vector3::Constant(kNaN)));
-    }
-    if (const auto first = cell(line, columns, fields, "command_0")) {
-        RotorList<double> command(1, *first);
-        for (std::size_t i = 1; i < kMaxRotors; ++i) {
-            const auto next = cell(line, columns, fields, fmt::format("command_{}", i));
-            if (!next) {
-                break;
-            }
-            command.resize(i + 1, *next);
-        }
-        data.command_s.push_back(last_s);
-        data.command.push_back(command);
-    }
-    if (const auto velocity = three(line, columns, fields, "velocity_{}_m_s")) {
-        data.velocity_s.push_back(last_s);
-        data.velocity_B_m_s.push_back(*velocity);
-    }
-    if (const auto force = cell(line, columns, fields, "force_N")) {
-        data.force_s.push_back(last_s);
-        data.force_N.push_back(*force);
-    }
-    if (const auto pressure = cell(line, columns, fields, "pressure_Pa")) {
-        data.pressure.t_s.push_back(last_s);
-        data.pressure.pressure_Pa.push_back(*pressure);
-    }
-}
-
-FlightData of_csv(const std::filesystem::path& path) {
-    FlightData data{.kind = "CSV"};
-    std::istringstream text(read_file(path, {"flight log", 500}));
-    CsvColumns columns;
-    double last_s = -std::numeric_limits<double>::infinity();
-    for_each_csv_line(text, path.string(), [&](const CsvLine& line) {
-        if (!columns.names.empty()) {
-            add_row(line, columns, data, last_s);
-            return;
-        }
-        for (const std::string_view field : csv_fields(line.text)) {
-            columns.names.emplace_back(field);
-        }
-        if (!columns.has("t_s")) {
-            line.refuse(
-                "no column \"t_s\": is this a log? An MCAP recording, a PX4 log (.ulg) or "
-                "CSV with t_s and gyro_x_rad_s, command_0, force_N, pressure_Pa ...");
-        }
-    });
     return data;
 }
 
@@ -263,6 +269,19 @@ void cut(const FlightSpan& span, std::vector<double>& time_s, std::vector<Values
     };
     (keep(values), ...);
     keep(time_s);
+}
+
+/// Loggers write what several threads say: a sample may come after one that is later.
+record::Recording in_order(record::Recording recording) {
+    constexpr double kMostBack_s = 1.0;
+    for (Table& table : recording.tables) {
+        if (const std::size_t late = put_in_order(table, kMostBack_s); late > 0) {
+            recording.remarks.push_back(fmt::format("{}: {} sample{} out of order, put in {}",
+                                                    table.topic, late, late == 1 ? "" : "s",
+                                                    late == 1 ? "its place" : "their places"));
+        }
+    }
+    return recording;
 }
 
 /// The fits walk from sample to sample: times rise, and not by more than an hour.
@@ -288,9 +307,11 @@ FlightData read_flight(const std::filesystem::path& path, const FlightSpan& span
     const auto is = [&](std::string_view beginning, std::string_view extension) {
         return head.starts_with(beginning) || path.extension() == extension;
     };
-    FlightData data = is("\x89MCAP", ".mcap") ? of_recording(record::read_recording(path))
-                      : is("ULog", ".ulg")    ? of_px4(record::read_ulog(path))
-                                              : of_csv(path);
+    const bool ulog = is("ULog", ".ulg");
+    const bool recorded = record::begins_as_recording(head) || path.extension() == ".mcap";
+    FlightData data = recorded ? of_recording(in_order(record::read_recording(path)))
+                      : ulog   ? of_px4(in_order(record::read_ulog(path)))
+                               : read_flight_csv(path);
     require_in_order(path, "a sample of the IMU", data.imu_s);
     require_in_order(path, "a motor command", data.command_s);
     require_in_order(path, "a velocity", data.velocity_s);

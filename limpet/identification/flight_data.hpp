@@ -14,6 +14,8 @@ namespace limpet::identification {
 /// What a log says of a flight, in our axes. What the log does not have is empty.
 struct FlightData {
     std::string damage = {};  ///< of the log, of which the rest was read; empty: none
+    std::vector<std::string> remarks =
+        {};  ///< what was done to it, or could not be read; no damage
     std::vector<double> imu_s = {};
     std::vector<Vector3> rate_B_rad_s = {};  ///< a gyro's mean since its last sample
     std::vector<Vector3> specific_force_B_m_s2 = {};
@@ -39,7 +41,9 @@ struct FlightSpan {
 /// Reads a log by how it begins: an MCAP recording of ours (or of others with our topics), PX4's
 /// ULog, or CSV: a header with `t_s` and any of gyro_x_rad_s (y, z), accel_x_m_s2, command_0 (1,
 /// ...), velocity_x_m_s (all in B, forward-right-down), force_N, pressure_Pa; an empty cell is no
-/// sample.
+/// sample. Motors of PX4 up to v1.13 are told by actuator_outputs: PWM, by the log's own limits
+/// made 0..1, and thrust by its THR_MDL_FAC. Samples of a recording or a PX4 log that stand up to a
+/// second too late are put in their places (FlightData::remarks).
 /// @throws InputError one line: file:line in CSV, what is missing or cannot be read
 [[nodiscard]] FlightData read_flight(const std::filesystem::path& path,
                                      const FlightSpan& span = {});

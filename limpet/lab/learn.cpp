@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/lane_group.hpp"
@@ -79,10 +80,19 @@ void Learn::begin(std::string_view request) {
     stop_ = false;
     running_ = true;
     ++id_;
-    thread_ = std::jthread([this] {
-        plant::fly_side_by_side([this] { fly_all(); });
+    try {
+        thread_ = std::jthread([this] {
+            try {
+                plant::fly_side_by_side([this] { fly_all(); });
+            } catch (const std::bad_alloc&) {  // what has not flown has no row
+                stop_ = true;
+            }
+            running_ = false;
+        });
+    } catch (...) {
         running_ = false;
-    });
+        throw;
+    }
 }
 
 void Learn::fly_all() {
@@ -112,6 +122,8 @@ void Learn::fly(Turned& turned) {
     } catch (const InputError&) {  // the value does not go with another one
     } catch (const InternalError&) {
         outcome = "fault";
+    } catch (const std::bad_alloc&) {
+        outcome = "out of memory";
     }
     const std::lock_guard lock(guards_outcomes_);
     turned.outcome = outcome;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <new>
 
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/core/errors.hpp"
@@ -147,7 +148,7 @@ void Many::begin(std::string_view request) {
     problem_.clear();
     stop_ = false;
     running_ = true;
-    thread_ = std::jthread([this] {
+    const auto fly = [this] {
         // One processor is the page's.
         const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
         try {
@@ -168,7 +169,13 @@ void Many::begin(std::string_view request) {
             problem_ = error.what();
         }
         running_ = false;
-    });
+    };
+    try {
+        thread_ = std::jthread(fly);
+    } catch (...) {
+        running_ = false;
+        throw;
+    }
 }
 
 std::string Many::rows(std::string_view request) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -118,10 +119,18 @@ void Swing::begin(std::string_view request) {
     // One processor is the page's.
     working_ = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
     for (int k = working_; k > 0; --k) {
-        threads_.emplace_back([this] {
-            fill();
-            --working_;
-        });
+        try {
+            threads_.emplace_back([this] {
+                fill();
+                --working_;
+            });
+        } catch (const std::exception&) {  // no more threads, or memory for them
+            working_ -= k;
+            if (threads_.empty()) {
+                throw;
+            }
+            return;
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -153,7 +154,10 @@ StampFile::StampFile(std::filesystem::path path, std::chrono::milliseconds every
 StampFile::~StampFile() {
     thread_.request_stop();
     thread_.join();
-    (void)write_whole(path_, offered_, Flush::at_once);
+    try {
+        (void)write_whole(path_, offered_, Flush::at_once);
+    } catch (const std::bad_alloc&) {  // as if it had been cut off: what was written last stands
+    }
 }
 
 void StampFile::offer(const SigningStamps& stamps) {
@@ -184,9 +188,13 @@ void StampFile::work(const std::stop_token& over, std::chrono::milliseconds ever
         }
         const SigningStamps stamps = offered_;
         lock.unlock();
-        const int error = write_whole(path_, stamps, Flush::later);
-        std::string trouble =
-            error == 0 ? "" : fmt::format("{}: {}", path_.string(), std::strerror(error));
+        std::string trouble;
+        try {
+            const int error = write_whole(path_, stamps, Flush::later);
+            trouble = error == 0 ? "" : fmt::format("{}: {}", path_.string(), std::strerror(error));
+        } catch (const std::bad_alloc&) {
+            trouble = "no memory";  // short enough to lie in the object
+        }
         lock.lock();
         trouble_ = std::move(trouble);
     }

@@ -2,14 +2,16 @@
 #include "limpet/mcap/reader.hpp"
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <memory>
 #include <system_error>
 
+#include "limpet/core/allowance.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/user_text.hpp"
+#include "limpet/mcap/unpack.hpp"
 
 namespace limpet::mcap {
 namespace {
@@ -20,7 +22,27 @@ constexpr std::uint64_t kMaxChunk_bytes = 256u << 20;
 constexpr std::uint64_t kMostDamaged = 100'000;
 constexpr FileBound kRecording = {"recording", 1000};
 
-std::string content_of(const std::filesystem::path& path) {
+/// A file as it is read, and as it lies on the disk.
+struct Content {
+    std::string bytes;
+    std::uint64_t stored_bytes = 0;
+};
+
+/// @throws InputError
+void unpack_file(const std::string& name, Content& content) {
+    constexpr std::uint64_t kMost_bytes = kRecording.most_MB * 1'000'000;
+    const std::uint64_t most =
+        std::min(unpacked_allowance_bytes(content.stored_bytes), kMost_bytes);
+    content.bytes = unpacked_file(content.bytes, most);
+    if (content.bytes.size() > most) {
+        throw InputError(
+            fmt::format("{}: unpacks to more than {} MB, which no recording of {} "
+                        "bytes does",
+                        name, most / 1'000'000, content.stored_bytes));
+    }
+}
+
+Content content_of(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code problem;
     const auto status = std::filesystem::status(path, problem);
@@ -30,28 +52,39 @@ std::string content_of(const std::filesystem::path& path) {
     if (!std::filesystem::is_regular_file(status)) {
         throw InputError(name + ": not a recording: not a regular file");
     }
-    std::string bytes = read_file(path, kRecording);
-    if (bytes.empty()) {
+    Content content{read_file(path, kRecording)};
+    content.stored_bytes = content.bytes.size();
+    if (content.bytes.empty()) {
         throw InputError(name + ": not a recording: empty file");
     }
+    const bool packed = is_packed(content.bytes);
+    if (packed) {
+        unpack_file(name, content);
+    }
+    const std::string& bytes = content.bytes;
     const std::size_t compared = std::min(bytes.size(), kMagic.size());
-    if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(compared),
+    if ((packed && bytes.empty()) ||
+        !std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(compared),
                     bytes.begin(),
                     [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); })) {
-        throw InputError(name + ": not a recording: does not begin as an MCAP file does");
+        throw InputError(name + (packed ? ": not a recording: what is packed in it does not begin "
+                                          "as an MCAP file does"
+                                        : ": not a recording: does not begin as an MCAP file "
+                                          "does"));
     }
-    return bytes;
+    return content;
 }
 
 /// One pass over a file.
 class Scan {
 public:
-    Scan(ByteView file, std::string name, const MessageVisitor& visit)
+    Scan(ByteView file, std::uint64_t stored_bytes, std::string name, const MessageVisitor& visit)
         : file_(file),
+          stored_bytes_(stored_bytes),
           name_(std::move(name)),
           visit_(visit),
-          zstd_(ZSTD_createDCtx(), &ZSTD_freeDCtx),
-          unpacked_left_(unpacked_allowance_bytes(file.size())) {}
+          unpacked_left_(unpacked_allowance_bytes(stored_bytes)),
+          kept_(unpacked_allowance_bytes(stored_bytes)) {}
 
     Contents run() {
         Cursor in(file_.subspan(std::min(file_.size(), kMagic.size())));
@@ -91,6 +124,8 @@ private:
     void read_guarded(Read&& read) {
         try {
             read();
+        } catch (const TooMuch& problem) {
+            throw InputError(fmt::format("{}: {}", name_, problem.what()));
         } catch (const Malformed& problem) {
             ++contents_.skipped_records;
             if (first_problem_.empty()) {
@@ -105,6 +140,7 @@ private:
 
     void record(OpCode opcode, ByteView content, std::size_t offset) {
         Cursor in(content);
+        take_kept(opcode, content);
         switch (opcode) {
             case OpCode::header:
                 contents_.profile = in.get<std::string>();
@@ -130,6 +166,18 @@ private:
             case OpCode::statistics:
             case OpCode::metadata_index:
             case OpCode::summary_offset: break;  // found by going through, not by looking up
+        }
+    }
+
+    /// Texts are copied; an entry of a map takes more than its text.
+    void take_kept(OpCode opcode, ByteView content) {
+        constexpr std::uint64_t kRecord_bytes = 256;
+        constexpr std::uint64_t kLeastEntry_bytes = 8;  ///< two lengths
+        constexpr std::uint64_t kEntry_bytes = 112;
+        if (opcode == OpCode::schema || opcode == OpCode::attachment) {
+            kept_.take_bytes(kRecord_bytes + content.size());
+        } else if (opcode == OpCode::channel || opcode == OpCode::metadata) {
+            kept_.take_bytes(kRecord_bytes + content.size() / kLeastEntry_bytes * kEntry_bytes);
         }
     }
 
@@ -207,9 +255,9 @@ private:
         if (header.compression.empty()) {
             return stored;
         }
-        if (header.compression != "zstd") {
-            throw Malformed(
-                fmt::format("chunk compressed by {} (zstd is known)", header.compression));
+        if (!Unpacker::knows(header.compression)) {
+            throw Malformed(fmt::format("chunk compressed by {} (zstd and lz4 are known)",
+                                        in_quotes(header.compression)));
         }
         if (header.size > kMaxChunk_bytes) {
             throw Malformed("chunk larger than 256 MiB");
@@ -218,15 +266,11 @@ private:
             throw InputError(fmt::format(
                 "{}: unpacks to more than {} MB, which no recording of {} "
                 "bytes does",
-                name_, unpacked_allowance_bytes(file_.size()) / 1'000'000, file_.size()));
+                name_, unpacked_allowance_bytes(stored_bytes_) / 1'000'000, stored_bytes_));
         }
         unpacked_left_ -= header.size;
         unpacked_.resize(static_cast<std::size_t>(header.size));
-        const std::size_t size = ZSTD_decompressDCtx(
-            zstd_.get(), unpacked_.data(), unpacked_.size(), stored.data(), stored.size());
-        if (ZSTD_isError(size) || size != unpacked_.size()) {
-            throw Malformed("chunk that does not unpack");
-        }
+        unpacker_.unpack(header.compression, stored, unpacked_);
         return unpacked_;
     }
 
@@ -276,10 +320,12 @@ private:
     }
 
     ByteView file_;
+    std::uint64_t stored_bytes_;
     std::string name_;
     const MessageVisitor& visit_;
-    std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd_;
+    Unpacker unpacker_;
     std::uint64_t unpacked_left_;
+    Allowance kept_;  ///< of schemas, channels, attachments and metadata
     Bytes unpacked_;
     Contents contents_;
     bool footer_seen_ = false;
@@ -297,9 +343,10 @@ std::uint64_t unpacked_allowance_bytes(std::uint64_t file_bytes) {
 }
 
 Contents read(const std::filesystem::path& path, const MessageVisitor& visit) {
-    const std::string file = content_of(path);
-    const ByteView bytes(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
-    return Scan(bytes, path.string(), visit).run();
+    const Content file = content_of(path);
+    const ByteView bytes(reinterpret_cast<const std::uint8_t*>(file.bytes.data()),
+                         file.bytes.size());
+    return Scan(bytes, file.stored_bytes, path.string(), visit).run();
 }
 
 }  // namespace limpet::mcap

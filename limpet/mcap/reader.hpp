@@ -38,12 +38,13 @@ using MessageVisitor = std::function<void(const Contents& contents, const Messag
 /// Reads an MCAP file from its start to its end, never by its index: so a file that was cut off
 /// anywhere gives everything that is whole in it, and a damaged chunk costs that chunk alone. Of a
 /// chunk that is cut off, the messages that are whole are given if it is not compressed.
-/// Knows the compressions "" and "zstd".
+/// Knows chunks of the compressions "", "zstd" and "lz4", and files that are packed as a whole by
+/// zstd or in frames of LZ4.
 /// @param path   read as a whole into memory
 /// @param visit  may be empty
 /// @throws InputError  if path is no file, cannot be read, is empty, is no MCAP file, is larger
-/// than
-///                     1 GB, unpacks to more than it is allowed or has over 100,000 damaged records
+///                     than 1 GB, unpacks to more than it is allowed, keeps more in memory than
+///                     that or has over 100,000 damaged records
 [[nodiscard]] Contents read(const std::filesystem::path& path, const MessageVisitor& visit);
 
 }  // namespace limpet::mcap

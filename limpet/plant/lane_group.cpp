@@ -5,6 +5,7 @@
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <exception>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -41,10 +42,8 @@ public:
         : kind_(kind), fibers_(static_cast<std::size_t>(kind.lanes)) {}
 
     void fly(const std::function<void()>& missions) {
+        begin_all(missions);
         current_group = this;
-        for (std::size_t k = 0; k < fibers_.size(); ++k) {
-            begin(k, missions);
-        }
         while (turn()) {
         }
         current_group = nullptr;
@@ -85,6 +84,22 @@ private:
         Waits waits = Waits::no;
         bool taken = false;
     };
+
+    /// Where there is no memory for so many stacks, fewer.
+    /// @throws std::bad_alloc where there is none for one
+    void begin_all(const std::function<void()>& missions) {
+        std::size_t begun = 0;
+        try {
+            for (; begun < fibers_.size(); ++begun) {
+                begin(begun, missions);
+            }
+        } catch (const std::bad_alloc&) {
+            if (begun == 0) {
+                throw;
+            }
+            fibers_.resize(begun);
+        }
+    }
 
     void begin(std::size_t k, const std::function<void()>& missions) {
         fibers_[k].inside = boost::context::fiber(

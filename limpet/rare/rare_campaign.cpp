@@ -7,6 +7,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -66,15 +67,29 @@ private:
     }
 
     void fly_all() {
-        const auto fly_on = [this] { plant::fly_side_by_side([this] { fly_some(); }); };
+        const auto fly_on = [this] { fly_lanes(); };
         std::vector<std::jthread> workers;
         try {
             while (workers.size() + 1 < static_cast<std::size_t>(jobs_)) {
                 workers.emplace_back(fly_on);
             }
         } catch (const std::system_error&) {  // those there are will do
+        } catch (const std::bad_alloc&) {     // nor is there memory for more
         }
         fly_on();
+    }
+
+    void fly_lanes() noexcept {
+        try {
+            plant::fly_side_by_side([this] { fly_some(); });
+        } catch (...) {
+            fail(std::current_exception());
+        }
+    }
+
+    void fail(std::exception_ptr why) noexcept {
+        const std::lock_guard lock(mutex_);
+        failed_ = failed_ ? failed_ : why;
     }
 
     void fly_some() noexcept {
@@ -89,8 +104,7 @@ private:
                 land(*sample, row);
             }
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            failed_ = failed_ ? failed_ : std::current_exception();
+            fail(std::current_exception());
         }
     }
 

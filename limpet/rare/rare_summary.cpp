@@ -201,7 +201,7 @@ std::string rare_json(const RareSummary& summary) {
         {"levels", levels},
         {"curve", curve},
         {"likeliest", likeliest_json(summary)}};
-    return json.dump(2);
+    return json.dump(2, ' ', false, RareJson::error_handler_t::replace);
 }
 
 }  // namespace limpet::rare

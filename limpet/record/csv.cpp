@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "limpet/core/errors.hpp"
@@ -15,6 +17,35 @@
 
 namespace limpet::record {
 namespace {
+
+constexpr std::string_view kEventsFile = "events.csv";
+constexpr std::string_view kPart = ".part";
+
+/// Every digit: "1700000000.123456789".
+std::string seconds_of(std::uint64_t time_ns) {
+    constexpr std::uint64_t kSecond_ns = 1'000'000'000;
+    std::string text = fmt::format("{}.{:09}", time_ns / kSecond_ns, time_ns % kSecond_ns);
+    text.resize(text.find_last_not_of('0') + 1);
+    text.resize(text.size() - (text.back() == '.' ? 1 : 0));
+    return text;
+}
+
+/// A column's value, with the digits that a double rounds.
+std::string value_text(const Column& column, std::size_t row) {
+    const double value = column.values[row];
+    if (column.kind == Whole::none || value != value) {
+        return fmt::format("{}", value);
+    }
+    const std::int64_t whole = column.whole[row];
+    const auto bits = static_cast<std::uint64_t>(whole);
+    switch (column.kind) {
+        case Whole::uint64: return fmt::format("{}", bits);
+        case Whole::nanoseconds: return whole < 0 ? "-" + seconds_of(~bits + 1) : seconds_of(bits);
+        case Whole::int64:
+        case Whole::none: break;
+    }
+    return fmt::format("{}", whole);
+}
 
 /// In pieces: the text of a table takes several times its memory.
 void write_table(const Table& table, std::ostream& file) {
@@ -30,9 +61,11 @@ void write_table(const Table& table, std::ostream& file) {
         append(csv_field(column.name));
     }
     for (std::size_t row = 0; row < table.time_s.size(); ++row) {
-        fmt::format_to(std::back_inserter(out), "\n{}", table.time_s[row]);
+        out += '\n';
+        out += table.time_ns.empty() ? fmt::format("{}", table.time_s[row])
+                                     : seconds_of(table.time_ns[row]);
         for (const Column& column : table.columns) {
-            append(column.values[row]);
+            append(value_text(column, row));
         }
         for (const TextColumn& column : table.texts) {
             append(csv_field(column.values[row]));
@@ -64,17 +97,56 @@ std::string events_as_csv(const std::vector<RecordedEvent>& events) {
 }
 
 /// A topic's name comes from the file: nothing of it may lead out of the folder.
-std::string file_name(std::string_view topic) {
+std::string plain_name(std::string_view topic) {
+    constexpr std::size_t kLongest = 200;
     std::string name(topic.substr(std::min(topic.size(), topic.find_first_not_of('/'))));
     std::replace_if(
         name.begin(), name.end(),
         [](char c) { return c == '/' || static_cast<unsigned char>(c) < 0x20; }, '_');
-    return name + ".csv";
+    return name.substr(0, kLongest);
 }
+
+/// Names that differ, for file systems too to which A is a.
+class Names {
+public:
+    /// @return the name, or with "_2", "_3" ... where that is taken
+    std::string take(const std::filesystem::path& file) {
+        return take(file.stem().string(), file.extension().string());
+    }
+    std::string take(const std::string& name, const std::string& ending) {
+        std::string free = name;
+        int& last = last_[lower(name + ending)];
+        last = std::max(last, 1);
+        while (!put(free + ending)) {
+            free = fmt::format("{}_{}", name, ++last);
+        }
+        return free + ending;
+    }
+
+private:
+    /// With the name that it is written under until it is whole.
+    bool put(const std::string& name) {
+        const std::string part = lower(name + std::string(kPart));
+        const bool free = taken_.count(lower(name)) == 0 && taken_.count(part) == 0;
+        if (free) {
+            taken_.insert({lower(name), part});
+        }
+        return free;
+    }
+    static std::string lower(std::string text) {
+        for (char& c : text) {
+            c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        }
+        return text;
+    }
+
+    std::set<std::string> taken_;
+    std::map<std::string, int> last_;
+};
 
 template <class Write>
 std::filesystem::path write_whole(const std::filesystem::path& path, const Write& write) {
-    const std::filesystem::path part = path.string() + ".part";
+    const std::filesystem::path part = path.string() + std::string(kPart);
     std::ofstream file(part, std::ios::binary);
     write(file);
     file.close();
@@ -113,24 +185,56 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
         throw InputError(folder.string() + ": cannot be made: " + problem.message());
     }
     std::vector<std::filesystem::path> files;
-    for (const Table& table : recording.tables) {
+    const std::vector<std::string> names = csv_names(recording);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Table& table = recording.tables[i];
         work.say("writing " + table.topic);
-        if (table.type != info(Topic::events).type) {
-            files.push_back(write_whole(folder / file_name(table.topic),
+        if (!names[i].empty()) {
+            files.push_back(write_whole(folder / names[i],
                                         [&](std::ostream& file) { write_table(table, file); }));
         }
     }
-    files.push_back(write_whole(folder / "events.csv", [&](std::ostream& file) {
+    files.push_back(write_whole(folder / kEventsFile, [&](std::ostream& file) {
         file << events_as_csv(recording.events);
     }));
     return files;
 }
 
+std::vector<std::string> csv_names(const Recording& recording) {
+    Names names;
+    (void)names.take(std::filesystem::path(kEventsFile));
+    for (const mcap::Attachment& attachment : recording.attachments) {
+        (void)names.take(std::filesystem::path(attachment.name));
+    }
+    std::vector<std::string> list;
+    for (const Table& table : recording.tables) {
+        list.push_back(table.type == info(Topic::events).type
+                           ? std::string()
+                           : names.take(plain_name(table.topic), ".csv"));
+    }
+    return list;
+}
+
+std::vector<std::string> renamed_topics(const Recording& recording) {
+    std::vector<std::string> lines;
+    const std::vector<std::string> names = csv_names(recording);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string& topic = recording.tables[i].topic;
+        if (!names[i].empty() && names[i] != plain_name(topic) + ".csv") {
+            lines.push_back(fmt::format("topic {} is in {}: another file has the name",
+                                        in_quotes(topic), names[i]));
+        }
+    }
+    return lines;
+}
+
 std::vector<std::filesystem::path> write_attachments(const Recording& recording,
                                                      const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
+    Names names;
+    (void)names.take(std::filesystem::path(kEventsFile));
     for (const mcap::Attachment& attachment : recording.attachments) {
-        files.push_back(write_whole(folder / attachment.name,
+        files.push_back(write_whole(folder / names.take(std::filesystem::path(attachment.name)),
                                     [&](std::ostream& file) { file << attachment.text; }));
     }
     return files;

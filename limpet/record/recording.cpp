@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
+#include "limpet/mcap/unpack.hpp"
 #include "limpet/record/topics.hpp"
 
 namespace limpet::record {
@@ -21,15 +24,60 @@ struct TopicReader {
     std::unique_ptr<TableReader> reader;
 };
 
+/// "example_interfaces/srv/AddTwoInts_Event"
+bool is_of_service(std::string_view type) {
+    constexpr std::string_view kEnd = "_Event";
+    return type.size() > kEnd.size() && type.substr(type.size() - kEnd.size()) == kEnd &&
+           (type.find("/srv/") != std::string_view::npos ||
+            type.find("/action/") != std::string_view::npos);
+}
+
+/// A name of others', fit for one line.
+std::string plain(std::string_view name) {
+    const std::string quoted = in_quotes(name);
+    return quoted.substr(1, quoted.size() - 2);
+}
+
+/// Lines on topics that are left out, a few of them one by one.
+class LeftOut {
+public:
+    void add(std::string line) {
+        ++count_;
+        if (lines_.size() < kMostProblems) {
+            lines_.push_back(std::move(line));
+        }
+    }
+    /// @param left_out  "are not read"
+    [[nodiscard]] std::vector<std::string> told(std::string_view left_out) && {
+        if (count_ > lines_.size()) {
+            lines_.push_back(fmt::format("{} topics more {}", count_ - lines_.size(), left_out));
+        }
+        return std::move(lines_);
+    }
+
+private:
+    std::vector<std::string> lines_;
+    std::size_t count_ = 0;
+};
+
 /// A reader of the channel's messages, which fills the topic's table.
-/// @throws InputError when they are of a kind that is not read
-void open(const mcap::Contents& contents, const mcap::Channel& channel, TableAllowance& allowance,
+/// @throws NotTaken when they are of a kind that does not become columns
+/// @throws InputError when their definition makes no sense
+void open(const mcap::Contents& contents, const mcap::Channel& channel, Allowance& allowance,
           TopicReader& topic) {
     topic.table.topic = channel.topic;
     const auto schema = contents.schemas.find(channel.schema_id);
     if (schema == contents.schemas.end() || schema->second.encoding != "ros2msg" ||
         channel.message_encoding != "cdr") {
-        throw InputError("not cdr with a ros2msg schema");
+        throw NotTaken(
+            fmt::format("messages in {} with {}; those in cdr with a schema in ros2msg are",
+                        in_quotes(channel.message_encoding),
+                        schema == contents.schemas.end()
+                            ? std::string("no schema")
+                            : "a schema in " + in_quotes(schema->second.encoding)));
+    }
+    if (is_of_service(schema->second.name)) {
+        throw NotTaken("a service's events, with requests and responses as arrays of messages");
     }
     allowance.take_definition(schema->second.text.size());
     const auto types = parse_ros2msg(schema->second.name, schema->second.text);
@@ -68,6 +116,23 @@ std::vector<RecordedEvent> events_of(const Table& table) {
     return events;
 }
 
+/// Those of all channels that have some.
+std::vector<RecordedEvent> events_of(const std::vector<Table>& tables) {
+    std::vector<RecordedEvent> all;
+    for (const Table& table : tables) {
+        if (table.type == info(Topic::events).type) {
+            const auto middle = static_cast<std::ptrdiff_t>(all.size());
+            std::vector<RecordedEvent> events = events_of(table);
+            for (RecordedEvent& event : events) {
+                all.push_back(std::move(event));
+            }
+            std::inplace_merge(all.begin(), all.begin() + middle, all.end(),
+                               [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 const Table& Recording::table(std::string_view topic) const {
@@ -93,36 +158,50 @@ const mcap::Attachment* Recording::attachment(std::string_view name) const {
     return find_by(attachments, &mcap::Attachment::name, name);
 }
 
+std::string_view summary_text(const Recording& recording) {
+    constexpr std::size_t kMost_bytes = 1'000'000;
+    const mcap::Attachment* attached = recording.attachment("summary.json");
+    return attached != nullptr && attached->text.size() <= kMost_bytes
+               ? std::string_view(attached->text)
+               : std::string_view();
+}
+
+bool begins_as_recording(std::string_view head) {
+    return std::equal(mcap::kMagic.begin(), mcap::kMagic.end(), head.begin(), head.end(),
+                      [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); }) ||
+           mcap::is_packed(head);
+}
+
 Recording read_recording(const std::filesystem::path& path) {
     std::error_code ignored;  // what is no file is refused by the reader
     const auto file_bytes = std::filesystem::file_size(path, ignored);
-    TableAllowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
+    Allowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
-    std::vector<std::string> problems;
-    std::size_t unread = 0;
-    mcap::Contents contents = mcap::read(path, [&](const mcap::Contents& so_far,
-                                                   const mcap::Message& message) {
-        const auto [at, is_new] = topics.try_emplace(message.channel_id);
-        TopicReader& topic = at->second;
-        const mcap::Channel& channel = so_far.channels.at(message.channel_id);
-        try {
-            if (is_new && !is_of_scene(channel.topic)) {
-                open(so_far, channel, allowance, topic);
+    LeftOut unread, not_taken;
+    mcap::Contents contents =
+        mcap::read(path, [&](const mcap::Contents& so_far, const mcap::Message& message) {
+            const auto [at, is_new] = topics.try_emplace(message.channel_id);
+            TopicReader& topic = at->second;
+            const mcap::Channel& channel = so_far.channels.at(message.channel_id);
+            try {
+                if (is_new && !is_of_scene(channel.topic)) {
+                    open(so_far, channel, allowance, topic);
+                }
+                if (topic.reader) {
+                    topic.reader->append(message.log_time_ns, message.data);
+                }
+            } catch (const TooMuch& problem) {
+                throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
+            } catch (const NotTaken& problem) {
+                topic.reader.reset();
+                not_taken.add(
+                    fmt::format("topic {} is not taken: {}", plain(channel.topic), problem.what()));
+            } catch (const InputError& problem) {
+                topic.reader.reset();
+                unread.add(
+                    fmt::format("topic {} is not read: {}", plain(channel.topic), problem.what()));
             }
-            if (topic.reader) {
-                topic.reader->append(static_cast<double>(message.log_time_ns) * 1e-9, message.data);
-            }
-        } catch (const TooMuch& problem) {
-            throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
-        } catch (const InputError& problem) {
-            topic.reader.reset();
-            ++unread;
-            if (problems.size() < kMostProblems) {
-                problems.push_back(
-                    fmt::format("topic {} is not read: {}", channel.topic, problem.what()));
-            }
-        }
-    });
+        });
 
     Recording recording;
     recording.path = path;
@@ -135,14 +214,9 @@ Recording read_recording(const std::filesystem::path& path) {
     for (mcap::Metadata& metadata : contents.metadata) {
         recording.metadata[metadata.name] = std::move(metadata.values);
     }
-    for (const Table& table : recording.tables) {
-        if (table.type == info(Topic::events).type) {
-            recording.events = events_of(table);
-        }
-    }
-    if (unread > problems.size()) {
-        problems.push_back(fmt::format("{} topics more are not read", unread - problems.size()));
-    }
+    recording.events = events_of(recording.tables);
+    recording.remarks = std::move(not_taken).told("are not taken");
+    std::vector<std::string> problems = std::move(unread).told("are not read");
     if (!contents.damage.empty()) {
         problems.insert(problems.begin(), contents.damage);
     }

@@ -40,6 +40,9 @@ struct Recording {
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
     std::string damage;  ///< what is missing, in one sentence; empty when whole
+    /// What is no damage: a line for each topic that does not become columns, "topic /x is not
+    /// taken: why".
+    std::vector<std::string> remarks;
 
     /// @throws InputError naming the topics that are there
     [[nodiscard]] const Table& table(std::string_view topic) const;
@@ -49,10 +52,20 @@ struct Recording {
     [[nodiscard]] const mcap::Attachment* attachment(std::string_view name) const;
 };
 
+/// @return the attached summary.json; empty where there is none, or one that is larger than any
+/// flight's: as a tree it takes many times its size
+[[nodiscard]] std::string_view summary_text(const Recording& recording);
+
+/// @param head  eight bytes of a file
+/// @return whether it begins as read_recording() takes it, packed as a whole or not
+[[nodiscard]] bool begins_as_recording(std::string_view head);
+
 /// Reads a whole recording, or what is whole in a damaged one: see Recording::damage. Any MCAP file
-/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone; topics of another kind are
-/// left out and named in `damage`.
-/// @throws InputError if path is no MCAP file
+/// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone. Topics of another
+/// encoding, of arrays of messages, of services' events and of wide characters are named in
+/// `remarks`, those whose definition makes no sense in `damage`. A file that zstd or LZ4 has packed
+/// as a whole is read as it is.
+/// @throws InputError if path is no MCAP file, or asks for more memory than one of its size may
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace limpet::record

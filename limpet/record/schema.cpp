@@ -78,7 +78,7 @@ Field read_field(std::string type, std::string name, std::string_view package) {
         return field;
     }
     if (type == "wstring") {
-        throw InputError("wstring is not read");
+        throw NotTaken("wstring");
     }
     if (type.find('/') == std::string::npos) {
         type = fmt::format("{}/{}", package, type);
@@ -102,7 +102,8 @@ std::string short_type_name(std::string_view full) {
 
 std::string full_type_name(std::string_view name) {
     const auto slash = name.find('/');
-    if (slash == std::string_view::npos || name.find("/msg/") != std::string_view::npos) {
+    // With two of them it says msg, srv or action itself.
+    if (slash == std::string_view::npos || name.find('/', slash + 1) != std::string_view::npos) {
         return std::string(name);
     }
     return std::string(name.substr(0, slash)) + "/msg" + std::string(name.substr(slash));
@@ -130,6 +131,8 @@ MessageType parse_message_type(const std::string& name, const std::string& text)
         }
         try {
             type.fields.push_back(read_field(first, second, package_of(type.name)));
+        } catch (const NotTaken& problem) {
+            throw NotTaken(fmt::format("{} line {}: {}", type.name, number, problem.what()));
         } catch (const InputError& problem) {
             throw InputError(fmt::format("{} line {}: {}", type.name, number, problem.what()));
         }

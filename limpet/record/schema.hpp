@@ -6,7 +6,14 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/errors.hpp"
+
 namespace limpet::record {
+
+/// Messages of a kind that does not become columns: no fault of the file's.
+struct NotTaken : InputError {
+    using InputError::InputError;
+};
 
 /// The basic types of a .msg file; `byte` and `char` are read as uint8.
 enum class Primitive {
@@ -48,18 +55,20 @@ struct MessageType {
 /// Reads one .msg text: comments, constants, default values, bounds and arrays of every kind.
 /// @param name  full or short name of the type; names without a package are looked up in its
 /// package
+/// @throws NotTaken for text of wide characters
 /// @throws InputError naming type and line
 [[nodiscard]] MessageType parse_message_type(const std::string& name, const std::string& text);
 
 /// Reads a schema in MCAP's encoding "ros2msg".
 /// @return the types that it defines, the one called `name` first
+/// @throws NotTaken for text of wide characters
 /// @throws InputError naming type and line
 [[nodiscard]] std::vector<MessageType> parse_ros2msg(const std::string& name,
                                                      const std::string& text);
 
 /// "geometry_msgs/msg/Point" -> "geometry_msgs/Point"
 [[nodiscard]] std::string short_type_name(std::string_view full);
-/// "geometry_msgs/Point" -> "geometry_msgs/msg/Point"; a full name stays
+/// "geometry_msgs/Point" -> "geometry_msgs/msg/Point"; a full name stays, also one of a service
 [[nodiscard]] std::string full_type_name(std::string_view name);
 
 }  // namespace limpet::record

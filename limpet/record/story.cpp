@@ -158,13 +158,10 @@ Summary summary(const Recording& recording) {
         summary.scenario = text_of(ours->second, "scenario");
         summary.seed = text_of(ours->second, "seed");
     }
-    const mcap::Attachment* attached = recording.attachment("summary.json");
-    if (attached != nullptr) {
-        const auto json = nlohmann::json::parse(attached->text, nullptr, false);
-        if (json.is_object()) {
-            summary.outcome = text_of(json, "outcome");
-            summary.reason = text_of(json, "reason");
-        }
+    const auto json = nlohmann::json::parse(summary_text(recording), nullptr, false);
+    if (json.is_object()) {
+        summary.outcome = text_of(json, "outcome");
+        summary.reason = text_of(json, "reason");
     }
     return summary;
 }

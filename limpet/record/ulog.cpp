@@ -25,7 +25,9 @@ namespace {
 /// Columns of a table by name; NaN where there is none, or no table.
 class Rows {
 public:
-    explicit Rows(const Table* table) : table_(table) {}
+    /// @param beside  a topic with the same vehicle's twist; null: there is none
+    explicit Rows(const Table* table, const Table* beside = nullptr)
+        : table_(table), beside_(beside) {}
     [[nodiscard]] std::size_t count() const {
         return table_ == nullptr ? 0 : table_->time_s.size();
     }
@@ -47,8 +49,21 @@ public:
         return ros::enu_from_ned(xyz("pose.position", row));
     }
 
+    /// By the twist of the same instant, of which both are recorded; NaN where there is none.
+    [[nodiscard]] Vector3 v_W_m_s(std::size_t row) const {
+        const std::vector<double> none;
+        const std::vector<double>& times = beside_ == nullptr ? none : beside_->time_s;
+        const auto found = std::lower_bound(times.begin(), times.end(), time_s(row));
+        if (found == times.end() || *found != time_s(row)) {
+            return Vector3::Constant(kNaN);
+        }
+        const auto at = static_cast<std::size_t>(found - times.begin());
+        return q_WB(row) * ros::flu_from_frd(Rows(beside_).xyz("twist.linear", at));
+    }
+
 private:
     const Table* table_;
+    const Table* beside_;
 };
 
 std::string bytes_of(const auto& value) {
@@ -88,16 +103,20 @@ struct Px4Topic {
     /// What is recorded at an instant has acted since the one before (simulation/flight_log.cpp); a
     /// PX4 log has it when it was said.
     bool acted_since = false;
+    std::string_view beside = {};  ///< topic of the recording with what else a row needs
 };
 
 void fill_attitude(Fields& fields, const Rows& rows, std::size_t row) {
     fields.reals(rows.q_WB(row));
 }
 void fill_position(Fields& fields, const Rows& rows, std::size_t row) {
+    const Vector3 v_W_m_s = rows.v_W_m_s(row);
+    const double moves = v_W_m_s.allFinite() ? 1.0 : 0.0;
     fields.reals(rows.p_W_m(row));
+    fields.reals(v_W_m_s);
     fields.real(euler_from_quaternion(rows.q_WB(row)).yaw_rad);
-    for (int valid = 0; valid < 2; ++valid) {
-        fields.byte(1);
+    for (const double valid : {1.0, 1.0, moves, moves}) {
+        fields.byte(valid);
     }
 }
 void fill_range(Fields& fields, const Rows& rows, std::size_t row) {
@@ -111,15 +130,18 @@ void fill_rates(Fields& fields, const Rows& rows, std::size_t row) {
 
 const std::vector<Px4Topic>& px4_topics() {
     constexpr std::string_view kPosition =
-        "float x;float y;float z;float heading;bool xy_valid;bool z_valid;";
+        "float x;float y;float z;float vx;float vy;float vz;float heading;bool xy_valid;"
+        "bool z_valid;bool v_xy_valid;bool v_z_valid;";
     constexpr std::string_view kRange =
         "float current_distance;float min_distance;float max_distance;";
     static const std::vector<Px4Topic> all = {
         {"vehicle_attitude", "float[4] q;", "/estimate/pose", fill_attitude},
-        {"vehicle_local_position", kPosition, "/estimate/pose", fill_position},
+        {"vehicle_local_position", kPosition, "/estimate/pose", fill_position, 0, false,
+         "/estimate/twist"},
         {"vehicle_angular_velocity", "float[3] xyz;", "/estimate/twist", fill_rates},
         {"vehicle_attitude_groundtruth", "float[4] q;", "/truth/pose", fill_attitude},
-        {"vehicle_local_position_groundtruth", kPosition, "/truth/pose", fill_position},
+        {"vehicle_local_position_groundtruth", kPosition, "/truth/pose", fill_position, 0, false,
+         "/truth/twist"},
         {"vehicle_angular_velocity_groundtruth", "float[3] xyz;", "/truth/twist", fill_rates},
         {"sensor_combined", "float[3] gyro_rad;float[3] accelerometer_m_s2;", "/sensors/imu",
          [](Fields& fields, const Rows& rows, std::size_t row) {
@@ -253,7 +275,8 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
     std::vector<Timed> data;
     std::uint16_t id = 0;
     for (const Px4Topic& topic : px4_topics()) {
-        const Rows rows(find_by(recording.tables, &Table::topic, topic.from));
+        const Rows rows(find_by(recording.tables, &Table::topic, topic.from),
+                        find_by(recording.tables, &Table::topic, topic.beside));
         if (rows.count() > 0) {
             log += message('A', std::string(1, static_cast<char>(topic.instance)) + bytes_of(id) +
                                     std::string(topic.name));

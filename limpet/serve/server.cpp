@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <boost/asio/steady_timer.hpp>
+#include <new>
 #include <thread>
 
 #include "limpet/core/errors.hpp"
@@ -57,6 +58,17 @@ struct Server::Inside {
         port = acceptor.local_endpoint().port();
     }
 
+    /// Who asks for more memory than there is loses the connection, the others go on.
+    void run() {
+        for (bool over = false; !over;) {
+            try {
+                io.run();
+                over = true;
+            } catch (const std::bad_alloc&) {
+            }
+        }
+    }
+
     void accept() {
         acceptor.async_accept([this](error_code error, tcp::socket socket) {
             if (!acceptor.is_open()) {
@@ -67,7 +79,10 @@ struct Server::Inside {
                 error_code ignored;
                 socket.set_option(tcp::no_delay(true), ignored);
                 socket.set_option(tcp::socket::send_buffer_size(kMostOnTheWay_bytes), ignored);
-                serve_connection(std::move(socket), shared);
+                try {
+                    serve_connection(std::move(socket), shared);
+                } catch (const std::bad_alloc&) {  // the next one may find some
+                }
             } else if (error) {  // no file descriptors left, say: not again and again at once
                 pause.expires_after(milliseconds(100));
                 pause.async_wait([this](error_code) {
@@ -84,11 +99,9 @@ struct Server::Inside {
     void keep_flushing() {
         timer.expires_after(kFlush);
         timer.async_wait([this](error_code) {
-            const auto all = shared.connections;  // who ends leaves the set
-            for (Connection* connection : all) {
-                if (shared.connections.count(connection) != 0) {
-                    connection->flush();
-                }
+            try {
+                flush_all();
+            } catch (const std::bad_alloc&) {  // frames wait
             }
             if (shared.stopping && (shared.connections.empty() || all_is_said())) {
                 const auto rest = shared.connections;
@@ -99,6 +112,15 @@ struct Server::Inside {
                 keep_flushing();
             }
         });
+    }
+
+    void flush_all() {
+        const auto all = shared.connections;  // who ends leaves the set
+        for (Connection* connection : all) {
+            if (shared.connections.count(connection) != 0) {
+                connection->flush();
+            }
+        }
     }
 
     /// Or there is nobody who listens.
@@ -152,7 +174,7 @@ void Server::start() {
     require(!inside_->thread.joinable(), "a server is started once");
     inside_->accept();
     inside_->keep_flushing();
-    inside_->thread = std::thread([this] { inside_->io.run(); });
+    inside_->thread = std::thread([this] { inside_->run(); });
 }
 
 void Server::stop() {

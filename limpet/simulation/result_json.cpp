@@ -89,7 +89,7 @@ std::string result_json(const FlightResult& result) {
     }
     json["recording"] = result.recording.empty() ? Json(nullptr) : Json(result.recording.string());
     json["state_hash"] = hex(result.state_hash);
-    return json.dump(2);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string summary_json(const FlightResult& result) {
@@ -97,7 +97,7 @@ std::string summary_json(const FlightResult& result) {
     json["performance"] = {{"simulated_s", result.performance.simulated_s},
                            {"physics_steps", result.performance.physics_steps}};
     json["state_hash"] = hex(result.state_hash);
-    return json.dump(2);
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace limpet::simulation

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
@@ -29,7 +30,7 @@ public:
     }
 
     StudyProgress fly(int jobs) {
-        const auto fly_on = [this] { plant::fly_side_by_side([this] { fly_some(); }); };
+        const auto fly_on = [this] { fly_lanes(); };
         {
             std::vector<std::jthread> others;
             try {
@@ -37,6 +38,7 @@ public:
                     others.emplace_back(fly_on);
                 }
             } catch (const std::system_error&) {  // those there are will do
+            } catch (const std::bad_alloc&) {     // nor is there memory for more
             }
             fly_on();
         }
@@ -48,6 +50,19 @@ public:
     }
 
 private:
+    void fly_lanes() noexcept {
+        try {
+            plant::fly_side_by_side([this] { fly_some(); });
+        } catch (...) {
+            fail(std::current_exception());
+        }
+    }
+
+    void fail(std::exception_ptr why) noexcept {
+        const std::lock_guard lock(mutex_);
+        failed_ = failed_ ? failed_ : why;
+    }
+
     void fly_some() noexcept {
         try {
             while (const auto run = next()) {
@@ -61,8 +76,7 @@ private:
                 land(row);
             }
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            failed_ = failed_ ? failed_ : std::current_exception();
+            fail(std::current_exception());
         }
     }
 

@@ -197,7 +197,7 @@ std::string study_json(const StudyFound& found) {
                           {"total", interval_json(input.index.total, input.index.total_95)}});
     }
     json["inputs"] = inputs;
-    return json.dump(2);
+    return json.dump(2, ' ', false, StudyJson::error_handler_t::replace);
 }
 
 std::vector<std::filesystem::path> draw_study(const StudyFound& found,

@@ -129,6 +129,44 @@ int exit_code_in_shell(const Bench& bench, const std::string& arguments) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// Whatever is short of memory or threads says so in a line; where there is enough, all goes well.
+TEST(Hostile, NoMemoryEndsInALine) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer reserves more than all";
+#endif
+    const Bench bench;
+    const auto under = [&](const std::string& limit, const std::string& arguments) {
+        const std::string command = "cd '" + bench.folder().string() +
+                                    "' && ulimit -c 0 && ulimit " + limit + " && exec '" +
+                                    std::string(LIMPET_PROGRAM) + "' " + arguments + " >out 2>err";
+        const int status = std::system(("exec sh -c \"" + command + "\"").c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    int short_of = 0, enough = 0;
+    for (const char* kB :
+         {"25000", "60000", "90000", "110000", "130000", "160000", "200000", "300000", "4000000"}) {
+        for (const std::string& verb :
+             {std::string("campaign smoke --jobs 8 --out c --quiet"),
+              std::string("fly hover --set simulation.hover_s=0.1 --no-figures --out o"),
+              std::string("check perch_concrete")}) {
+            fs::remove_all(bench.folder() / "c");
+            const int code = under("-v " + std::string(kB), verb);
+            const std::string err = text_of(bench.folder() / "err");
+            EXPECT_TRUE(code == 0 || code == 2 || code == 127)
+                << kB << " " << verb << ": " << code << " " << err;
+            if (code == 2) {
+                EXPECT_THAT(err, HasSubstr("limpet: ")) << kB << " " << verb;
+                EXPECT_THAT(err, Not(HasSubstr("terminate"))) << kB << " " << verb;
+                EXPECT_THAT(err, Not(HasSubstr("a fault of ours"))) << kB << " " << verb;
+            }
+            short_of += code == 2 ? 1 : 0;
+            enough += code == 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(short_of, 0);
+    EXPECT_GT(enough, 2);
+}
+
 TEST(Hostile, AClosedOrFullStandardErrorChangesNoExitCode) {
     const Bench bench;
     for (const char* error : {" 2>&-", " 2>/dev/full"}) {

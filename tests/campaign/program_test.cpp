@@ -456,6 +456,22 @@ TEST(StudyProgram, ASayingOfTheCommandLineIsAnsweredInItsTerms) {
     EXPECT_THAT(flown.out, HasSubstr("--rare 'crashed' --falling METRIC"));
 }
 
+/// Rows may have been written by anybody.
+TEST(CampaignProgram, ARowThatIsNotUtf8IsSummarised) {
+    const Bench bench;
+    (void)bench.write("x.yaml", short_hovers(2));
+    ASSERT_EQ(bench.run({"campaign", "x.yaml", "--out", "o", "--quiet"}).exit_code, 0);
+    {
+        Results results(bench.folder() / "o/results.sqlite", Access::write);
+        results.database().exec(
+            "UPDATE runs SET outcome = CAST(x'66ff' AS TEXT), reason = CAST(x'fe' AS TEXT)");
+    }
+    const Finished told = bench.run({"summary", "o", "--json"});
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_TRUE(nlohmann::json::accept(told.out));
+    EXPECT_THAT(told.out, HasSubstr("f\xEF\xBF\xBD"));
+}
+
 TEST(CampaignProgram, ShippedCampaignsLoad) {
     for (const auto& file :
          fs::directory_iterator(fs::path(LIMPET_SOURCE_DIR "/data") / "campaigns")) {

@@ -171,6 +171,11 @@ TEST(VehicleFit, APx4LogTellsTheMotorsThatThereAre) {
     EXPECT_EQ(logged.command.back().size(), scenario.airframe.rotors.size());
     EXPECT_EQ(logged.command.size(), recorded.command.size());
     EXPECT_NEAR(logged.command_s.back(), recorded.command_s.back(), 1e-6);
+    ASSERT_EQ(logged.velocity_s.size(), recorded.velocity_s.size());
+    for (std::size_t row = 0; row < logged.velocity_s.size(); row += 100) {
+        EXPECT_NEAR(logged.velocity_s[row], recorded.velocity_s[row], 1e-6);
+        EXPECT_LT((logged.velocity_B_m_s[row] - recorded.velocity_B_m_s[row]).norm(), 1e-5);
+    }
     const VehicleFit fit = identify_vehicle(logged, scenario.airframe);
     ASSERT_TRUE(fit.inertia_kg_m2[1]) << fmt::format("{}", fit.notes.front());
     EXPECT_NEAR(fit.inertia_kg_m2[1]->value, scenario.airframe.inertia_kg_m2[1],

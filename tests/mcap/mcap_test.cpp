@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "../support/files.hpp"
+#include "files_of_bytes.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/mcap/reader.hpp"
 #include "limpet/mcap/writer.hpp"
@@ -15,10 +16,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-Bytes bytes_of(std::string_view text) {
-    return {text.begin(), text.end()};
-}
 
 /// CRC-32 bit by bit, straight from its polynomial: what zlib's tables are checked against.
 std::uint32_t slow_crc32(ByteView bytes) {
@@ -30,54 +27,6 @@ std::uint32_t slow_crc32(ByteView bytes) {
         }
     }
     return ~crc;
-}
-
-/// Concatenates byte literals; numbers in a test stand as the bytes that the specification gives.
-struct Expected {
-    Bytes bytes;
-    Expected& raw(std::initializer_list<int> values) {
-        for (const int value : values) {
-            bytes.push_back(static_cast<std::uint8_t>(value));
-        }
-        return *this;
-    }
-    Expected& u64(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) {
-            bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-        }
-        return *this;
-    }
-    Expected& u32(std::uint32_t value) {
-        u64(value);
-        bytes.resize(bytes.size() - 4);
-        return *this;
-    }
-    Expected& text(std::string_view value) {
-        bytes.insert(bytes.end(), value.begin(), value.end());
-        return *this;
-    }
-};
-
-struct Got {
-    std::uint16_t channel_id;
-    std::uint32_t sequence;
-    std::uint64_t time_ns;
-    Bytes data;
-    bool operator==(const Got&) const = default;
-};
-
-struct ReadBack {
-    Contents contents;
-    std::vector<Got> messages;
-};
-
-ReadBack read_all(const std::filesystem::path& path) {
-    ReadBack result;
-    result.contents = read(path, [&](const Contents&, const Message& m) {
-        result.messages.push_back(
-            {m.channel_id, m.sequence, m.log_time_ns, {m.data.begin(), m.data.end()}});
-    });
-    return result;
 }
 
 constexpr int kMessages = 600;
@@ -367,16 +316,6 @@ TEST(McapReader, SkipsWhatItDoesNotKnow) {
     const Contents contents = read(folder / "a.mcap", {});
     EXPECT_EQ(contents.schemas.at(1).name, "S");  // and takes no offence at a field added behind
     EXPECT_EQ(contents.skipped_records, 0u);
-}
-
-void expect_refused(const std::filesystem::path& path, const std::string& why) {
-    try {
-        (void)read(path, {});
-        FAIL() << path << " was read";
-    } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), AllOf(HasSubstr(path.string()), HasSubstr(why)));
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    }
 }
 
 TEST(McapReader, RefusesWhatIsNoRecording) {

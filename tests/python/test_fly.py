@@ -121,6 +121,29 @@ except KeyboardInterrupt:
     assert child.communicate(timeout=60)[0] == "ended\n"
 
 
+@pytest.mark.parametrize("flies", [
+    'limpet.fly("hover", {"simulation.time_limit_s": 3600})',
+    'limpet.fly("hover", {"simulation.time_limit_s": 3600}, guidance=Stay())',
+    'limpet.Flight(limpet.load("hover", {"simulation.time_limit_s": 3600})).tick(1000000000)',
+    'limpet.campaign(scenario="perch_concrete", runs=10000, jobs=2)',
+])
+def test_the_interpreter_ends_while_daemon_threads_fly(flies):
+    script = f"""import threading, time, limpet
+class Stay:
+    def update(self, *_):
+        return limpet.Setpoint.position([0, 0, 0])
+def fly():
+    while True:
+        {flies}
+for _ in range(2):
+    threading.Thread(target=fly, daemon=True).start()
+time.sleep(0.5)
+print("ends")
+"""
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "ends\n", "")
+
+
 def test_a_branch_is_of_the_same_vehicle():
     scenario = limpet.load("perch_concrete")
     moment = limpet.Flight(scenario).save()

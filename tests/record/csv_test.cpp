@@ -9,6 +9,7 @@
 
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/frames.hpp"
 
 namespace limpet::record {
 namespace {
@@ -71,6 +72,70 @@ TEST(Csv, OneFileATopicWithUnits) {
               "time_s,station,name,reason,values\n"
               "1,guidance,impact,\"below -20 N, twice\",force_N=-30.5;speed_m_s=1.1\n"
               "2,cup,attached,,\n");
+}
+
+TEST(Csv, NoFileIsWrittenOverAnother) {
+    const TestFolder folder;
+    Recording recording;
+    const auto add = [&recording](const char* topic, double x) {
+        recording.tables.push_back({.topic = topic,
+                                    .type = "p/msg/P",
+                                    .time_s = {0.0},
+                                    .columns = {{"x", {x}}},
+                                    .texts = {}});
+    };
+    add("/a/b", 1.0);
+    add("/a_b", 2.0);
+    add("/a/b", 3.0);  // another channel
+    add("/A/B", 4.0);  // the same, to some file systems
+    add("/events", 5.0);
+    add("/a_b_2", 6.0);
+    add("/note", 7.0);
+    add(std::string(300, 'n').c_str(), 8.0);
+    recording.attachments = {{"note.csv", "", "mine", 0},
+                             {"note.csv", "", "again", 0},
+                             {"x.part", "", "part", 0},
+                             {"x", "", "whole", 0}};
+    const auto files = write_csv(recording, folder / "made");
+    EXPECT_THAT(csv_names(recording),
+                ElementsAre("a_b.csv", "a_b_2.csv", "a_b_3.csv", "A_B_4.csv", "events_2.csv",
+                            "a_b_2_2.csv", "note_3.csv", std::string(200, 'n') + ".csv"));
+    ASSERT_EQ(files.size(), 9U);
+    for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(load_text(files[static_cast<std::size_t>(i)]),
+                  "time_s,x\n0," + std::to_string(i + 1) + "\n");
+    }
+    EXPECT_EQ(load_text(files[8]), "time_s,station,name,reason,values\n");
+    const auto attached = write_attachments(recording, folder / "made");
+    ASSERT_EQ(attached.size(), 4U);
+    for (std::size_t i = 0; i < attached.size(); ++i) {
+        EXPECT_EQ(load_text(attached[i]), recording.attachments[i].text);
+    }
+    EXPECT_EQ(load_text(folder / "made/note_3.csv"), "time_s,x\n0,7\n");
+    EXPECT_THAT(renamed_topics(recording),
+                testing::Contains("topic \"/a_b\" is in a_b_2.csv: another file has the name"));
+}
+
+TEST(Csv, WholeNumbersAndTimesKeepTheirDigits) {
+    const TestFolder folder;
+    Recording recording;
+    recording.tables.push_back(
+        {.topic = "/t",
+         .type = "p/msg/P",
+         .time_s = {1'700'000'000.1234567, 0.001},
+         .columns =
+             {{"u",
+               {1.7e18, 1.8446744073709552e19},
+               Whole::uint64,
+               {1'700'000'000'123'456'789, -1}},
+              {"i", {-9.2e18, kNaN}, Whole::int64, {-9'223'372'036'854'775'807, 0}},
+              {"t", {-0.5, 1.7e9}, Whole::nanoseconds, {-500'000'000, 1'700'000'000'000'000'001}}},
+         .texts = {},
+         .time_ns = {1'700'000'000'123'456'789, 1'000'000}});
+    EXPECT_EQ(load_text(write_csv(recording, folder / "made")[0]),
+              "time_s,u,i,t\n"
+              "1700000000.123456789,1700000000123456789,-9223372036854775807,-0.5\n"
+              "0.001,18446744073709551615,nan,1700000000.000000001\n");
 }
 
 TEST(Csv, WritesAttachmentsUnderTheirNamesAlone) {

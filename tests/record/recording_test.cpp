@@ -126,9 +126,59 @@ TEST(Recording, ReadsOtherPeoplesTopicsAndNamesThoseItCannot) {
     const Recording recording = read_recording(folder / "a.mcap");
     ASSERT_EQ(recording.tables.size(), 1u);
     EXPECT_EQ(recording.series("/good", "height_pa").values.size(), 1u);
-    EXPECT_THAT(recording.damage,
-                AllOf(HasSubstr("1 damaged record left out, first a message that is shorter"),
-                      HasSubstr("topic /bad is not read")));
+    EXPECT_EQ(recording.damage,
+              "1 damaged record left out, first a message that is shorter than its schema");
+    EXPECT_THAT(recording.remarks,
+                testing::ElementsAre("topic /bad is not taken: messages in \"json\" with a schema "
+                                     "in \"jsonschema\"; those in cdr with a schema in ros2msg "
+                                     "are"));
+}
+
+TEST(Recording, WhatDoesNotBecomeColumnsIsNamedAndNoDamage) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const mcap::Bytes message = {0, 1, 0, 0, 0, 0, 0, 0};
+        const std::string end = "\n" + std::string(80, '=') + "\nMSG: p/";
+        const std::pair<const char*, std::string> kinds[] = {
+            {"p/msg/Cloud", "Point[] points" + end + "Point\nfloat64 x\n"},
+            {"p/srv/Add_Event", "Add_Request[<=1] request" + end + "srv/Add_Request\nint64 a\n"},
+            {"p/msg/Wide", "wstring text\n"}};
+        for (const auto& [type, text] : kinds) {
+            const auto schema = writer.add_schema(type, "ros2msg", text);
+            writer.write(writer.add_channel(schema, type, "cdr"), 1, message);
+        }
+        writer.close();
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_EQ(recording.damage, "");
+    ASSERT_EQ(recording.remarks.size(), 3U);
+    EXPECT_THAT(recording.remarks[0], HasSubstr("an array of messages: p/msg/Point points"));
+    EXPECT_THAT(recording.remarks[1], HasSubstr("a service's events"));
+    EXPECT_THAT(recording.remarks[2], HasSubstr("wstring"));
+}
+
+TEST(Recording, EventsOfAllChannelsAreInOrder) {
+    const TestFolder folder;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const auto event = writer.add_schema("limpet_msgs/msg/Event", "ros2msg", "string name\n");
+        const auto one = writer.add_channel(event, "/events", "cdr");
+        const auto other = writer.add_channel(event, "/events", "cdr");
+        const auto write = [&](std::uint16_t channel, std::uint64_t time_ns, char name) {
+            writer.write(channel, time_ns,
+                         mcap::Bytes{0, 1, 0, 0, 2, 0, 0, 0, static_cast<std::uint8_t>(name), 0});
+        };
+        write(one, 1, 'a');
+        write(other, 2, 'b');
+        write(one, 3, 'c');
+        writer.close();
+    }
+    std::string names;
+    for (const RecordedEvent& event : read_recording(folder / "a.mcap").events) {
+        names += event.name;
+    }
+    EXPECT_EQ(names, "abc");
 }
 
 TEST(Recording, ATopicWithoutEndCostsThatTopicAlone) {
@@ -163,6 +213,18 @@ TEST(Recording, WhatIsBeyondAllIsRefusedAsAWhole) {
     }
     EXPECT_EQ(message_of([&] { (void)read_recording(folder / "a.mcap"); }),
               (folder / "a.mcap").string() + ": more than 4000000 bytes of message definitions");
+}
+
+TEST(Recording, ASummaryThatIsNoFlightsIsNotTaken) {
+    Recording recording;
+    EXPECT_EQ(summary_text(recording), "");
+    recording.attachments = {{"summary.json", "application/json", "{}", 0}};
+    EXPECT_EQ(summary_text(recording), "{}");
+    recording.attachments[0].text.assign(1'000'001, '[');
+    EXPECT_EQ(summary_text(recording), "");
+    EXPECT_EQ(begins_as_recording("\x89MCAP0\r\n"), true);
+    EXPECT_EQ(begins_as_recording(std::string("\x04\x22\x4D\x18`@\x82x")), true);
+    EXPECT_EQ(begins_as_recording(std::string("ULog\x01\x12\x35\x01")), false);
 }
 
 TEST(Recording, RefusesWhatIsNone) {

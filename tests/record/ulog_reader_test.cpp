@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/record/ulog_reader.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
+#include "../support/allocations.hpp"
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/record/ulog.hpp"
@@ -87,16 +90,106 @@ TEST(UlogReader, RefusesWhatIsNoneInALine) {
                             message('F', "y:z[9999] a;") + message('F', "z:w[9999] a;") +
                             message('F', "w:uint8_t _padding0;") +
                             message('A', std::string(1, '\0') + bytes(std::uint16_t{0}) + "x")),
-        HasSubstr("the format of x cannot be read"));
+        HasSubstr("the format of \"x\" cannot be read: "));
     EXPECT_THAT(refusal(folder, kHead + message('F', "nameless")), HasSubstr("without a name"));
     const std::string of = message('A', std::string(1, '\0') + bytes(std::uint16_t{0}) + "x");
     for (const char* format :
          {"x:uint64_t timestamp;x[2] self;", "x:uint64_t timestamp;float[z] a;",
           "x:uint64_t timestamp;float[99999] a;", "x:float a;", "x:y a;"}) {
         EXPECT_THAT(refusal(folder, kHead + message('F', format) + of),
-                    HasSubstr("the format of x cannot be read"))
+                    HasSubstr("the format of \"x\" cannot be read: "))
             << format;
     }
+}
+
+std::string subscription(std::uint16_t id, const std::string& type, char instance = 0) {
+    return message('A', instance + bytes(id) + type);
+}
+
+/// What is kept in memory, in time that nobody notices: a refusal, or what little there is to read.
+TEST(UlogReader, ASmallFileTakesLittleMemory) {
+    const TestFolder folder;
+    const std::string name(60'000, 'n');
+    const std::string whole = message('D', bytes(std::uint16_t{1}) + std::string(100, '\0'));
+
+    EXPECT_THAT(refusal(folder, kHead + message('F', "a:uint64_t timestamp;float[9000] " + name) +
+                                    subscription(1, "a") + whole),
+                HasSubstr("a field's name of 60000 characters, allowed 1..128"));
+
+    std::string nested = kHead + message('F', "a:uint64_t timestamp;t0 " + name);
+    for (int level = 0; level < 6; ++level) {
+        nested += message('F', fmt::format("t{}:t{} {}", level, level + 1, name));
+    }
+    nested += message('F', "t6:float[9000] " + name) + subscription(1, "a") + whole;
+    EXPECT_THAT(refusal(folder, nested), HasSubstr("a field's name of 60000 characters"));
+
+    std::string texts = kHead + message('F', "a:uint64_t timestamp;char[9990] c");
+    std::string again = kHead + message('F', "a:uint64_t timestamp;float[9000] x");
+    for (int k = 0; k < 65'536; ++k) {
+        texts += subscription(static_cast<std::uint16_t>(k), "a");
+        again += subscription(1, "a", static_cast<char>(k % 4));
+    }
+    const std::uint64_t before = allocated_bytes();
+    EXPECT_TRUE(read(folder, texts).tables.empty());
+    EXPECT_TRUE(read(folder, again).tables.empty());
+    EXPECT_LT(allocated_bytes() - before, 200'000'000U);
+
+    std::string instances = kHead + message('F', "a:uint64_t timestamp;float[9000] x");
+    for (int k = 0; k < 256; ++k) {
+        instances += subscription(static_cast<std::uint16_t>(k), "a", static_cast<char>(k));
+    }
+    EXPECT_THAT(refusal(folder, instances), HasSubstr("x.ulg: more than 100000 fields"));
+}
+
+/// Definitions that are short, and gone through for ever.
+TEST(UlogReader, ADefinitionTakesNoTime) {
+    const TestFolder folder;
+    std::string log = kHead + message('F', "a:uint64_t timestamp;b[9000] x") +
+                      message('F', "b:" + std::string(60'000, ';'));
+    for (int k = 0; k < 50; ++k) {
+        log += message('F', fmt::format("a{}:uint64_t timestamp;b[9000] x", k)) +
+               subscription(static_cast<std::uint16_t>(k), fmt::format("a{}", k));
+    }
+    EXPECT_THAT(refusal(folder, log), HasSubstr("more than 4000000 bytes of message definitions"));
+}
+
+/// Rows of eight bytes in a table of nine thousand columns.
+TEST(UlogReader, ATableIsBoundedByTheFile) {
+    const TestFolder folder;
+    std::string log =
+        kHead + message('F', "a:uint64_t timestamp;float[9000] x") + subscription(1, "a");
+    for (int row = 0; row < 2000; ++row) {
+        log += message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}));
+    }
+    EXPECT_THAT(refusal(folder, log), HasSubstr("more than 32 MB in memory"));
+}
+
+TEST(UlogReader, ATopicThatIsSubscribedAgainGoesOn) {
+    const TestFolder folder;
+    const auto row = [](std::uint16_t id, std::uint64_t t_us, float x) {
+        return message('D', bytes(id) + bytes(t_us) + bytes(x));
+    };
+    const std::string format = "a:uint64_t timestamp;float x";
+    const Recording log =
+        read(folder, kHead + message('F', format) + message('F', format) + subscription(1, "a") +
+                         row(1, 1'000'000, 2.5F) + subscription(2, "a") + row(2, 2'000'000, 3.5F));
+    ASSERT_EQ(log.tables.size(), 1U);
+    EXPECT_THAT(log.table("a").time_s, ElementsAre(1.0, 2.0));
+    EXPECT_THAT(log.series("a", "x").values, ElementsAre(2.5, 3.5));
+    EXPECT_THAT(refusal(folder, kHead + message('F', format) +
+                                    message('F', "a:uint64_t timestamp;double x")),
+                HasSubstr("two formats of \"a\" that are not alike"));
+}
+
+TEST(UlogReader, WhatIsNotInAMessageIsNoNumber) {
+    const TestFolder folder;
+    const Recording log =
+        read(folder, kHead + message('F', "a:uint64_t timestamp;float x;double y") +
+                         subscription(1, "a") +
+                         message('D', bytes(std::uint16_t{1}) + bytes(std::uint64_t{1}) +
+                                          bytes(2.5F) + bytes(7.0).substr(0, 5)));
+    EXPECT_THAT(log.series("a", "x").values, ElementsAre(2.5));
+    EXPECT_TRUE(std::isnan(log.series("a", "y").values[0]));
 }
 
 }  // namespace

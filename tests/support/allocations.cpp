@@ -6,10 +6,12 @@
 
 namespace {
 thread_local long count = 0;
-}
+thread_local unsigned long bytes = 0;
+}  // namespace
 
 void* operator new(std::size_t size) {
     ++count;
+    bytes += size;
     if (void* memory = std::malloc(size > 0 ? size : 1)) {
         return memory;
     }
@@ -25,4 +27,7 @@ void operator delete(void* memory, std::size_t) noexcept {
 
 long limpet::allocations() {
     return count;
+}
+unsigned long limpet::allocated_bytes() {
+    return bytes;
 }

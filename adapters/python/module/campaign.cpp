@@ -10,6 +10,7 @@
 #include <atomic>
 #include <future>
 
+#include "air.hpp"
 #include "limpet/campaign/campaign_file.hpp"
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/campaign/workers.hpp"
@@ -64,6 +65,7 @@ std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
                                    int jobs, bool resume, const OnProgress& on_progress) {
     constexpr int kMostJobs = 1024;  // as the program's
+    const InTheAir in_the_air;
     if (jobs < 1 || jobs > kMostJobs) {
         throw InputError(
             fmt::format("campaign(): jobs = {} is out of range, allowed 1..{}", jobs, kMostJobs));
@@ -91,6 +93,9 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     while (!wait()) {
         if (on_progress) {
             on_progress(finished, asked.runs);
+        }
+        if (interpreter_ends()) {
+            throw InterpreterEnds();
         }
         if (PyErr_CheckSignals() != 0) {
             throw py::error_already_set();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "air.hpp"
 #include "channels.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/limpet.hpp"
@@ -42,7 +43,7 @@ py::dict metrics_of(const Result& result) {
     return metrics;
 }
 
-/// Looks for Ctrl-C now and then; flies without the GIL in between.
+/// Looks for Ctrl-C and for the interpreter's end now and then; flies without the GIL in between.
 class Patience {
 public:
     void wait() {
@@ -50,6 +51,9 @@ public:
             return;
         }
         next_ = Clock::now() + std::chrono::milliseconds(50);
+        if (interpreter_ends()) {
+            throw InterpreterEnds();
+        }
         const py::gil_scoped_acquire gil;
         if (PyErr_CheckSignals() != 0) {
             throw py::error_already_set();
@@ -74,7 +78,7 @@ std::shared_ptr<Flown> fly(Flight& flight, int rate_Hz) {
         throw py::value_error("rate_Hz: 1..1000");
     }
     auto flown = std::make_shared<Flown>();
-    const py::gil_scoped_release fly_freely;
+    const FlyFreely fly_freely;
     const int every = kTicksPerSecond / rate_Hz;
     Patience patience;
     flown->log.sample(flight);
@@ -98,7 +102,7 @@ public:
         if (count < 0) {
             throw py::value_error("tick(): 0 milliseconds or more");
         }
-        const py::gil_scoped_release fly_freely;
+        const FlyFreely fly_freely;
         Patience patience;
         happened_.clear();
         bool goes_on = !ended();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "module.hpp"
 
+#include "air.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/version.hpp"
 
@@ -13,6 +14,7 @@ PYBIND11_MODULE(_core, module) {
         "Input that cannot be used: one line that says where, what, and what is allowed.";
     py::register_exception<InternalError>(module, "InternalError", PyExc_RuntimeError).doc() =
         "A fault of Limpet's: please report it.";
+    python::add_air();
     python::add_signals(module);
     python::add_stations(module);
     python::add_flight(module);

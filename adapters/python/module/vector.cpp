@@ -6,9 +6,12 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <optional>
+#include <system_error>
 #include <thread>
 
+#include "air.hpp"
 #include "channels.hpp"
 #include "limpet/limpet.hpp"
 #include "module.hpp"
@@ -80,7 +83,7 @@ public:
             }
             seats_[i].tell(row, velocity);
         }
-        const py::gil_scoped_release fly_freely;
+        const FlyFreely fly_freely;
         fly(ticks);
     }
 
@@ -142,7 +145,8 @@ private:
         const auto work = [&] {
             try {
                 for (std::size_t i = next++; i < seats_.size(); i = next++) {
-                    for (int k = 0; seats_[i].flight && k < ticks && seats_[i].flight->tick();
+                    for (int k = 0; seats_[i].flight && k < ticks && !interpreter_ends() &&
+                                    seats_[i].flight->tick();
                          ++k) {
                     }
                 }
@@ -154,13 +158,20 @@ private:
         {
             std::vector<std::jthread> others;
             const auto wanted = std::min(static_cast<std::size_t>(jobs_), seats_.size());
-            while (others.size() + 1 < wanted) {
-                others.emplace_back(work);
+            try {
+                while (others.size() + 1 < wanted) {
+                    others.emplace_back(work);
+                }
+            } catch (const std::system_error&) {  // no more threads: those there are will do
+            } catch (const std::bad_alloc&) {     // nor memory for them
             }
             work();
         }
         if (failed) {
             std::rethrow_exception(failed);
+        }
+        if (interpreter_ends()) {
+            throw InterpreterEnds();
         }
     }
 

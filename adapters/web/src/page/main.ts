@@ -93,6 +93,12 @@ class Page {
     this.range = undefined;
     this.refresh(recordings);
     this.view(this.stage.currentView);
+    this.say(
+      recordings
+        .filter(({ damage }) => damage !== "")
+        .map(({ name, damage }) => `${name}: ${damage}`)
+        .join("; "),
+    );
   }
   /**
    * The same, seen from where one looks, at the same time.
@@ -193,7 +199,6 @@ class Page {
       }
       if (recordings.length > 0) {
         this.load(recordings);
-        this.say("");
       }
     } catch (problem) {
       this.say(problem instanceof Error ? problem.message : String(problem));

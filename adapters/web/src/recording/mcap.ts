@@ -4,6 +4,7 @@
 // Source: https://mcap.dev/spec
 import { crc32 } from "@foxglove/crc";
 import { decompress } from "fzstd";
+import { kLz4Magic, unpackLz4 } from "./lz4";
 
 export interface Channel {
   id: number;
@@ -19,11 +20,17 @@ export interface McapTaker {
   message(channel: number, time_s: number, bytes: Uint8Array): void;
   attachment(name: string, bytes: Uint8Array): void;
   metadata(name: string, values: Map<string, string>): void;
+  /** A record that is passed over, what is in it too. */
+  damaged(why: string): void;
 }
 
 const kMagic = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 const kRecordHead = 9; // kind, length
 const kMessageHead = 22; // channel, sequence, two times
+const kMostChunk = 2 ** 28;
+const kZstdMagic = 0xfd2fb528;
+/** What a file may become: as limpet/mcap/reader.cpp has it. */
+const allowance = (bytes: number): number => Math.min(256e6 + 100 * bytes, 4e9);
 enum Kind {
   schema = 3,
   channel = 4,
@@ -86,9 +93,12 @@ class Fields {
 class Reader {
   private readonly schemas = new Map<number, { encoding: string; text: string }>();
 
-  constructor(private readonly taker: McapTaker) {}
+  constructor(
+    private readonly taker: McapTaker,
+    private left: number, // bytes that may yet be unpacked
+  ) {}
 
-  /** All whole records of it. */
+  /** All whole records of it; one that is damaged costs what is in it. */
   records(bytes: Uint8Array, from: number): void {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     for (let at = from; at + kRecordHead <= bytes.length; ) {
@@ -98,11 +108,15 @@ class Reader {
       if (end > bytes.length) {
         return; // of a run that died
       }
-      if (kind !== Kind.message) {
-        this.record(kind, bytes.subarray(begin, end));
-      } else if (end - begin >= kMessageHead) {
-        const body = bytes.subarray(begin + kMessageHead, end);
-        this.taker.message(view.getUint16(begin, true), secondsAt(view, begin + 6), body);
+      try {
+        if (kind !== Kind.message) {
+          this.record(kind, bytes.subarray(begin, end));
+        } else if (end - begin >= kMessageHead) {
+          const body = bytes.subarray(begin + kMessageHead, end);
+          this.taker.message(view.getUint16(begin, true), secondsAt(view, begin + 6), body);
+        }
+      } catch (problem) {
+        this.taker.damaged(problem instanceof Error ? problem.message : String(problem));
       }
       at = end;
     }
@@ -144,13 +158,38 @@ class Reader {
     const crc = fields.u32();
     const compression = fields.text();
     const stored = fields.take(fields.u64());
-    if (compression !== "" && compression !== "zstd") {
-      throw new Error(`it is compressed by ${compression}, which is not read here`);
-    }
-    const records = compression === "" ? stored : decompress(stored, new Uint8Array(size));
+    const records = compression === "" ? stored : this.unpack(compression, stored, size);
     intact(records, crc, "a chunk");
     this.records(records, 0);
   }
+  private unpack(compression: string, stored: Uint8Array, size: number): Uint8Array {
+    if (size > kMostChunk) {
+      throw new Error("a chunk is larger than 256 MiB");
+    }
+    if (size > this.left) {
+      throw new Error("it unpacks to more than a recording of its size does");
+    }
+    this.left -= size;
+    switch (compression) {
+      case "zstd":
+        return decompress(stored, new Uint8Array(size));
+      case "lz4":
+        return unpackLz4(stored, size, size);
+    }
+    throw new Error(`a chunk is compressed by ${compression}, which is not read here`);
+  }
+}
+
+/** A file that is packed as a whole, .mcap.zstd or .mcap.lz4, unpacked. */
+function unpacked(bytes: Uint8Array): Uint8Array {
+  const kGuess = 4;
+  const magic =
+    bytes.length < 4 ? 0 : new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
+  return magic === kZstdMagic
+    ? decompress(bytes)
+    : magic === kLz4Magic
+      ? unpackLz4(bytes, kGuess * bytes.length, Math.min(allowance(bytes.length), 1e9))
+      : bytes;
 }
 
 function intact(bytes: Uint8Array, crc: number, what: string): void {
@@ -160,12 +199,13 @@ function intact(bytes: Uint8Array, crc: number, what: string): void {
 }
 
 /**
- * @param bytes  of a file, whole or as far as it was written
- * @throws Error where it is none, or damaged
+ * @param packed  bytes of a file, whole or as far as it was written
+ * @throws Error where it is none
  */
-export function readMcap(bytes: Uint8Array, taker: McapTaker): void {
+export function readMcap(packed: Uint8Array, taker: McapTaker): void {
+  const bytes = unpacked(packed);
   if (kMagic.some((byte, i) => bytes[i] !== byte)) {
     throw new Error("it does not begin as one");
   }
-  new Reader(taker).records(bytes, kMagic.length);
+  new Reader(taker, allowance(packed.length)).records(bytes, kMagic.length);
 }

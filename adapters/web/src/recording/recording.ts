@@ -51,6 +51,8 @@ export interface Recording {
   events: FlightEvent[];
   phases: Phase[];
   tables: Map<string, Table>;
+  /** What is missing of it, in a sentence; empty where it is whole. */
+  damage: string;
 }
 
 /** Without which there is nothing to see. */
@@ -136,6 +138,8 @@ export class Builder implements McapTaker {
   private readonly takers = new Map<number, Take>();
   private readonly tables = new Map<string, TableBuilder>();
   private readonly estimated = new Track("map"); // where the vehicle believes to be
+  private damages = 0;
+  private firstDamage = "";
   readonly recording: Recording;
 
   constructor(
@@ -154,7 +158,13 @@ export class Builder implements McapTaker {
       events: [],
       phases: [],
       tables: new Map(),
+      damage: "",
     };
+  }
+
+  damaged(why: string): void {
+    this.damages += 1;
+    this.firstDamage ||= why;
   }
 
   /** @returns whether its messages are wanted */
@@ -197,6 +207,8 @@ export class Builder implements McapTaker {
     for (const [topic, builder] of this.tables) {
       recording.tables.set(topic, builder.table());
     }
+    recording.damage =
+      this.damages > 0 ? `${this.damages} damaged and left out, first: ${this.firstDamage}` : "";
     recording.phases = phasesOf(recording.tables.get("/guidance"), recording.duration);
     // A companion knows no truth: its vehicle is where it is estimated.
     if (this.estimated.time.length > 0 && !recording.frames.has(kVehicle)) {

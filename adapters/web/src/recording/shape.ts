@@ -77,6 +77,11 @@ class Walk {
       if (fields === undefined) {
         throw new Error(`${path}: there is no definition of ${field.type}`);
       }
+      // ROS 2 gives a message without fields a byte.
+      const blank = fields.every(({ isConstant }) => isConstant === true);
+      if (blank && this.skip(1) >= this.bytes.length) {
+        throw new Error(`${path}: the message ends before it`);
+      }
       this.fields(path, fields);
     } else if (size !== undefined) {
       const [bytes, get] = size;
