@@ -59,6 +59,7 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, record::Record
       watch_(std::move(watch)),
       offboard_(options_of(config)),
       inputs_(config),
+      pose_watch_(config.limits.pose_watch),
       dry_(watch_),
       session_(
           setup_of(config, dry_run),
@@ -115,10 +116,16 @@ void Companion::poll(double time_s) {
         wires_.motion_capture->update(time_s);
     }
     inputs_.poll(wires_, offboard_, time_s);
-    pose_ = pose_watch_.trusted(inputs_.readings().motion_capture,
-                                offboard_.report().armed ? offboard_.estimate(time_s) : Estimate{});
+    pose_ =
+        pose_watch_.trusted(inputs_.readings().motion_capture, offboard_.estimate(time_s), mover());
     carried_.update(pose_);
     forward_pose(time_s);
+}
+
+Mover Companion::mover() const {
+    return offboard_.report().armed          ? Mover::rotors
+           : phase() == SessionPhase::flying ? Mover::nothing
+                                             : Mover::hand;
 }
 
 void Companion::forward_pose(double time_s) {
@@ -151,6 +158,8 @@ void Companion::feed(double time_s) {
     SessionInputs& in = session_.inputs();
     in.readings = inputs_.readings();
     in.readings.motion_capture = pose_;
+    in.pose_doubt = pose_watch_.doubt();
+    in.pose_away_m = pose_watch_.away_m();
     const Estimate estimate = dry_run_ ? carried_.estimate() : offboard_.estimate(time_s);
     if (estimate.valid) {
         in.pose = {estimate.time_s, {.p_WB_m = estimate.p_WB_m, .q_WB = estimate.q_WB}};
@@ -272,6 +281,11 @@ void Companion::say_changes(double time_s) {
     if (offboard_.report().texts != told_texts_) {
         told_texts_ = offboard_.report().texts;
         watch_.line(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
+    }
+    if (pose_watch_.doubt() != told_doubt_) {
+        told_doubt_ = pose_watch_.doubt();
+        watch_.line(time_s, fmt::format("motion capture: {}",
+                                        doubt_text(told_doubt_, pose_watch_.away_m())));
     }
     const bool deaf = session_.drives_mechanism() && phase() == SessionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&

@@ -75,6 +75,7 @@ private:
     void feed(double time_s);
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     void conclude(bool was_leaving, double time_s);
+    [[nodiscard]] Mover mover() const;
     void forward_pose(double time_s);
     void steer(double time_s);
     void actuate(double time_s);
@@ -112,6 +113,7 @@ private:
     Readings recorded_;
     double recorded_estimate_s_ = 0.0;
     std::uint64_t told_texts_ = 0;
+    PoseDoubt told_doubt_ = PoseDoubt::none;
     bool told_deaf_ = false;  ///< that the mechanism does not answer
     CompanionResult result_;
 };
