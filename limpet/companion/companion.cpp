@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
@@ -116,10 +118,33 @@ void Companion::poll(double time_s) {
         wires_.motion_capture->update(time_s);
     }
     inputs_.poll(wires_, offboard_, time_s);
-    pose_ =
-        pose_watch_.trusted(inputs_.readings().motion_capture, offboard_.estimate(time_s), mover());
+    watch_pose(time_s);
     carried_.update(pose_);
     forward_pose(time_s);
+}
+
+void Companion::watch_pose(double time_s) {
+    const Sample<PoseReading>& news = inputs_.readings().motion_capture;
+    pose_ = pose_watch_.trusted(news, offboard_.estimate(time_s), mover());
+    if (news.newer_than(watched_s_)) {
+        watched_s_ = news.time_s;
+        ++withheld_.at(static_cast<std::size_t>(pose_watch_.doubt()));
+    }
+}
+
+/// Of the wire, and of the watch behind it.
+PoseReport Companion::pose_report() const {
+    PoseReport report = inputs_.pose_report(wires_);
+    for (std::size_t i = 1; i < withheld_.size(); ++i) {
+        if (withheld_[i] > 0) {
+            report.taken -= std::min(report.taken, withheld_[i]);
+            report.refused.emplace_back(name_of(static_cast<PoseDoubt>(i)), withheld_[i]);
+        }
+    }
+    if (report.latest.empty() && pose_watch_.doubt() != PoseDoubt::none) {
+        report.latest = doubt_text(pose_watch_.doubt(), pose_watch_.away_m());
+    }
+    return report;
 }
 
 Mover Companion::mover() const {
@@ -166,6 +191,11 @@ void Companion::feed(double time_s) {
         in.velocity_W_m_s = {estimate.time_s, estimate.v_WB_m_s};
         in.rate_B_rad_s = {estimate.time_s, estimate.w_WB_B_rad_s};
     }
+    if (pose_.fresh(time_s, config_.limits.pose_limit_s)) {
+        in.pose_refused.clear();
+    } else {  // costs memory, where the flight is over anyway
+        in.pose_refused = inputs_.pose_report(wires_).latest;
+    }
     if (!flies && wires_.sensors) {
         in.sensors_refused = sensors_refusals_.reasons(wires_.sensors->count().refusals, time_s,
                                                        config_.limits.silence_limit_s);
@@ -197,6 +227,7 @@ void Companion::conclude(bool was_leaving, double time_s) {
     result_.outcome = session_.outcome();
     result_.reason = session_.reason();
     result_.attempts = session_.flew() ? memory().attempt : 0;
+    result_.motion_capture = pose_report();
 }
 
 // --- to the wires -----------------------------------------------------------------------------

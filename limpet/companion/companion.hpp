@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -29,6 +30,7 @@ struct CompanionResult {
     std::uint64_t ticks = 0;
     std::uint64_t late_ticks = 0;  ///< by more than a period
     Lateness lateness;             ///< of all ticks
+    PoseReport motion_capture;     ///< when it was over
     double last_s = 0.0;           ///< time of the last tick
 };
 
@@ -76,6 +78,8 @@ private:
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     void conclude(bool was_leaving, double time_s);
     [[nodiscard]] Mover mover() const;
+    void watch_pose(double time_s);
+    [[nodiscard]] PoseReport pose_report() const;
     void forward_pose(double time_s);
     void steer(double time_s);
     void actuate(double time_s);
@@ -99,7 +103,9 @@ private:
     mavlink::Offboard offboard_;
     Inputs inputs_;
     PoseWatch pose_watch_;
-    Sample<PoseReading> pose_;  ///< that the watch trusts
+    Sample<PoseReading> pose_;                    ///< that the watch trusts
+    double watched_s_ = -1.0;                     ///< of the last pose that it saw
+    std::array<std::uint64_t, 5> withheld_ = {};  ///< poses by PoseDoubt
     MechanismPace mechanism_;
     RefusalWatch autopilot_refusals_;
     RefusalWatch sensors_refusals_;

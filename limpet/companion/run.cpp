@@ -108,12 +108,21 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
                           {"reason", event.reason},
                           {"values", values}});
     }
+    Json refused = Json::object();
+    for (const auto& [why, count] : result.motion_capture.refused) {
+        refused[why] = count;
+    }
     const Json json = {
         {"companion", config.name},
         {"end", name_of(result.end)},
         {"outcome", std::string(result.outcome ? to_string(*result.outcome) : name_of(result.end))},
         {"reason", result.reason},
         {"attempts", result.attempts},
+        {"motion_capture",
+         {{"came", result.motion_capture.came},
+          {"taken", result.motion_capture.taken},
+          {"refused", refused},
+          {"latest", result.motion_capture.latest}}},
         {"events", events},
         {"ticks", result.ticks},
         {"late_ticks", result.late_ticks},

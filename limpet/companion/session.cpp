@@ -29,6 +29,10 @@ std::string doubt_text(PoseDoubt doubt, double away_m) {
 
 /// With what the poses are withheld for.
 std::string PerchingSession::cause_text(Cause cause) const {
+    if (cause == Cause::pose_stale && inputs_.pose_doubt == PoseDoubt::none &&
+        !inputs_.pose_refused.empty()) {
+        return fmt::format("{}: {}", to_string(cause), inputs_.pose_refused);
+    }
     const bool withheld = cause == Cause::pose_stale && inputs_.pose_doubt != PoseDoubt::none;
     return withheld ? fmt::format("{}: {}", to_string(cause),
                                   doubt_text(inputs_.pose_doubt, inputs_.pose_away_m))
