@@ -76,18 +76,28 @@ void Learn::begin(std::string_view request) {
     asked_ = std::move(asked);
     flights_ = std::move(flights);
     next_ = 0;
+    trouble_.clear();
     stop_ = false;
     running_ = true;
     ++id_;
     thread_ = std::jthread([this] {
-        plant::fly_side_by_side([this] { fly_all(); });
+        try {
+            plant::fly_side_by_side([this] { fly_all(); });
+        } catch (const std::exception&) {
+            trouble_.keep();
+        }
         running_ = false;
     });
 }
 
 void Learn::fly_all() {
-    for (std::size_t i = next_++; i < flights_.size() && !stop_; i = next_++) {
-        fly(flights_[i]);
+    try {
+        for (std::size_t i = next_++; i < flights_.size() && !stop_; i = next_++) {
+            fly(flights_[i]);
+        }
+    } catch (const std::exception&) {
+        trouble_.keep();
+        stop_ = true;
     }
 }
 
@@ -120,6 +130,7 @@ void Learn::fly(Turned& turned) {
 }
 
 std::string Learn::state() {
+    trouble_.say();
     const bool running = running_;  // before the flights: none is missed when it has ended
     const std::lock_guard lock(guards_outcomes_);
     const auto flight_json = [](const Turned& turned) {

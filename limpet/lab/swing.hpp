@@ -36,6 +36,7 @@ public:
     ///         "values", "own": the vehicle's numbers, by key}, "growth_1_s": [up * across: null:
     ///         not yet; "none": there is no such vehicle, or it has no rest or swing], "own":
     ///         {"growth_1_s", "frequency_Hz", null: as above}}
+    /// @throws what ended the work: no memory
     [[nodiscard]] std::string state();
 
 private:
@@ -57,6 +58,7 @@ private:
     std::vector<std::size_t> order_;  ///< of the points: every fourth of a row, every second, all
     std::mutex guards_points_;
     std::vector<Point> points_;
+    Trouble trouble_;
     std::vector<std::jthread> threads_;
 };
 

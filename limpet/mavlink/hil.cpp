@@ -105,6 +105,11 @@ std::optional<HilStatus> Hil::ended() const {
     return link_.generation() != generation_ ? std::optional(HilStatus::gone) : std::nullopt;
 }
 
+/// Of one that has never answered.
+HilStatus Hil::unanswered() const {
+    return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
+}
+
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
     const Clock::time_point begin = Clock::now();
     const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
@@ -126,7 +131,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
         return HilStatus::answered;
     }
     if (!answered_ever_) {
-        return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
+        return unanswered();
     }
     ++count_.unanswered;
     return HilStatus::silent;
@@ -151,7 +156,7 @@ HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
         return *over;
     }
     if (!answered_ever_) {
-        return HilStatus::waiting;
+        return unanswered();
     }
     const bool stale =
         duration<double>(Clock::now() - answered_at_).count() > options_.stale_limit_s;

@@ -161,8 +161,10 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
         case mavlink::HilStatus::waiting:
         case mavlink::HilStatus::answered: break;
         case mavlink::HilStatus::silent:
-            failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
-                                                : "the autopilot has never answered HIL_SENSOR";
+            failure_ = hil_.count().answers > 0
+                           ? "the autopilot answers no longer"
+                           : "the autopilot connected, and has not answered HIL_SENSOR in "
+                             "the time that it is waited for";
             break;
         case mavlink::HilStatus::gone: failure_ = "the autopilot closed the link"; break;
         case mavlink::HilStatus::interrupted: break;  // who set the stop ends the flight
