@@ -51,6 +51,7 @@ TEST(PoseWatch, KeepsBackATrackerThatRepeatsItselfOnceTheBodyHasTurned) {
 
 TEST(PoseWatch, LetsABodyAtRestBeSeenWithoutNoise) {
     Watched w;
+    w.estimate.v_WB_m_s.setZero();
     const PoseReading still = w.pose();
     for (int k = 0; k < 100; ++k) {
         EXPECT_TRUE(w.sees(still));

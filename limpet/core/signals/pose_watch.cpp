@@ -57,24 +57,22 @@ bool PoseWatch::repeats(const PoseReading& pose, const Estimate& estimate, bool 
     return same && (frozen_ || (flies && entry_q_WB_.angularDistance(estimate.q_WB) > kTurned_rad));
 }
 
-/// Whether the pose is not where the autopilot says, and it is not only that both have long been
-/// apart (a frame that lies otherwise) or that the autopilot has come to the tracker at once.
-bool PoseWatch::jumps(const Sample<PoseReading>& pose, const Estimate& estimate) {
-    if (!off_W_m_) {
-        return false;
+/// How far the pose is from where the autopilot says; nothing: it is there. Neither a tracker whose
+/// frame has long been another nor an autopilot that comes to the tracker at once has jumped.
+std::optional<Vector3> PoseWatch::jump(const Sample<PoseReading>& pose,
+                                       const Estimate& estimate) const {
+    if (!off_W_m_ || !estimate.valid) {
+        return std::nullopt;
     }
     const Vector3 off_m = pose.value.p_WB_m - position_at(estimate, pose.time_s);
     const Vector3 change_m = off_m - *off_W_m_;
-    if (std::min(off_m.norm(), change_m.norm()) <=
-        limits_.jump_m + astray_m(pose.time_s - seen_.time_s)) {
-        return false;
-    }
-    jump_W_m_ = change_m;
-    return true;
+    const double limit_m = limits_.jump_m + astray_m(pose.time_s - seen_.time_s);
+    return off_m.norm() > limit_m && change_m.norm() > limit_m ? std::optional(change_m)
+                                                               : std::nullopt;
 }
 
-/// The autopilot goes astray while it sees no poses, so steps alone are summed up: they end where
-/// they began.
+/// By the autopilot's position, or by the tracker's own steps: the autopilot goes astray while it
+/// sees no poses, steps back end where they began.
 bool PoseWatch::jumped_back(const Sample<PoseReading>& pose, const Estimate& estimate) {
     const double interval_s = pose.time_s - seen_.time_s;
     const Vector3 v_m_s = estimate.valid ? estimate.v_WB_m_s : Vector3::Zero();
@@ -82,7 +80,7 @@ bool PoseWatch::jumped_back(const Sample<PoseReading>& pose, const Estimate& est
     if (step_m.norm() > 0.5 * limits_.jump_m + astray_m(interval_s)) {
         jump_W_m_ += step_m;
     }
-    return jump_W_m_.norm() < limits_.jump_m;
+    return jump_W_m_.norm() < limits_.jump_m || (estimate.valid && !jump(pose, estimate));
 }
 
 bool PoseWatch::moves_alone(const Sample<PoseReading>& pose, const Estimate& estimate,
@@ -149,7 +147,9 @@ const Sample<PoseReading>& PoseWatch::trusted(const Sample<PoseReading>& poses,
             off_W_m_.reset();
         }
     } else {
-        jumped_ = flies && !other && jumps(poses, estimate);
+        const auto found = flies && !other && !frozen_ ? jump(poses, estimate) : std::nullopt;
+        jumped_ = found.has_value();
+        jump_W_m_ = found.value_or(Vector3::Zero());
     }
     alone_ = !jumped_ && mover != Mover::rotors && moves_alone(poses, estimate, mover);
     away_m_ = jumped_ ? jump_W_m_.norm() : alone_ ? away_m_ : 0.0;

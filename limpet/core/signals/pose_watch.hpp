@@ -68,7 +68,8 @@ public:
 
 private:
     [[nodiscard]] bool repeats(const PoseReading& pose, const Estimate& estimate, bool flies);
-    [[nodiscard]] bool jumps(const Sample<PoseReading>& pose, const Estimate& estimate);
+    [[nodiscard]] std::optional<Vector3> jump(const Sample<PoseReading>& pose,
+                                              const Estimate& estimate) const;
     [[nodiscard]] bool jumped_back(const Sample<PoseReading>& pose, const Estimate& estimate);
     [[nodiscard]] bool moves_alone(const Sample<PoseReading>& pose, const Estimate& estimate,
                                    Mover mover);
