@@ -71,7 +71,7 @@ void introduce(const CompanionOptions& options, const companion::CompanionConfig
         terminal.line("  " + line);
     }
     if (options.dry_run) {
-        terminal.line("  dry run     hears all, commands nothing; poses are motion capture's");
+        terminal.line("  dry run     reads all inputs, commands nothing; poses are motion capture's");
     }
     if (options.speed != 1.0) {
         terminal.line(fmt::format("  clock       {:g} times real time", options.speed));
@@ -188,13 +188,13 @@ OptionList options_of(CompanionOptions& options) {
     return joined({{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
                     {"--check", &options.check, "say what it would do, open nothing"},
                     {"--dry-run", &options.dry_run,
-                     "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
+                     "read all inputs, command nothing, say what it would do: carry the vehicle\nby hand"},
                     overrides_option(options.overrides,
                                      "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
                     {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
                     {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
                     {"--speed N", &options.speed,
-                     "its clock runs so many times real time: beside a simulation only"},
+                     "its clock runs so many times real time: next to a simulation only"},
                     {"--no-record", &options.no_record, "write nothing"}},
                    options_of(options.live, false)});
 }
@@ -203,7 +203,7 @@ OptionList options_of(CompanionOptions& options) {
 
 Verb companion_verb() {
     return verb<CompanionOptions>(
-        "companion", "Guidance alone, beside a real autopilot, over wires", options_of, companion,
+        "companion", "Guidance alone, next to a real autopilot, over wires", options_of, companion,
         "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes to\n"
         "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
         "Exit codes: 0 the mission came to its end, 1 control was handed back or another outcome\n"

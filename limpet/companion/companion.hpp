@@ -46,7 +46,7 @@ private:
     double grew_s_ = -1e9;
 };
 
-/// Guidance beside a real autopilot: the same object code as in the simulation, readings from
+/// Guidance next to a real autopilot: the same object code as in the simulation, readings from
 /// wires, set-points to a wire. When it flies and when it hands back is the session's business
 /// (session.hpp); here are its wires. After the session has handed back, it goes on for hand_back_s
 /// until all who must have heard it have. Time is injected; the loop around it (run.hpp) has the

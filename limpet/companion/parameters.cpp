@@ -56,7 +56,7 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
         {"begin_steady_s", "s", 0.0, 30.0, &P::begin_steady_s, "with asks_for_mode: for so long",
          "assumed: as the simulator's bring-up"},
         {"hand_back_s", "s", 0.5, 30.0, &P::hand_back_s,
-         "how long the end is told and hold asked for", "assumed: two heartbeats of PX4"},
+         "how long the end is reported and hold asked for", "assumed: two heartbeats of PX4"},
         {"mechanism_rate_Hz", "Hz", 1.0, 100.0, &P::mechanism_rate_Hz,
          "pump and valve are said so often", "mechanism_line.hpp"},
         {"hover_s", "s", 1.0, 3600.0, &P::hover_s, "of mission hover", "as simulation.hover_s"},

@@ -112,7 +112,7 @@ std::string PerchingSession::missing(double time_s) const {
     } else if (!heard(time_s)) {
         add("no heartbeat of the autopilot");
     } else if (const std::string_view part = stale_estimate(time_s); !part.empty()) {
-        add(fmt::format("the autopilot tells no fresh {}", part));
+        add(fmt::format("the autopilot sends no fresh {}", part));
     } else if (setup_.watches_motion_capture && pose_fresh(time_s)) {
         add(disagreement());
     }

@@ -66,7 +66,7 @@ void Live::channel(const record::SinkChannel& channel) {
         next_time_ns_ = 0;  // another flight begins
         return;
     }
-    require(channel.id == channels_.size(), "channels are told in their order, from 0");
+    require(channel.id == channels_.size(), "channels come in their order, from 0");
     channels_.push_back({channel.id, std::string(channel.topic), std::string(channel.type),
                          std::string(channel.encoding), std::string(channel.schema_encoding),
                          std::string(channel.schema)});

@@ -56,7 +56,7 @@ TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     r.stage.puppet.force_works = false;
     r.stage.tells_pose = false;
     r.run(5.0);
-    EXPECT_TRUE(r.said("waits: no force, the autopilot tells no fresh pose"))
+    EXPECT_TRUE(r.said("waits: no force, the autopilot sends no fresh pose"))
         << testing::PrintToString(r.lines);
     ASSERT_TRUE(r.run_out(6.0));
     EXPECT_EQ(r.result().end, CompanionEnd::absent);
