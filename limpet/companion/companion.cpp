@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "limpet/core/enum_names.hpp"
@@ -69,7 +70,8 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, record::Record
     result_.events.reserve(256);
 }
 
-/// A disk that is full must not end a flight: what has been written stays, the rest is not.
+/// A disk or a memory that is full must not end a flight: what has been written stays, the rest is
+/// not.
 template <class Write>
 void Companion::write(double time_s, const Write& writes) {
     if (recorder_ == nullptr) {
@@ -80,6 +82,9 @@ void Companion::write(double time_s, const Write& writes) {
     } catch (const InputError& error) {
         recorder_ = nullptr;
         watch_.line(time_s, fmt::format("nothing is recorded any more: {}", error.what()));
+    } catch (const std::bad_alloc&) {
+        recorder_ = nullptr;
+        watch_.line(time_s, "nothing is recorded any more: not enough memory");
     }
 }
 
