@@ -146,6 +146,8 @@ struct PosesThatAreWrong : OverDevices {
             "  command: " +
             ports.motive +
             "\n"
+            "  rigid_body: 3\n"
+            "  up: y\n"
             "lidars:\n"
             "  source: mavlink\n"
             "mechanism:\n"
