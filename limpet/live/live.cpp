@@ -21,8 +21,7 @@ std::string_view view_of(mcap::ByteView bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// In the width that it came in: another's number must not become ours by its lowest bits.
-/// @throws InputError
+/// @throws InputError unless it is one: its lowest bits might be another's
 std::uint32_t id_in(const nlohmann::json& given) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     if (!given.is_number_unsigned() || given.get<std::uint64_t>() > kMost) {
