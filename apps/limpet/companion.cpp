@@ -71,7 +71,8 @@ void introduce(const CompanionOptions& options, const companion::CompanionConfig
         terminal.line("  " + line);
     }
     if (options.dry_run) {
-        terminal.line("  dry run     hears all, commands nothing; poses are motion capture's");
+        terminal.line(
+            "  dry run     reads all inputs, commands nothing; poses are motion capture's");
     }
     if (options.speed != 1.0) {
         terminal.line(fmt::format("  clock       {:g} times real time", options.speed));
@@ -87,6 +88,7 @@ void conclude(const companion::CompanionResult& result, const companion::Wires& 
     tell(terminal, "loop",
          fmt::format("{} ticks, {} of them late by more than a period; {}", result.ticks,
                      result.late_ticks, text_of(result.lateness)));
+    tell(terminal, "poses", text_of(result.motion_capture));
     for (const std::string& line : signing_report(wires)) {
         tell(terminal, "signing", line);
     }
@@ -184,25 +186,26 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
 }
 
 OptionList options_of(CompanionOptions& options) {
-    return joined({{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
-                    {"--check", &options.check, "say what it would do, open nothing"},
-                    {"--dry-run", &options.dry_run,
-                     "hear all, command nothing, say what it would do: carry the vehicle\nby hand"},
-                    overrides_option(options.overrides,
-                                     "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
-                    {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
-                    {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
-                    {"--speed N", &options.speed,
-                     "its clock runs so many times real time: beside a simulation only"},
-                    {"--no-record", &options.no_record, "write nothing"}},
-                   options_of(options.live, false)});
+    return joined(
+        {{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
+          {"--check", &options.check, "say what it would do, open nothing"},
+          {"--dry-run", &options.dry_run,
+           "read all inputs, command nothing, say what it would do: carry the vehicle\nby hand"},
+          overrides_option(options.overrides,
+                           "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
+          {"--out DIR", &options.out, "folder for the recording (default out/companion)"},
+          {"--expect OUTCOME", &options.expect, "exit with 1 unless the mission ends so"},
+          {"--speed N", &options.speed,
+           "its clock runs so many times real time: next to a simulation only"},
+          {"--no-record", &options.no_record, "write nothing"}},
+         options_of(options.live, false)});
 }
 
 }  // namespace
 
 Verb companion_verb() {
     return verb<CompanionOptions>(
-        "companion", "Guidance alone, beside a real autopilot, over wires", options_of, companion,
+        "companion", "Guidance alone, next to a real autopilot, over wires", options_of, companion,
         "Ctrl-C hands control back in good order: hold in the air; on the wall it first comes to\n"
         "rest, and the pump stays on. A second Ctrl-C ends it at once.\n"
         "Exit codes: 0 the mission came to its end, 1 control was handed back or another outcome\n"

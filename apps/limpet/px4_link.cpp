@@ -73,7 +73,8 @@ OptionList options_of(Px4LinkOptions& options, bool flies) {
                         "no flight when the stand-in answers instead of a PX4"});
     }
     list.push_back(px4_start_option(options.start));
-    list.push_back({"--wait SECONDS", &options.wait_s, "longest wait for PX4 [s] (default 60)",
+    list.push_back({"--wait SECONDS", &options.wait_s,
+                    "longest wait for PX4 and its first answer [s] (default 60)",
                     range(0.1, 86400.0, false)});
     list.push_back({"--patience SECONDS", &options.patience_s,
                     "in lockstep, longest wait for PX4's next answer [s] (default 5);\n"

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/mavlink/mission_report.hpp"
 #include "limpet/mavlink/translate.hpp"
@@ -59,6 +62,7 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, record::Record
       watch_(std::move(watch)),
       offboard_(options_of(config)),
       inputs_(config),
+      pose_watch_(config.limits.pose_watch),
       dry_(watch_),
       session_(
           setup_of(config, dry_run),
@@ -66,7 +70,8 @@ Companion::Companion(const CompanionConfig& config, Wires& wires, record::Record
     result_.events.reserve(256);
 }
 
-/// A disk that is full must not end a flight: what has been written stays, the rest is not.
+/// A disk or a memory that is full must not end a flight: what has been written stays, the rest is
+/// not.
 template <class Write>
 void Companion::write(double time_s, const Write& writes) {
     if (recorder_ == nullptr) {
@@ -77,6 +82,9 @@ void Companion::write(double time_s, const Write& writes) {
     } catch (const InputError& error) {
         recorder_ = nullptr;
         watch_.line(time_s, fmt::format("nothing is recorded any more: {}", error.what()));
+    } catch (const std::bad_alloc&) {
+        recorder_ = nullptr;
+        watch_.line(time_s, "nothing is recorded any more: not enough memory");
     }
 }
 
@@ -115,10 +123,39 @@ void Companion::poll(double time_s) {
         wires_.motion_capture->update(time_s);
     }
     inputs_.poll(wires_, offboard_, time_s);
-    pose_ = pose_watch_.trusted(inputs_.readings().motion_capture,
-                                offboard_.report().armed ? offboard_.estimate(time_s) : Estimate{});
+    watch_pose(time_s);
     carried_.update(pose_);
     forward_pose(time_s);
+}
+
+void Companion::watch_pose(double time_s) {
+    const Sample<PoseReading>& news = inputs_.readings().motion_capture;
+    pose_ = pose_watch_.trusted(news, offboard_.estimate(time_s), mover());
+    if (news.newer_than(watched_s_)) {
+        watched_s_ = news.time_s;
+        ++withheld_.at(static_cast<std::size_t>(pose_watch_.doubt()));
+    }
+}
+
+/// Of the wire, and of the watch behind it.
+PoseReport Companion::pose_report() const {
+    PoseReport report = inputs_.pose_report(wires_);
+    for (std::size_t i = 1; i < withheld_.size(); ++i) {
+        if (withheld_[i] > 0) {
+            report.taken -= std::min(report.taken, withheld_[i]);
+            report.refused.emplace_back(name_of(static_cast<PoseDoubt>(i)), withheld_[i]);
+        }
+    }
+    if (report.latest.empty() && pose_watch_.doubt() != PoseDoubt::none) {
+        report.latest = doubt_text(pose_watch_.doubt(), pose_watch_.away_m());
+    }
+    return report;
+}
+
+Mover Companion::mover() const {
+    return offboard_.report().armed          ? Mover::rotors
+           : phase() == SessionPhase::flying ? Mover::nothing
+                                             : Mover::hand;
 }
 
 void Companion::forward_pose(double time_s) {
@@ -150,11 +187,18 @@ void Companion::feed(double time_s) {
     SessionInputs& in = session_.inputs();
     in.readings = inputs_.readings();
     in.readings.motion_capture = pose_;
+    in.pose_doubt = pose_watch_.doubt();
+    in.pose_away_m = pose_watch_.away_m();
     const Estimate estimate = dry_run_ ? carried_.estimate() : offboard_.estimate(time_s);
     if (estimate.valid) {
         in.pose = {estimate.time_s, {.p_WB_m = estimate.p_WB_m, .q_WB = estimate.q_WB}};
         in.velocity_W_m_s = {estimate.time_s, estimate.v_WB_m_s};
         in.rate_B_rad_s = {estimate.time_s, estimate.w_WB_B_rad_s};
+    }
+    if (pose_.fresh(time_s, config_.limits.pose_limit_s)) {
+        in.pose_refused.clear();
+    } else {  // costs memory, where the flight is over anyway
+        in.pose_refused = inputs_.pose_report(wires_).latest;
     }
     if (!flies && wires_.sensors) {
         in.sensors_refused = sensors_refusals_.reasons(wires_.sensors->count().refusals, time_s,
@@ -187,6 +231,7 @@ void Companion::conclude(bool was_leaving, double time_s) {
     result_.outcome = session_.outcome();
     result_.reason = session_.reason();
     result_.attempts = session_.flew() ? memory().attempt : 0;
+    result_.motion_capture = pose_report();
 }
 
 // --- to the wires -----------------------------------------------------------------------------
@@ -268,6 +313,11 @@ void Companion::say_changes(double time_s) {
     if (offboard_.report().texts != told_texts_) {
         told_texts_ = offboard_.report().texts;
         watch_.line(time_s, fmt::format("the autopilot says: {}", offboard_.report().text));
+    }
+    if (pose_watch_.doubt() != told_doubt_) {
+        told_doubt_ = pose_watch_.doubt();
+        watch_.line(time_s, fmt::format("motion capture: {}",
+                                        doubt_text(told_doubt_, pose_watch_.away_m())));
     }
     const bool deaf = session_.drives_mechanism() && phase() == SessionPhase::flying &&
                       time_s - mechanism_.asked_s() > kAnswer_s &&

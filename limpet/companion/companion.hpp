@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -29,6 +30,7 @@ struct CompanionResult {
     std::uint64_t ticks = 0;
     std::uint64_t late_ticks = 0;  ///< by more than a period
     Lateness lateness;             ///< of all ticks
+    PoseReport motion_capture;     ///< when it was over
     double last_s = 0.0;           ///< time of the last tick
 };
 
@@ -44,7 +46,7 @@ private:
     double grew_s_ = -1e9;
 };
 
-/// Guidance beside a real autopilot: the same object code as in the simulation, readings from
+/// Guidance next to a real autopilot: the same object code as in the simulation, readings from
 /// wires, set-points to a wire. When it flies and when it hands back is the session's business
 /// (session.hpp); here are its wires. After the session has handed back, it goes on for hand_back_s
 /// until all who must have heard it have. Time is injected; the loop around it (run.hpp) has the
@@ -75,6 +77,9 @@ private:
     void feed(double time_s);
     [[nodiscard]] std::string mechanism_obstacle(double time_s) const;
     void conclude(bool was_leaving, double time_s);
+    [[nodiscard]] Mover mover() const;
+    void watch_pose(double time_s);
+    [[nodiscard]] PoseReport pose_report() const;
     void forward_pose(double time_s);
     void steer(double time_s);
     void actuate(double time_s);
@@ -98,7 +103,9 @@ private:
     mavlink::Offboard offboard_;
     Inputs inputs_;
     PoseWatch pose_watch_;
-    Sample<PoseReading> pose_;  ///< that the watch trusts
+    Sample<PoseReading> pose_;                    ///< that the watch trusts
+    double watched_s_ = -1.0;                     ///< of the last pose that it saw
+    std::array<std::uint64_t, 5> withheld_ = {};  ///< poses by PoseDoubt
     MechanismPace mechanism_;
     RefusalWatch autopilot_refusals_;
     RefusalWatch sensors_refusals_;
@@ -112,6 +119,7 @@ private:
     Readings recorded_;
     double recorded_estimate_s_ = 0.0;
     std::uint64_t told_texts_ = 0;
+    PoseDoubt told_doubt_ = PoseDoubt::none;
     bool told_deaf_ = false;  ///< that the mechanism does not answer
     CompanionResult result_;
 };

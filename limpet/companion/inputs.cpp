@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/companion/inputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 
+#include "limpet/core/enum_names.hpp"
 #include "limpet/mavlink/translate.hpp"
 
 namespace limpet::companion {
@@ -76,14 +79,57 @@ void Inputs::hear_battery(const mavlink::Frame& frame, double time_s) {
                           .remaining = 1e-2 * battery->battery_remaining}};
 }
 
+void Inputs::hear_pose(const mavlink::Frame& frame, double time_s) {
+    const auto odometry = config_.pose_source == PoseSource::mavlink
+                              ? mavlink::decode<mavlink::Odometry>(frame)
+                              : std::nullopt;
+    if (!odometry) {
+        return;
+    }
+    why_no_pose_ = mavlink::why_no_pose(*odometry);
+    ++(why_no_pose_.empty() ? poses_ : no_poses_);
+    if (const auto pose = mavlink::pose_reading(*odometry)) {
+        readings_.motion_capture = {time_s, *pose};
+    }
+}
+
+std::string text_of(const PoseReport& report) {
+    std::string text = fmt::format("{} came, {} taken", report.came, report.taken);
+    for (const auto& [why, count] : report.refused) {
+        text += fmt::format("; {} {}", count, why);
+    }
+    return report.latest.empty() ? text : fmt::format("{}; last: {}", text, report.latest);
+}
+
+PoseReport Inputs::pose_report(const Wires& wires) const {
+    PoseReport report;
+    if (wires.motion_capture) {
+        const devices::NatNetCount& count = wires.motion_capture->count();
+        report.came = count.packets;
+        report.taken = count.frames.front();
+        for (std::size_t i = 1; i < count.frames.size(); ++i) {
+            if (count.frames[i] > 0) {
+                report.refused.emplace_back(name_of(static_cast<devices::NatNetRefusal>(i)),
+                                            count.frames[i]);
+            }
+        }
+        report.latest = wires.motion_capture->obstacle();
+        return report;
+    }
+    report.came = poses_ + no_poses_;
+    report.taken = poses_;
+    if (no_poses_ > 0) {
+        report.refused.emplace_back("no_pose", no_poses_);
+    }
+    report.latest = report.came == 0       ? "no ODOMETRY comes over the sensors' wire"
+                    : why_no_pose_.empty() ? ""
+                                           : fmt::format("ODOMETRY comes, but {}", why_no_pose_);
+    return report;
+}
+
 void Inputs::hear_sensors(const mavlink::Frame& frame, double time_s) {
     hear_readings(frame, ReadingSource::mavlink, time_s);
-    if (config_.pose_source == PoseSource::mavlink) {
-        const auto told = mavlink::decode<mavlink::Odometry>(frame);
-        if (const auto pose = told ? mavlink::pose_reading(*told) : std::nullopt) {
-            readings_.motion_capture = {time_s, *pose};
-        }
-    }
+    hear_pose(frame, time_s);
     if (config_.mechanism == MechanismWire::mavlink) {
         const auto ack = mavlink::decode<mavlink::CommandAck>(frame);
         if (ack && ack->command == mavlink::MavCmd::do_set_actuator) {

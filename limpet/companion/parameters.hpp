@@ -2,6 +2,7 @@
 #pragma once
 
 #include "limpet/core/parameters.hpp"
+#include "limpet/core/signals/pose_watch.hpp"
 
 namespace limpet::companion {
 
@@ -17,6 +18,8 @@ struct CompanionLimits {
     double arming_s = 2.0;            ///< from asking to a heartbeat that must show it
     double agreement_m = 0.3;         ///< motion capture and estimate, before it begins
     double agreement_deg = 15.0;      ///< the same of the attitude
+    double stand_speed_m_s = 0.3;     ///< of the autopilot's estimate while motors are off
+    PoseWatchLimits pose_watch;       ///< which poses are not passed on
     double wait_limit_s = 60.0;       ///< for the inputs
     double operator_limit_s = 600.0;  ///< for OFFBOARD, armed, in the air
     double rise_m = 0.3;              ///< with asks_for_mode: so high off its stand it begins

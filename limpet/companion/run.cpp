@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -18,8 +19,35 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
+/// A tick without memory is made up for by the next, which hands back as for Ctrl-C: a process that
+/// just ended would leave the vehicle to its last set-point.
+class MemoryWatch {
+public:
+    /// @throws std::bad_alloc when tick after tick has none
+    template <class Tick>
+    void guard(const Tick& tick) {
+        constexpr int kMostInARow = 100;
+        try {
+            tick();
+            in_a_row_ = 0;
+        } catch (const std::bad_alloc&) {
+            lacked_ = true;
+            if (++in_a_row_ > kMostInARow) {
+                throw;
+            }
+        }
+    }
+    [[nodiscard]] bool lacked() const { return lacked_; }
+
+private:
+    int in_a_row_ = 0;
+    bool lacked_ = false;
+};
+
+/// @return whether there was memory all the time
+bool loop(const CompanionConfig& config, Companion& companion, const CompanionClock& clock,
           const CompanionConduct& conduct) {
+    MemoryWatch memory, polls;
     const double period_s = 1.0 / config.limits.guidance_rate_Hz;
     const double poll_s = 1.0 / config.limits.poll_rate_Hz;
     double deadline_s = clock.now_s();
@@ -31,19 +59,23 @@ void loop(const CompanionConfig& config, Companion& companion, const CompanionCl
             conduct.manager->alive();
         }
         double now_s = clock.now_s();
-        const bool stop = (conduct.stop != nullptr && *conduct.stop) ||
-                          (conduct.wants_end && conduct.wants_end());
-        companion.tick(now_s, now_s - deadline_s, stop);
+        memory.guard([&] {
+            const bool stop = memory.lacked() || polls.lacked() ||
+                              (conduct.stop != nullptr && *conduct.stop) ||
+                              (conduct.wants_end && conduct.wants_end());
+            companion.tick(now_s, now_s - deadline_s, stop);
+        });
         deadline_s += period_s;
         if (deadline_s <= now_s) {
             deadline_s = now_s + period_s;
         }
         for (now_s = clock.now_s(); now_s < deadline_s && !companion.over();
              now_s = clock.now_s()) {
-            companion.poll(now_s);
+            polls.guard([&] { companion.poll(now_s); });
             clock.wait_until_s(std::min(deadline_s, now_s + poll_s));
         }
     }
+    return !memory.lacked() && !polls.lacked();
 }
 
 }  // namespace
@@ -72,14 +104,20 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
         recorder.emplace(conduct.recording, info);
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);
-    loop(config, companion, clock, conduct);
+    const bool remembered = loop(config, companion, clock, conduct);
     if (conduct.manager != nullptr) {
         conduct.manager->stopping();
     }
-    if (recorder) {
-        recorder->finish(summary_json(config, companion.result()));
+    CompanionResult result = companion.result();
+    if (!remembered) {
+        result.reason = "not enough memory; " + result.reason;
+        result.end =
+            result.end == CompanionEnd::interrupted ? CompanionEnd::handed_back : result.end;
     }
-    return companion.result();
+    if (recorder) {
+        recorder->finish(summary_json(config, result));
+    }
+    return result;
 }
 
 record::RecordingInfo recording_info(const CompanionConfig& config) {
@@ -108,12 +146,21 @@ std::string summary_json(const CompanionConfig& config, const CompanionResult& r
                           {"reason", event.reason},
                           {"values", values}});
     }
+    Json refused = Json::object();
+    for (const auto& [why, count] : result.motion_capture.refused) {
+        refused[why] = count;
+    }
     const Json json = {
         {"companion", config.name},
         {"end", name_of(result.end)},
         {"outcome", std::string(result.outcome ? to_string(*result.outcome) : name_of(result.end))},
         {"reason", result.reason},
         {"attempts", result.attempts},
+        {"motion_capture",
+         {{"came", result.motion_capture.came},
+          {"taken", result.motion_capture.taken},
+          {"refused", refused},
+          {"latest", result.motion_capture.latest}}},
         {"events", events},
         {"ticks", result.ticks},
         {"late_ticks", result.late_ticks},

@@ -16,6 +16,29 @@ CompanionEnd ended_by(Cause cause) {
     return cause == Cause::interrupted ? CompanionEnd::interrupted : CompanionEnd::handed_back;
 }
 
+std::string doubt_text(PoseDoubt doubt, double away_m) {
+    switch (doubt) {
+        case PoseDoubt::none:
+        case PoseDoubt::repeats:
+        case PoseDoubt::another_body: return std::string(to_string(doubt));
+        case PoseDoubt::jumped:
+        case PoseDoubt::moves_alone: return fmt::format("{} ({:.2f} m)", to_string(doubt), away_m);
+    }
+    throw InternalError("pose doubt out of range");
+}
+
+/// With what the poses are withheld for.
+std::string PerchingSession::cause_text(Cause cause) const {
+    if (cause == Cause::pose_stale && inputs_.pose_doubt == PoseDoubt::none &&
+        !inputs_.pose_refused.empty()) {
+        return fmt::format("{}: {}", to_string(cause), inputs_.pose_refused);
+    }
+    const bool withheld = cause == Cause::pose_stale && inputs_.pose_doubt != PoseDoubt::none;
+    return withheld ? fmt::format("{}: {}", to_string(cause),
+                                  doubt_text(inputs_.pose_doubt, inputs_.pose_away_m))
+                    : std::string(to_string(cause));
+}
+
 void PerchingSession::tick(double time_s) {
     if (last_s_ >= 0.0 && time_s < last_s_) {  // a simulation that began anew
         *this = PerchingSession(setup_, watch_);
@@ -138,7 +161,7 @@ void PerchingSession::fly(double time_s) {
     if (verdict.action == Action::hold || verdict.action == Action::let_go) {
         watch_.event(make_event(time_s, "companion", EventName::aborted, to_string(verdict.cause)));
         hand_back(verdict.action, ended_by(verdict.cause),
-                  fmt::format("{}, {}", to_string(verdict.cause), to_string(place())), time_s);
+                  fmt::format("{}, {}", cause_text(verdict.cause), to_string(place())), time_s);
         return;
     }
     take_in(verdict, time_s);
@@ -169,7 +192,7 @@ void PerchingSession::take_in(const Judgement& verdict, double time_s) {
     }
     pending_ = verdict;
     const bool well = verdict.action == Action::carry_on;
-    obstacle_ = well ? "" : to_string(verdict.cause);
+    obstacle_ = well ? "" : cause_text(verdict.cause);
     watch_.line(time_s, well ? "all is well again"
                              : fmt::format("{}, {}: {}", obstacle_, to_string(place()),
                                            to_string(verdict.action)));

@@ -10,6 +10,7 @@
 #include "limpet/companion/watchdog.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/signals/estimate.hpp"
+#include "limpet/core/signals/pose_watch.hpp"
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/guidance/perching.hpp"
 
@@ -83,7 +84,13 @@ struct SessionInputs {
     // Why what comes is not taken: "not signed". Empty: all is.
     std::string autopilot_refused;
     std::string sensors_refused;
+    std::string pose_refused;
+    PoseDoubt pose_doubt = PoseDoubt::none;  ///< why poses that come are withheld
+    double pose_away_m = 0.0;                ///< of a pose that jumped or moves alone
 };
+
+/// For people: "its pose jumped by 5.00 m".
+[[nodiscard]] std::string doubt_text(PoseDoubt doubt, double away_m);
 
 /// How it is watched; empty members watch nothing.
 struct CompanionWatch {
@@ -168,7 +175,9 @@ private:
     [[nodiscard]] Estimate believe(double time_s) const;
     [[nodiscard]] bool steers() const;
     [[nodiscard]] std::string missing(double time_s) const;
+    [[nodiscard]] std::string pose_obstacle() const;
     [[nodiscard]] std::string disagreement() const;
+    [[nodiscard]] std::string cause_text(Cause cause) const;
     [[nodiscard]] Signs look(double time_s) const;
     void go(SessionPhase phase, double time_s);
     void wait(double time_s);

@@ -52,6 +52,11 @@ bool PerchingSession::steers() const {
 }
 
 std::string PerchingSession::disagreement() const {
+    const double most_m_s = setup_.limits.stand_speed_m_s;
+    if (!inputs_.autopilot.value.armed && inputs_.velocity_W_m_s.value.norm() > most_m_s) {
+        return fmt::format("the autopilot's pose moves with motors off (faster than {:g} m/s)",
+                           most_m_s);
+    }
     const PoseReading& pose = inputs_.readings.motion_capture.value;
     const double apart_m = (pose.p_WB_m - inputs_.pose.value.p_WB_m).norm();
     const double apart_deg = degrees(pose.q_WB.angularDistance(inputs_.pose.value.q_WB));
@@ -60,6 +65,14 @@ std::string PerchingSession::disagreement() const {
     }
     return fmt::format("motion capture and the autopilot's pose differ by {:.2f} m and {:.0f} deg",
                        apart_m, apart_deg);
+}
+
+/// Why there is no pose, as far as that is known.
+std::string PerchingSession::pose_obstacle() const {
+    const std::string why = inputs_.pose_doubt != PoseDoubt::none
+                                ? std::string(to_string(inputs_.pose_doubt))
+                                : inputs_.pose_refused;
+    return why.empty() ? "no motion-capture pose" : fmt::format("no motion-capture pose ({})", why);
 }
 
 /// All that keeps it from flying; empty: nothing. A hover needs no wall.
@@ -71,7 +84,7 @@ std::string PerchingSession::missing(double time_s) const {
         list += what;
     };
     if (!pose_fresh(time_s)) {
-        add("no motion-capture pose");
+        add(pose_obstacle());
     }
     const auto want = [&](const auto& sample, std::string_view what) {
         if (setup_.task.perch && !sample.fresh(time_s, setup_.guidance.sensor_limit_s)) {
@@ -99,7 +112,7 @@ std::string PerchingSession::missing(double time_s) const {
     } else if (!heard(time_s)) {
         add("no heartbeat of the autopilot");
     } else if (const std::string_view part = stale_estimate(time_s); !part.empty()) {
-        add(fmt::format("the autopilot tells no fresh {}", part));
+        add(fmt::format("the autopilot sends no fresh {}", part));
     } else if (setup_.watches_motion_capture && pose_fresh(time_s)) {
         add(disagreement());
     }
@@ -170,8 +183,7 @@ void PerchingSession::stand_ready(double time_s) {
     const Judgement verdict = judge(look(time_s), Place::in_air);
     const bool wrong = verdict.action != Action::carry_on;
     if (wrong && (steers() || verdict.cause == Cause::mode_taken)) {
-        hand_back(verdict.action, ended_by(verdict.cause), std::string(to_string(verdict.cause)),
-                  time_s);
+        hand_back(verdict.action, ended_by(verdict.cause), cause_text(verdict.cause), time_s);
     } else if (interrupted_) {
         hand_back(Action::let_go, CompanionEnd::interrupted, "interrupted before the flight",
                   time_s);

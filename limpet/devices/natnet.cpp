@@ -28,6 +28,7 @@ constexpr std::uint32_t kRigidBody_bytes = 38;
 constexpr std::size_t kMarker_bytes = 26;
 constexpr std::size_t kSuffix_bytes = 42;  // without precision time and end
 constexpr std::size_t kPrecisionTime_bytes = 8;
+constexpr std::size_t kEnd_bytes = 4;
 constexpr std::string_view kName = "Limpet";
 constexpr std::size_t kName_bytes = 256;
 constexpr double kQuaternionTolerance = 0.1;  // float noise is 1e-6; garbage is anywhere
@@ -125,12 +126,14 @@ NatNetBody take_body(Reader& reader) {
     return body;
 }
 
-bool plausible(const MocapPose& pose) {
-    return pose.p_MP_m.allFinite() && pose.q_MP.coeffs().allFinite() &&
-           std::abs(pose.q_MP.norm() - 1.0) < kQuaternionTolerance;
+NatNetRefusal judge(const MocapPose& pose) {
+    return !pose.p_MP_m.allFinite() || !pose.q_MP.coeffs().allFinite() ? NatNetRefusal::not_finite
+           : std::abs(pose.q_MP.norm() - 1.0) < kQuaternionTolerance   ? NatNetRefusal::none
+                                                                       : NatNetRefusal::no_attitude;
 }
 
-std::optional<NatNetBody> take_bodies(Reader& reader, NatNetVersion version, std::int32_t id) {
+std::optional<NatNetBody> take_bodies(Reader& reader, NatNetVersion version, std::int32_t id,
+                                      NatNetSeen& seen) {
     std::optional<NatNetBody> found;
     const std::size_t count = reader.take_count(kRigidBody_bytes);
     if (has_section_sizes(version) && reader.take<std::uint32_t>() != count * kRigidBody_bytes) {
@@ -138,6 +141,10 @@ std::optional<NatNetBody> take_bodies(Reader& reader, NatNetVersion version, std
     }
     for (std::size_t i = 0; i < count && reader.whole(); ++i) {
         const NatNetBody body = take_body(reader);
+        if (seen.bodies < seen.ids.size()) {
+            seen.ids[seen.bodies] = body.id;
+        }
+        ++seen.bodies;
         if (body.id == id && !found) {
             found = body;
         }
@@ -174,6 +181,12 @@ void take_suffix(Reader& reader, NatNetVersion version, NatNetFrame& frame) {
     reader.skip(8);
     frame.transmit_ticks = reader.take<std::uint64_t>();
     reader.skip((precise ? kPrecisionTime_bytes : 0) + 2);  // and flags
+}
+
+/// Whether what is left behind the suffix is the end mark that Motive sends, or nothing. From 4.1
+/// on sections say their sizes, and a younger minor version may append to them.
+bool ends_here(const Reader& reader, NatNetVersion version) {
+    return has_section_sizes(version) || reader.left() == 0 || reader.left() == kEnd_bytes;
 }
 
 /// @return the payload of a packet of this kind
@@ -274,10 +287,20 @@ std::optional<NatNetMessage> natnet_message(std::span<const std::byte> packet) {
 }
 
 std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet, NatNetVersion version,
-                                        std::int32_t body_id) {
-    std::optional<Reader> reader = payload(packet, NatNetMessage::frame_of_data);
-    if (!reader || !understood(version)) {
+                                        std::int32_t body_id, NatNetSeen* seen) {
+    NatNetSeen unwanted;
+    NatNetSeen& found = seen != nullptr ? *seen : unwanted;
+    found = {};
+    const auto refuse = [&found](NatNetRefusal why) {
+        found.refusal = why;
         return std::nullopt;
+    };
+    std::optional<Reader> reader = payload(packet, NatNetMessage::frame_of_data);
+    if (!reader) {
+        return refuse(NatNetRefusal::not_natnet);
+    }
+    if (!understood(version)) {
+        return refuse(NatNetRefusal::version);
     }
     NatNetFrame frame;
     frame.number = reader->take<std::int32_t>();
@@ -286,17 +309,24 @@ std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet, NatNe
         reader->skip(kVector_bytes * reader->take_count(kVector_bytes));
     });
     skip_section(*reader, version, kVector_bytes, [&reader] { reader->skip(kVector_bytes); });
-    frame.body = take_bodies(*reader, version, body_id);
+    frame.body = take_bodies(*reader, version, body_id, found);
     skip_to_suffix(*reader, version);
     take_suffix(*reader, version, frame);
-    if (!reader->whole() || !std::isfinite(frame.motive_time_s)) {
-        return std::nullopt;
+    if (!reader->whole() || !ends_here(*reader, version) || !std::isfinite(frame.motive_time_s)) {
+        found = {};
+        return refuse(NatNetRefusal::unreadable);
     }
-    if (frame.body && !plausible(frame.body->pose)) {
-        if (frame.body->tracking_valid) {
-            return std::nullopt;
+    if (!frame.body) {
+        found.refusal = NatNetRefusal::absent;
+    } else if (const NatNetRefusal why = judge(frame.body->pose); frame.body->tracking_valid) {
+        if (why != NatNetRefusal::none) {
+            return refuse(why);
         }
-        frame.body->pose = {};  // not seen yet: nothing is known
+    } else {
+        found.refusal = NatNetRefusal::untracked;
+        if (why != NatNetRefusal::none) {
+            frame.body->pose = {};  // not seen yet: nothing is known
+        }
     }
     return frame;
 }
@@ -318,6 +348,7 @@ std::optional<NatNetServer> decode_server(std::span<const std::byte> packet) {
         server.clock_Hz = reader->take<std::uint64_t>();
         server.data_port = reader->take<std::uint16_t>();
         server.multicast = reader->take<std::uint8_t>() != 0;
+        server.group = reader->take<std::array<std::uint8_t, 4>>();
     }
     return server;
 }

@@ -47,6 +47,26 @@ struct NatNetBody {
     bool tracking_valid = false;  ///< false: not seen in this frame, the pose is an old one
 };
 
+/// Why a packet brings no pose of the body that was asked for.
+enum class NatNetRefusal {
+    none,
+    not_natnet,   ///< shorter than its header says, or of another kind
+    version,      ///< the server's is not understood
+    unreadable,   ///< cut, miscounted, or laid out by another version
+    absent,       ///< the body is not streamed
+    untracked,    ///< it is not seen in this frame
+    not_finite,   ///< position or attitude
+    no_attitude,  ///< its quaternion is not of length 1
+    late,         ///< older than a frame before
+};
+
+/// What a packet held beside the pose that was asked for.
+struct NatNetSeen {
+    NatNetRefusal refusal = NatNetRefusal::none;
+    std::array<std::int32_t, 6> ids = {};  ///< the first bodies that are streamed
+    std::size_t bodies = 0;                ///< how many are
+};
+
 /// What Limpet wants to know of a frame of motion-capture data.
 struct NatNetFrame {
     std::int32_t number = 0;
@@ -58,9 +78,12 @@ struct NatNetFrame {
 
 /// Never reads past the end, whatever the bytes are.
 /// @param body_id  streaming id of the rigid body asked for
-/// @return nothing when it is no frame, is cut, miscounts, or holds a pose that is not finite
+/// @param seen     gets what the frame streams and why there is no pose; null: not wanted
+/// @return nothing when it is no frame, is cut, miscounts, has bytes left over (before 4.1, where
+///         nothing else shows another layout), or holds a pose that is none
 [[nodiscard]] std::optional<NatNetFrame> decode_frame(std::span<const std::byte> packet,
-                                                      NatNetVersion version, std::int32_t body_id);
+                                                      NatNetVersion version, std::int32_t body_id,
+                                                      NatNetSeen* seen = nullptr);
 
 /// What a server says of itself.
 struct NatNetServer {
@@ -68,6 +91,7 @@ struct NatNetServer {
     std::uint64_t clock_Hz = 0;  ///< of its ticks; 0: not told
     std::uint16_t data_port = kNatNetDataPort;
     bool multicast = true;
+    std::array<std::uint8_t, 4> group = {};  ///< IPv4; zeros: not told
 };
 [[nodiscard]] std::optional<NatNetServer> decode_server(std::span<const std::byte> packet);
 

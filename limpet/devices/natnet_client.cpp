@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/devices/natnet_client.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
 #include "limpet/core/errors.hpp"
 
 namespace limpet::devices {
@@ -48,25 +53,34 @@ std::optional<Sample<PoseReading>> NatNetClient::receive(double time_s) {
     return newest_;
 }
 
-void NatNetClient::hear(std::span<const std::byte> packet, double time_s) {
-    if (const std::optional<NatNetServer> server = decode_server(packet)) {
-        if (understood(server->version)) {
-            server_ = server;
-        }
-        return;
-    }
-    const NatNetVersion version = server_ ? server_->version : options_.version;
-    const std::optional<NatNetFrame> frame = decode_frame(packet, version, options_.body_id);
-    if (!frame) {
-        return;
-    }
+NatNetVersion NatNetClient::version() const {
+    return server_ ? server_->version : options_.version;
+}
+
+bool NatNetClient::is_late(const NatNetFrame& frame) {
     const std::int64_t ahead =
-        last_number_ ? std::int64_t{frame->number} - std::int64_t{*last_number_} : 1;
-    if (ahead <= 0 && ahead > -kRestart_frames) {  // older than one before
+        last_number_ ? std::int64_t{frame.number} - std::int64_t{*last_number_} : 1;
+    if (ahead <= 0 && ahead > -kRestart_frames) {
+        return true;
+    }
+    last_number_ = frame.number;
+    return false;
+}
+
+void NatNetClient::hear(std::span<const std::byte> packet, double time_s) {
+    ++count_.packets;
+    if (const std::optional<NatNetServer> server = decode_server(packet)) {
+        server_ = server;
         return;
     }
-    last_number_ = frame->number;
-    if (frame->body && frame->body->tracking_valid) {
+    NatNetSeen& seen = count_.latest;
+    const std::optional<NatNetFrame> frame =
+        decode_frame(packet, version(), options_.body_id, &seen);
+    if (frame && is_late(*frame)) {
+        seen.refusal = NatNetRefusal::late;
+    }
+    ++count_.frames.at(static_cast<std::size_t>(seen.refusal));
+    if (seen.refusal == NatNetRefusal::none) {
         newest_ = Sample<PoseReading>{.time_s = time_s - delay_s(*frame),
                                       .value = pose_in_world(options_.axes, frame->body->pose)};
     }
@@ -79,6 +93,65 @@ double NatNetClient::delay_s(const NatNetFrame& frame) const {
     const double delay_s = static_cast<double>(frame.transmit_ticks - frame.mid_exposure_ticks) /
                            static_cast<double>(server_->clock_Hz);
     return delay_s <= kLongestDelay_s ? delay_s : 0.0;
+}
+
+// --- for people ---------------------------------------------------------------------------------
+
+/// Nothing but the server's answer, or not even that.
+std::string NatNetClient::silence() const {
+    const wire::Transport& wire = data_ != nullptr ? *data_ : *command_;
+    if (!server_) {
+        return fmt::format("nothing comes over {}", wire.describe());
+    }
+    if (!understood(server_->version)) {
+        return reason(NatNetRefusal::version);
+    }
+    const auto& g = server_->group;
+    const std::string to = server_->multicast ? fmt::format("multicast to {}.{}.{}.{}:{}", g[0],
+                                                            g[1], g[2], g[3], server_->data_port)
+                                              : "unicast";
+    return fmt::format("no frame comes over {}; Motive says that it streams {}", wire.describe(),
+                       to);
+}
+
+std::string NatNetClient::reason(NatNetRefusal refusal) const {
+    const NatNetVersion now = version();
+    switch (refusal) {
+        case NatNetRefusal::none: return "";
+        case NatNetRefusal::not_natnet: return "what comes is no frame of NatNet";
+        case NatNetRefusal::version:
+            return fmt::format("Motive speaks NatNet {}.{}, understood are 3.0 to 4.x", now.major,
+                               now.minor);
+        case NatNetRefusal::unreadable:
+            return fmt::format("frames cannot be read as NatNet {}.{}{}", now.major, now.minor,
+                               server_ ? "" : ", which is assumed: the server has not answered");
+        case NatNetRefusal::absent: {
+            const NatNetSeen& seen = count_.latest;
+            std::string ids;
+            for (std::size_t i = 0; i < std::min(seen.bodies, seen.ids.size()); ++i) {
+                ids += fmt::format("{}{}", ids.empty() ? "" : ", ", seen.ids[i]);
+            }
+            return fmt::format("body {} is not streamed, {}", options_.body_id,
+                               ids.empty()
+                                   ? "nor any other"
+                                   : fmt::format("streamed: {}{}", ids,
+                                                 seen.bodies > seen.ids.size() ? ", ..." : ""));
+        }
+        case NatNetRefusal::untracked:
+            return fmt::format("body {} is streamed but not tracked", options_.body_id);
+        case NatNetRefusal::not_finite:
+            return fmt::format("position or attitude of body {} is not finite", options_.body_id);
+        case NatNetRefusal::no_attitude:
+            return fmt::format("the quaternion of body {} is not of length 1", options_.body_id);
+        case NatNetRefusal::late: return "frames are older than one before";
+    }
+    throw InternalError("NatNet refusal out of range");
+}
+
+std::string NatNetClient::obstacle() const {
+    const bool any = std::any_of(count_.frames.begin(), count_.frames.end(),
+                                 [](std::uint64_t count) { return count > 0; });
+    return any ? reason(count_.latest.refusal) : silence();
 }
 
 }  // namespace limpet::devices

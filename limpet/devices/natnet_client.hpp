@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "limpet/core/signals/readings.hpp"
@@ -17,6 +19,15 @@ struct NatNetOptions {
     std::int32_t body_id = 1;
     MocapAxes axes = {};
     NatNetVersion version = {};  ///< until the server has told its own
+};
+
+/// What has come from Motive.
+struct NatNetCount {
+    static constexpr std::size_t kRefusals = static_cast<std::size_t>(NatNetRefusal::late) + 1;
+    std::uint64_t packets = 0;  ///< all, of servers too
+    /// Frames by why they brought no pose; those of `none` were taken.
+    std::array<std::uint64_t, kRefusals> frames = {};
+    NatNetSeen latest = {};  ///< of the last frame
 };
 
 /// Poses of one rigid body from Motive. Multicast: the data wire joins the group; the command wire
@@ -38,9 +49,17 @@ public:
 
     /// Nothing until it has answered.
     [[nodiscard]] const std::optional<NatNetServer>& server() const { return server_; }
+    [[nodiscard]] const NatNetCount& count() const { return count_; }
+    /// Why the last packet brought no pose, for people: "body 3 is not streamed, bodies 1, 7 are";
+    /// empty: it did.
+    [[nodiscard]] std::string obstacle() const;
 
 private:
     void hear(std::span<const std::byte> packet, double time_s);
+    [[nodiscard]] NatNetVersion version() const;
+    [[nodiscard]] bool is_late(const NatNetFrame& frame);
+    [[nodiscard]] std::string silence() const;
+    [[nodiscard]] std::string reason(NatNetRefusal refusal) const;
     [[nodiscard]] double delay_s(const NatNetFrame& frame) const;
 
     NatNetOptions options_;
@@ -50,6 +69,7 @@ private:
     std::optional<std::int32_t> last_number_;
     std::optional<Sample<PoseReading>> newest_;
     double said_s_ = -1e9;
+    NatNetCount count_;
     std::vector<std::byte> in_;
 };
 

@@ -22,6 +22,7 @@ constexpr std::array<KindRow, kKinds> kRows = {{
     {FaultKind::mocap_lost, "motion capture sends nothing"},
     {FaultKind::mocap_frozen, "motion capture repeats its last pose with new time stamps"},
     {FaultKind::mocap_jumps, "its poses lie so much further along the way into the wall", 0, "m", 0.3, -10.0, 10.0},
+    {FaultKind::mocap_drifts, "its poses drift so fast along the way into the wall", 0, "m/s", 1.0, -10.0, 10.0},
     {FaultKind::mocap_wrong_body, "it tracks another body: so far to the right, turned by 90 deg", 0, "m", 1.0, -10.0, 10.0},
     {FaultKind::lidar_lost, "a LiDAR (0 left, 1 right) sends nothing", 2},
     {FaultKind::lidar_offset, "a LiDAR reads so much more", 2, "m", 0.1, -10.0, 10.0},

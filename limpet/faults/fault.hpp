@@ -22,6 +22,7 @@ enum class FaultKind {
     mocap_lost,
     mocap_frozen,
     mocap_jumps,
+    mocap_drifts,
     mocap_wrong_body,
     lidar_lost,
     lidar_offset,

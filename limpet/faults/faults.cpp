@@ -92,6 +92,7 @@ void act(const FaultsModel& model, const Fault& fault, std::size_t rotors, Actin
         case FaultKind::mocap_lost:
         case FaultKind::mocap_frozen:
         case FaultKind::mocap_jumps:
+        case FaultKind::mocap_drifts:
         case FaultKind::mocap_wrong_body:
         case FaultKind::lidar_lost:
         case FaultKind::lidar_offset:
@@ -134,6 +135,7 @@ void corrupt(const Fault& fault, const FaultsModel& model, double since_s, const
         case FaultKind::gps_lost: heard.gps = told.gps; break;
         case FaultKind::mocap_lost: heard.motion_capture = told.motion_capture; break;
         case FaultKind::mocap_frozen: pose = told.motion_capture.value; break;
+        case FaultKind::mocap_drifts: pose.p_WB_m += fault.size * since_s * model.ahead_W; break;
         case FaultKind::mocap_jumps: pose.p_WB_m += fault.size * model.ahead_W; break;
         case FaultKind::mocap_wrong_body:
             pose.p_WB_m += fault.size * to_the_right(model.ahead_W);

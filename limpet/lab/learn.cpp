@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/plant/lane_group.hpp"
@@ -77,6 +76,7 @@ void Learn::begin(std::string_view request) {
     asked_ = std::move(asked);
     flights_ = std::move(flights);
     next_ = 0;
+    trouble_.clear();
     stop_ = false;
     running_ = true;
     ++id_;
@@ -84,20 +84,25 @@ void Learn::begin(std::string_view request) {
         thread_ = std::jthread([this] {
             try {
                 plant::fly_side_by_side([this] { fly_all(); });
-            } catch (const std::bad_alloc&) {  // what has not flown has no row
-                stop_ = true;
+            } catch (const std::exception&) {
+                trouble_.keep();
             }
             running_ = false;
         });
-    } catch (...) {
+    } catch (...) {  // no thread can be had
         running_ = false;
         throw;
     }
 }
 
 void Learn::fly_all() {
-    for (std::size_t i = next_++; i < flights_.size() && !stop_; i = next_++) {
-        fly(flights_[i]);
+    try {
+        for (std::size_t i = next_++; i < flights_.size() && !stop_; i = next_++) {
+            fly(flights_[i]);
+        }
+    } catch (const std::exception&) {
+        trouble_.keep();
+        stop_ = true;
     }
 }
 
@@ -122,8 +127,6 @@ void Learn::fly(Turned& turned) {
     } catch (const InputError&) {  // the value does not go with another one
     } catch (const InternalError&) {
         outcome = "fault";
-    } catch (const std::bad_alloc&) {
-        outcome = "out of memory";
     }
     const std::lock_guard lock(guards_outcomes_);
     turned.outcome = outcome;
@@ -132,6 +135,7 @@ void Learn::fly(Turned& turned) {
 }
 
 std::string Learn::state() {
+    trouble_.say();
     const bool running = running_;  // before the flights: none is missed when it has ended
     const std::lock_guard lock(guards_outcomes_);
     const auto flight_json = [](const Turned& turned) {

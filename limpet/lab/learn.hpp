@@ -36,6 +36,7 @@ public:
     ///         "base": {"outcome", "metrics"}, "rows": [{"key", "unit", "less", "more": {"value",
     ///         "outcome", "metrics"}}]}; of a flight that a value does not allow the outcome is
     ///         "refused", its metrics are null
+    /// @throws what ended the flights: no memory
     [[nodiscard]] std::string state();
 
 private:
@@ -56,6 +57,7 @@ private:
     std::atomic<std::size_t> next_ = 0;
     std::mutex guards_outcomes_;   ///< of the flights, and their metrics
     std::vector<Turned> flights_;  ///< the first turns nothing, then less and more of each key
+    Trouble trouble_;
     std::jthread thread_;
 };
 

@@ -38,9 +38,9 @@ nlohmann::ordered_json file_text(const json& request, Asked asked) {
         parameters[axis.at("key").get<std::string>()]["range"] = {
             {"from", axis.at("from").get<double>()},
             {"to", axis.at("to").get<double>()},
-            {"count", axis.at("count").get<int>()}};
+            {"count", whole_in(axis, "count", 1, kMostRuns)}};
     }
-    file[parameters.empty() ? "runs" : "repeats"] = request.value("repeats", 1);
+    file[parameters.empty() ? "runs" : "repeats"] = whole_in(request, "repeats", 1, kMostRuns, 1);
     file["parameters"] = parameters;
     return file;
 }
@@ -164,6 +164,9 @@ void Many::begin(std::string_view request) {
                                         const std::lock_guard lock(guards_landed_);
                                         landed_.push_back(row);
                                     }});
+        } catch (const std::bad_alloc&) {
+            const std::lock_guard lock(guards_landed_);
+            problem_ = "not enough memory";
         } catch (const std::exception& error) {
             const std::lock_guard lock(guards_landed_);
             problem_ = error.what();
@@ -231,20 +234,15 @@ std::string Many::rows(std::string_view request) {
 
 std::string Many::flight(std::string_view request) {
     const json asked = object_in(request);
-    const auto count = [&asked](const char* key) {
-        const auto found = asked.find(key);
-        if (found == asked.end() || !found->is_number_unsigned()) {
-            throw InputError("a flight is asked for by \"id\" and \"run\", both counts");
-        }
-        return found->get<std::uint64_t>();
-    };
-    if (results_ == nullptr || count("id") != id_) {
+    constexpr std::uint32_t kMostIds = 1'000'000'000;
+    const std::uint32_t run = whole_in(asked, "run", 0, kMostRuns);
+    if (results_ == nullptr || whole_in(asked, "id", 0, kMostIds) != id_) {
         throw InputError("that campaign is gone, another one has begun");
     }
     // Its own view of the file: the workers write meanwhile.
     campaign::Results results(campaign::Results::file_of(folder_), campaign::Access::read);
     const fs::path recording = folder_ / "run.mcap";
-    (void)replay_run(results, static_cast<std::uint32_t>(count("run")), recording);
+    (void)replay_run(results, run, recording);
     return taken(recording);
 }
 

@@ -23,6 +23,42 @@ nlohmann::json object_in(std::string_view request) {
     return json;
 }
 
+std::uint32_t whole_in(const nlohmann::json& request, const char* key, std::uint32_t least,
+                       std::uint32_t most, std::optional<std::uint32_t> otherwise) {
+    const auto found = request.find(key);
+    if (found == request.end() && otherwise) {
+        return *otherwise;
+    }
+    // As it came: get<int>() would take the lowest bits of 10^18.
+    const bool is_count = found != request.end() && found->is_number_unsigned();
+    const std::uint64_t value = is_count ? found->get<std::uint64_t>() : 0;
+    if (!is_count || value < least || value > most) {
+        throw InputError(fmt::format("\"{}\": {}; a whole number, allowed {}..{}", key,
+                                     found == request.end() ? "is missing" : found->dump(), least,
+                                     most));
+    }
+    return static_cast<std::uint32_t>(value);
+}
+
+void Trouble::keep() {
+    const std::lock_guard lock(guards_it_);
+    if (!first_) {
+        first_ = std::current_exception();
+    }
+}
+
+void Trouble::clear() {
+    const std::lock_guard lock(guards_it_);
+    first_ = nullptr;
+}
+
+void Trouble::say() const {
+    const std::lock_guard lock(guards_it_);
+    if (first_) {
+        std::rethrow_exception(first_);
+    }
+}
+
 Asked asked_in(const nlohmann::json& request, const std::string& first) {
     try {
         Asked asked{.scenario = request.value("scenario", first),

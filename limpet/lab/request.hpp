@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <exception>
 #include <filesystem>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +15,13 @@ namespace limpet::lab {
 
 /// @throws InputError when it is no JSON object
 [[nodiscard]] nlohmann::json object_in(std::string_view request);
+
+/// A count, read in the width that it came in.
+/// @param otherwise  where it is left out; nothing: it must be there
+/// @throws InputError naming `key` unless it is a whole number in least..most
+[[nodiscard]] std::uint32_t whole_in(const nlohmann::json& request, const char* key,
+                                     std::uint32_t least, std::uint32_t most,
+                                     std::optional<std::uint32_t> otherwise = {});
 
 /// A scenario with what differs from it.
 struct Asked {
@@ -22,6 +33,20 @@ struct Asked {
 /// @param first  scenario where none is named
 /// @throws InputError when it is none, or its scenario a path
 [[nodiscard]] Asked asked_in(const nlohmann::json& request, const std::string& first);
+
+/// What ended work on other threads, for who asks how far it is.
+class Trouble {
+public:
+    /// Within a catch: keeps the first.
+    void keep();
+    void clear();
+    /// @throws what was kept, if anything
+    void say() const;
+
+private:
+    mutable std::mutex guards_it_;
+    std::exception_ptr first_;
+};
 
 /// @return a file's bytes; the file is removed
 [[nodiscard]] std::string taken(const std::filesystem::path& file);

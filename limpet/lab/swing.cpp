@@ -15,20 +15,18 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLeastCount = 2, kMostCount = 64;
+constexpr std::uint32_t kLeastCount = 2, kMostCount = 64;
 
 stability::Axis axis_in(const json& request, const char* name) {
     try {
         const json& asked = request.at(name);
         const double from = asked.at("from"), to = asked.at("to");
-        const auto count = asked.at("count").get<std::size_t>();
+        const std::uint32_t count = whole_in(asked, "count", kLeastCount, kMostCount);
         stability::Axis axis{.keys = asked.at("keys")};
-        if (axis.keys.empty() || !(from < to) || count < kLeastCount || count > kMostCount) {
-            throw InputError(
-                fmt::format("\"{}\": at least a key, \"from\" below \"to\", \"count\" {}..{}", name,
-                            kLeastCount, kMostCount));
+        if (axis.keys.empty() || !(from < to)) {
+            throw InputError(fmt::format("\"{}\": at least a key, \"from\" below \"to\"", name));
         }
-        for (std::size_t k = 0; k < count; ++k) {
+        for (std::uint32_t k = 0; k < count; ++k) {
             axis.values.push_back(from + (to - from) * static_cast<double>(k) /
                                              static_cast<double>(count - 1));
         }
@@ -112,24 +110,24 @@ void Swing::begin(std::string_view request) {
     map_ = std::move(map);
     order_ = coarse_first(map_.across.values.size(), map_.up.values.size());
     points_.assign(map_.size(), {});
-    failed_ = nullptr;
     next_ = 0;
+    trouble_.clear();
     stop_ = false;
     ++id_;
     // One processor is the page's.
-    working_ = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
-    for (int k = working_; k > 0; --k) {
+    const int most = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+    for (int k = 0; k < most; ++k) {
+        ++working_;
         try {
             threads_.emplace_back([this] {
                 fill();
                 --working_;
             });
-        } catch (const std::exception&) {  // no more threads, or memory for them
-            working_ -= k;
-            if (threads_.empty()) {
+        } catch (const std::exception&) {  // no thread can be had: those that there are do it
+            --working_;
+            if (k == 0) {
                 throw;
             }
-            return;
         }
     }
 }
@@ -140,10 +138,9 @@ void Swing::fill() {
         try {
             point.mode = swing_of_(map_.scenario, map_.point(order_[k]));
         } catch (const InputError&) {  // these two do not go together
-        } catch (...) {
+        } catch (const std::exception&) {
+            trouble_.keep();
             stop_ = true;
-            const std::lock_guard lock(guards_points_);
-            failed_ = std::current_exception();
             return;
         }
         const std::lock_guard lock(guards_points_);
@@ -152,11 +149,9 @@ void Swing::fill() {
 }
 
 std::string Swing::state() {
+    trouble_.say();
     const bool running = working_ > 0;  // before the points: none is missed when it has ended
     const std::lock_guard lock(guards_points_);
-    if (failed_) {
-        std::rethrow_exception(failed_);
-    }
     const auto axis_json = [](const stability::Axis& axis, const std::vector<double>& own) {
         return json{{"keys", axis.keys}, {"values", axis.values}, {"own", own}};
     };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -40,7 +39,7 @@ public:
     ///         "values", "own": the vehicle's numbers, by key}, "growth_1_s": [up * across: null:
     ///         not yet; "none": there is no such vehicle, or it has no rest or swing], "own":
     ///         {"growth_1_s", "frequency_Hz", null: as above}}
-    /// @throws InternalError that of a point, which stopped the map
+    /// @throws what ended the work: a fault at a point, no memory
     [[nodiscard]] std::string state();
 
 private:
@@ -62,7 +61,7 @@ private:
     std::vector<std::size_t> order_;  ///< of the points: every fourth of a row, every second, all
     std::mutex guards_points_;
     std::vector<Point> points_;
-    std::exception_ptr failed_ = nullptr;  ///< by a point, since the map began
+    Trouble trouble_;
     std::vector<std::jthread> threads_;
 };
 

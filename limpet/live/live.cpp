@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
@@ -18,6 +19,16 @@ constexpr std::uint64_t kTimeEvery_ns = 20'000'000;  // a viewer's clock steps a
 
 std::string_view view_of(mcap::ByteView bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// @throws InputError unless it is one: its lowest bits might be another's
+std::uint32_t id_in(const nlohmann::json& given) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    if (!given.is_number_unsigned() || given.get<std::uint64_t>() > kMost) {
+        throw InputError(
+            fmt::format("{} is no id; a whole number, allowed 0..{}", given.dump(), kMost));
+    }
+    return given.get<std::uint32_t>();
 }
 
 template <std::size_t n>
@@ -54,7 +65,7 @@ void Live::channel(const record::SinkChannel& channel) {
         next_time_ns_ = 0;  // another flight begins
         return;
     }
-    require(channel.id == channels_.size(), "channels are told in their order, from 0");
+    require(channel.id == channels_.size(), "channels come in their order, from 0");
     channels_.push_back({channel.id, std::string(channel.topic), std::string(channel.type),
                          std::string(channel.encoding), std::string(channel.schema_encoding),
                          std::string(channel.schema)});
@@ -266,20 +277,18 @@ void Live::on_text(serve::Session& session, std::string_view text) {
         };
         if (op == "subscribe") {
             for (const nlohmann::json& one : asked.at("subscriptions")) {
-                subscribe(viewer, one.at("id").get<std::uint32_t>(),
-                          one.at("channelId").get<std::uint64_t>());
+                subscribe(viewer, id_in(one.at("id")), id_in(one.at("channelId")));
             }
         } else if (op == "unsubscribe") {
             for (const nlohmann::json& id : asked.at("subscriptionIds")) {
-                unsubscribe(viewer, id.get<std::uint32_t>());
+                unsubscribe(viewer, id_in(id));
             }
         } else if (op == "getParameters") {
             session.send_text(parameter_values(wanted(names()), asked.value("id", "")));
         } else if (op == "setParameters") {
             set_parameters(viewer, asked);
         } else if (op == "fetchAsset") {
-            fetch(session, asked.at("requestId").get<std::uint32_t>(),
-                  asked.at("uri").get<std::string>());
+            fetch(session, id_in(asked.at("requestId")), asked.at("uri").get<std::string>());
         } else if (op == "subscribeParameterUpdates") {
             for (const LiveParameter& parameter : wanted(names())) {
                 viewer.parameters.insert(parameter.name);
@@ -293,6 +302,8 @@ void Live::on_text(serve::Session& session, std::string_view text) {
                 status(StatusLevel::warning, fmt::format("'{}' is not understood here", op)));
         }
     } catch (const nlohmann::json::exception& error) {
+        session.send_text(status(StatusLevel::error, error.what()));
+    } catch (const InputError& error) {
         session.send_text(status(StatusLevel::error, error.what()));
     }
 }

@@ -106,6 +106,11 @@ std::optional<HilStatus> Hil::ended() const {
     return link_.generation() != generation_ ? std::optional(HilStatus::gone) : std::nullopt;
 }
 
+/// Of one that has never answered.
+HilStatus Hil::unanswered() const {
+    return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
+}
+
 HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
     const Clock::time_point begin = Clock::now();
     const Clock::time_point sent = sent_[(sends_ - 1) % sent_.size()].at;
@@ -127,7 +132,7 @@ HilStatus Hil::in_lockstep(std::uint64_t time_usec, const Others& others) {
         return HilStatus::answered;
     }
     if (!answered_ever_) {
-        return Clock::now() - began_ > options_.boot_limit ? HilStatus::silent : HilStatus::waiting;
+        return unanswered();
     }
     ++count_.unanswered;
     return HilStatus::silent;
@@ -152,7 +157,7 @@ HilStatus Hil::in_real_time(std::uint64_t time_usec, const Others& others) {
         return *over;
     }
     if (!answered_ever_) {
-        return HilStatus::waiting;
+        return unanswered();
     }
     const bool stale =
         duration<double>(Clock::now() - answered_at_).count() > options_.stale_limit_s;

@@ -25,7 +25,7 @@ enum class HilTiming {
 struct HilOptions {
     HilTiming timing = HilTiming::lockstep;
     std::chrono::milliseconds answer_limit{5000};  ///< longest wait, of wall time
-    std::chrono::seconds boot_limit{60};           ///< lockstep: longest wait for the first answer
+    std::chrono::milliseconds boot_limit{60000};   ///< longest wait for the first answer, wall time
     double stale_limit_s = 0.5;                    ///< real time: motors older than this are lost
     GeographicOrigin origin = {};
     bool motion_capture = true;               ///< send poses too; false: a companion does
@@ -85,6 +85,7 @@ private:
               const std::function<void()>& hand_over);
     /// Longest wait for the answer to the sensors that have just gone, as things stand.
     [[nodiscard]] std::chrono::milliseconds patience() const;
+    [[nodiscard]] HilStatus unanswered() const;
     [[nodiscard]] HilStatus in_lockstep(std::uint64_t time_usec, const Others& others);
     [[nodiscard]] HilStatus in_real_time(std::uint64_t time_usec, const Others& others);
     /// @return why there is no use in listening on; nothing while there is

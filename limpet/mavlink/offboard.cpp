@@ -304,7 +304,7 @@ std::string Offboard::obstacle(double time_s) const {
     };
     switch (state(time_s)) {
         case OffboardState::silent: return "no heartbeat of the autopilot";
-        case OffboardState::unready: return with_reason("the autopilot tells no fresh pose");
+        case OffboardState::unready: return with_reason("the autopilot sends no fresh pose");
         case OffboardState::streaming:
             return with_reason(options_.asks_for_mode ? "the autopilot is not in OFFBOARD mode yet"
                                                       : "waits for the mode OFFBOARD");

@@ -68,15 +68,24 @@ Odometry odometry(const PoseReading& pose, std::uint64_t time_usec) {
     return message;
 }
 
-std::optional<PoseReading> pose_reading(const Odometry& odometry) {
-    const auto q_WB = quaternion(odometry.q);
+std::string_view why_no_pose(const Odometry& odometry) {
     const Vector3 p_WB_m(odometry.x, odometry.y, odometry.z);
-    if (odometry.estimator_type != MavEstimatorType::vision ||
-        odometry.frame_id != MavFrame::local_ned || odometry.child_frame_id != MavFrame::body_frd ||
-        !q_WB || !p_WB_m.allFinite()) {
+    return odometry.estimator_type != MavEstimatorType::vision
+               ? "its estimator_type is not MAV_ESTIMATOR_TYPE_VISION"
+           : odometry.frame_id != MavFrame::local_ned ? "its frame_id is not MAV_FRAME_LOCAL_NED"
+           : odometry.child_frame_id != MavFrame::body_frd
+               ? "its child_frame_id is not MAV_FRAME_BODY_FRD"
+           : !p_WB_m.allFinite()     ? "its position is not finite"
+           : !quaternion(odometry.q) ? "its quaternion is not finite or of length 0"
+                                     : "";
+}
+
+std::optional<PoseReading> pose_reading(const Odometry& odometry) {
+    if (!why_no_pose(odometry).empty()) {
         return std::nullopt;
     }
-    return PoseReading{.p_WB_m = p_WB_m, .q_WB = *q_WB};
+    return PoseReading{.p_WB_m = Vector3(odometry.x, odometry.y, odometry.z),
+                       .q_WB = *quaternion(odometry.q)};
 }
 
 Odometry odometry(const Estimate& estimate, std::uint64_t time_usec) {

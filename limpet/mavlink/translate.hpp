@@ -76,6 +76,7 @@ void take(const HilSensor& message, double time_s, Readings& readings);
 [[nodiscard]] Odometry odometry(const PoseReading& pose, std::uint64_t time_usec);
 /// @return nothing where EKF2 would use nothing: another estimator_type than vision, other frames
 ///         than NED and FRD, a pose that is not finite or a quaternion without length
+[[nodiscard]] std::string_view why_no_pose(const Odometry& odometry);
 [[nodiscard]] std::optional<PoseReading> pose_reading(const Odometry& odometry);
 /// An autopilot's own estimate: pose, velocity in W or B as child_frame_id says, rates in B always,
 /// diagonal of the covariance (0 where unknown). Not valid when its quality says that it failed.

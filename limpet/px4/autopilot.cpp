@@ -137,19 +137,34 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
         });
 }
 
-RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint, double) {
+Mover Px4Autopilot::mover() {
+    const bool armed = offboard_.report().armed;
+    flew_ = flew_ || armed;
+    return armed ? Mover::rotors : flew_ ? Mover::nothing : Mover::hand;
+}
+
+/// As it was heard, stamped by the flight's clock.
+Estimate Px4Autopilot::heard_estimate(double time_s) const {
+    Estimate estimate = offboard_.estimate(clock_s());
+    estimate.time_s += time_s - clock_s();
+    return estimate;
+}
+
+RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint,
+                                   double time_s) {
     readings_ = readings;
     readings_.motion_capture =
-        watch_.trusted(readings.motion_capture,
-                       offboard_.report().armed ? offboard_.estimate(clock_s()) : Estimate{});
+        watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
     exchange(setpoint);
     switch (status_) {
         case mavlink::HilStatus::waiting:
         case mavlink::HilStatus::answered: break;
         case mavlink::HilStatus::silent:
-            failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
-                                                : "the autopilot has never answered HIL_SENSOR";
+            failure_ = hil_.count().answers > 0
+                           ? "the autopilot answers no longer"
+                           : "the autopilot connected, and has not answered HIL_SENSOR in "
+                             "the time that it is waited for";
             break;
         case mavlink::HilStatus::gone: failure_ = "the autopilot closed the link"; break;
         case mavlink::HilStatus::interrupted: break;  // who set the stop ends the flight

@@ -48,6 +48,8 @@ public:
 private:
     void hear(const mavlink::Frame& frame);
     void listen();
+    [[nodiscard]] Mover mover();
+    [[nodiscard]] Estimate heard_estimate(double time_s) const;
     void exchange(const Setpoint& setpoint);
     void look_who();
     [[nodiscard]] bool in_step() const;
@@ -63,6 +65,7 @@ private:
     std::uint64_t clock_usec_ = 0;
     Readings readings_;  ///< as told to it
     PoseWatch watch_;
+    bool flew_ = false;  ///< motors have been on
     double listened_s_ = -1.0;
     double heard_s_ = -1.0;        ///< since when its estimate is heard
     double listening_s_ = 0.0;     ///< waited for a lagging estimate, wall time

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -21,12 +22,16 @@ std::unique_ptr<mavlink::Link> open(std::unique_ptr<wire::Transport> wire) {
         mavlink::Sender{.system = kSystem, .component = mavlink::kCompanionComponent});
 }
 
-void wait_for_peer(mavlink::Link& link, double wait_s, const Px4WireWatch& watch,
-                   const std::atomic<bool>* stop) {
+/// @return how long it took [s]
+double wait_for_peer(mavlink::Link& link, double wait_s, const Px4WireWatch& watch,
+                     const std::atomic<bool>* stop) {
     using SteadyClock = std::chrono::steady_clock;
     const SteadyClock::time_point begin = SteadyClock::now();
+    const auto so_far_s = [begin] {
+        return std::chrono::duration<double>(SteadyClock::now() - begin).count();
+    };
     while (!link.wait_for_peer(std::chrono::milliseconds(100))) {
-        const double waited_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
+        const double waited_s = so_far_s();
         if (watch.on_wait) {
             watch.on_wait(waited_s);
         }
@@ -38,6 +43,7 @@ void wait_for_peer(mavlink::Link& link, double wait_s, const Px4WireWatch& watch
                                          link.transport().describe(), wait_s, watch.wait_key));
         }
     }
+    return so_far_s();
 }
 
 }  // namespace
@@ -53,12 +59,14 @@ Px4Wires::Px4Wires(const Px4Addresses& addresses, double control_rate_Hz, bool f
     if (watch.on_open) {
         watch.on_open(hil_->transport().describe());
     }
-    wait_for_peer(*hil_, addresses.wait_s, watch, stop);
+    const double waited_s = wait_for_peer(*hil_, addresses.wait_s, watch, stop);
     Px4Options px4;
     px4.hil.timing =
         addresses.serial() ? mavlink::HilTiming::real_time : mavlink::HilTiming::lockstep;
     px4.hil.motion_capture = flies;
     px4.hil.answer_limit = std::chrono::milliseconds(std::llround(1e3 * addresses.patience_s));
+    px4.hil.boot_limit =
+        std::chrono::milliseconds(std::llround(1e3 * std::max(0.0, addresses.wait_s - waited_s)));
     px4.hil.stop = stop;
     px4.control_rate_Hz = control_rate_Hz;
     px4.flies = flies;

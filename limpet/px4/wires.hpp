@@ -20,7 +20,7 @@ struct Px4Addresses {
     /// Where its onboard link comes in; over serial all goes over the one wire.
     wire::TransportAddress offboard = Px4Instance().offboard();
     std::uint8_t system = 1;
-    double wait_s = 60.0;     ///< longest wait for it, wall time
+    double wait_s = 60.0;     ///< longest wait for it and its first answer, wall time
     double patience_s = 5.0;  ///< in lockstep: for an answer in flight, wall time
     bool sets_origin = true;  ///< gives it a place on earth: where it has no GPS
 

@@ -6,6 +6,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <new>
 #include <optional>
 
 #include "limpet/core/errors.hpp"
@@ -59,6 +60,25 @@ std::optional<std::string> choose_subprotocol(const std::vector<std::string>& sp
 
 }  // namespace
 
+std::size_t Shared::known_ones() const {
+    return static_cast<std::size_t>(
+        std::count_if(connections.begin(), connections.end(),
+                      [](const Connection* connection) { return connection->known(); }));
+}
+
+void Shared::make_room() {
+    if (connections.size() - known_ones() < options.most_connections) {
+        return;
+    }
+    Connection* oldest = nullptr;
+    for (Connection* connection : connections) {
+        if (!connection->known() && (oldest == nullptr || connection->since < oldest->since)) {
+            oldest = connection;
+        }
+    }
+    oldest->drop();  // leaves the set a moment later
+}
+
 /// The server's end of a session.
 class WebSocket final : public Connection, public std::enable_shared_from_this<WebSocket> {
 public:
@@ -104,6 +124,7 @@ public:
         });
     }
 
+    [[nodiscard]] bool known() const override { return true; }
     void flush() override {
         if (!opened_ || writing_ || closing_) {
             return;
@@ -198,6 +219,7 @@ public:
                          });
     }
 
+    [[nodiscard]] bool known() const override { return known_; }
     void flush() override {}
     void finish() override {
         if (!writing_) {
@@ -228,6 +250,9 @@ private:
     /// Nothing once it has become a WebSocket.
     std::optional<Response> respond(bool upgrade) {
         auto& asked = parser_->get();
+        if (asked.count(http::field::host) > 1 || asked.count(http::field::origin) > 1) {
+            return Response{.status = 400, .body = "one Host and one Origin, not several\n"};
+        }
         const std::string host = text_of(asked[http::field::host]);
         if (!host_allowed(host)) {
             return Response{.status = 403,
@@ -243,12 +268,18 @@ private:
                 return Response{.status = 403,
                                 .body = "the address lacks its token: take it as printed\n"};
             }
+            if (!known_ && shared_.known_ones() >= shared_.options.most_connections) {
+                return Response{.status = 503, .body = "too many are connected\n"};
+            }
+            known_ = true;
             if (upgrade) {
                 return become_websocket(target.request.path);
             }
             return call(std::move(target.request));
         } catch (const InputError& error) {
             return Response{.status = 400, .body = std::string(error.what()) + "\n"};
+        } catch (const std::bad_alloc&) {
+            return Response{.status = 503, .body = "not enough memory\n"};
         } catch (const std::exception& error) {
             return Response{.status = 500, .body = std::string(error.what()) + "\n"};
         }
@@ -348,6 +379,7 @@ private:
     std::array<char, 4096> waste_{};
     std::size_t drained_bytes_ = 0;
     bool writing_ = false;
+    bool known_ = false;
 };
 
 }  // namespace

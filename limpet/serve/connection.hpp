@@ -29,12 +29,16 @@ struct Routes {
 class Connection {
 public:
     virtual ~Connection() = default;
+    /// Has shown the token, and so may stay; who has not makes room for newcomers.
+    [[nodiscard]] virtual bool known() const = 0;
     /// Sends what has been queued meanwhile.
     virtual void flush() = 0;
     /// Ends it once what has been queued is out.
     virtual void finish() = 0;
     /// Ends it at once.
     virtual void drop() = 0;
+
+    const std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
 
 protected:
     Connection() = default;
@@ -49,6 +53,11 @@ struct Shared {
     std::set<Connection*> connections = {};
     bool stopping = false;
     std::chrono::steady_clock::time_point last_frame_out = {};  ///< to anybody
+
+    [[nodiscard]] std::size_t known_ones() const;
+    /// A place for a newcomer: the stranger who is here longest leaves where there are
+    /// options.most_connections of them.
+    void make_room();
 };
 
 /// Serves requests until the client goes, or becomes a WebSocket.

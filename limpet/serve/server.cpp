@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <boost/asio/steady_timer.hpp>
-#include <new>
 #include <thread>
 
 #include "limpet/core/errors.hpp"
@@ -58,69 +57,73 @@ struct Server::Inside {
         port = acceptor.local_endpoint().port();
     }
 
-    /// Who asks for more memory than there is loses the connection, the others go on.
-    void run() {
-        for (bool over = false; !over;) {
-            try {
-                io.run();
-                over = true;
-            } catch (const std::bad_alloc&) {
-            }
-        }
-    }
-
     void accept() {
         acceptor.async_accept([this](error_code error, tcp::socket socket) {
+            accepting = false;
             if (!acceptor.is_open()) {
                 return;
             }
-            if (!error && shared.connections.size() < shared.options.most_connections) {
+            if (!error) {
+                shared.make_room();
                 fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
                 error_code ignored;
                 socket.set_option(tcp::no_delay(true), ignored);
                 socket.set_option(tcp::socket::send_buffer_size(kMostOnTheWay_bytes), ignored);
-                try {
-                    serve_connection(std::move(socket), shared);
-                } catch (const std::bad_alloc&) {  // the next one may find some
-                }
-            } else if (error) {  // no file descriptors left, say: not again and again at once
+                serve_connection(std::move(socket), shared);
+                accept();
+            } else {  // no file descriptors left, say: not again and again at once
                 pause.expires_after(milliseconds(100));
                 pause.async_wait([this](error_code) {
                     if (acceptor.is_open()) {
                         accept();
                     }
                 });
-                return;
+                accepting = true;
             }
-            accept();
         });
+        accepting = true;
+    }
+
+    /// Until all is said. What throws (memory is at its end) loses its own connection alone; who
+    /// accepts and who flushes go on.
+    void run() {
+        for (;;) {
+            try {
+                if (!accepting && acceptor.is_open()) {
+                    accept();
+                }
+                if (!flushing) {
+                    keep_flushing();
+                }
+                io.run();
+                return;
+            } catch (const std::exception&) {
+                std::this_thread::sleep_for(milliseconds(10));
+            }
+        }
     }
 
     void keep_flushing() {
         timer.expires_after(kFlush);
         timer.async_wait([this](error_code) {
-            try {
-                flush_all();
-            } catch (const std::bad_alloc&) {  // frames wait
+            flushing = false;
+            const auto all = shared.connections;  // who ends leaves the set
+            for (Connection* connection : all) {
+                if (shared.connections.count(connection) != 0) {
+                    connection->flush();
+                }
             }
             if (shared.stopping && (shared.connections.empty() || all_is_said())) {
                 const auto rest = shared.connections;
                 for (Connection* connection : rest) {
                     connection->drop();
                 }
+                flushing = true;  // it need not any more
             } else {
                 keep_flushing();
             }
         });
-    }
-
-    void flush_all() {
-        const auto all = shared.connections;  // who ends leaves the set
-        for (Connection* connection : all) {
-            if (shared.connections.count(connection) != 0) {
-                connection->flush();
-            }
-        }
+        flushing = true;
     }
 
     /// Or there is nobody who listens.
@@ -148,6 +151,7 @@ struct Server::Inside {
     boost::asio::steady_timer timer{io}, pause{io};
     std::chrono::steady_clock::time_point stopped;
     std::uint16_t port = 0;
+    bool accepting = false, flushing = false;  ///< that is under way
     std::thread thread;
 };
 
@@ -172,8 +176,6 @@ void Server::websocket(std::string path, std::vector<std::string> subprotocols,
 
 void Server::start() {
     require(!inside_->thread.joinable(), "a server is started once");
-    inside_->accept();
-    inside_->keep_flushing();
     inside_->thread = std::thread([this] { inside_->run(); });
 }
 

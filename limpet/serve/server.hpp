@@ -23,6 +23,8 @@ struct ServerOptions {
     /// Pages of others that may come in too ("https://app.example.org", "http://localhost:*" at any
     /// port); those of this server and programs, which name no origin, may anyway.
     std::vector<std::string> origins = {};
+    /// Of those who have shown the token, and as many of those who have not yet: of these the one
+    /// who has been there longest makes room for the next.
     std::size_t most_connections = 32;
     std::size_t most_request_bytes = std::size_t{1} << 20U;  ///< a body, a frame from a client
     std::size_t most_queued_bytes = std::size_t{1} << 20U;   ///< to a client, its frame queue
@@ -72,7 +74,8 @@ protected:
 ///
 /// A request comes in when its Host is `localhost` or an address in digits (no name of a page that
 /// points here), its Origin, if it names one, this server or one of `origins`, and the token is
-/// right; else 403. Too large is 413, too many connections are closed at once.
+/// right; else 403. Two Hosts or Origins are 400, too large is 413, too many who know the token and
+/// no memory 503. Where the machine has no memory left, that request is lost, not the server.
 class Server {
 public:
     /// Takes the port; answers nobody before start().

@@ -80,7 +80,8 @@ TEST(CompanionVerb, WhereNobodyIsItSaysSoAndExitsWithTwo) {
         bench.run(Ports().companion_words({"--set", "limits.wait_limit_s=2", "--speed", "4"}));
     EXPECT_EQ(finished.exit_code, 2);
     EXPECT_THAT(finished.out,
-                HasSubstr("waits: no motion-capture pose, no left LiDAR, "
+                HasSubstr("waits: no motion-capture pose (no ODOMETRY comes over the sensors' "
+                          "wire), no left LiDAR, "
                           "no right LiDAR, no force, no cup pressure, no heartbeat of "
                           "the autopilot"));
     EXPECT_THAT(finished.err, HasSubstr("limpet: nothing was flown: waited 2 s: no"));

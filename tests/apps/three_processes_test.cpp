@@ -2,6 +2,7 @@
 // The paper's Fig. 5: simulator, autopilot and companion as three programs on loopback.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <optional>
@@ -31,32 +32,39 @@ struct OverDevices : testing::Test {
     std::optional<Started> stand_in;
     std::optional<Started> sim_io;
     std::optional<Started> companion;
+    std::string pose_limit_s = "1";
 
     void write_companion(const std::string& sources) const {
-        (void)bench.write("beside.yaml",
-                          "description: three processes\n"
-                          "vehicle: perching_uav\n"
-                          "mission: perch_and_take_off\n"
-                          "autopilot:\n"
-                          "  address: " +
-                              ports.autopilot +
-                              "\n"
-                              "  asks_for_mode: true\n"
-                              // a busy machine is no reason to hand back
-                              "limits: {late_limit_s: 0.9, pose_limit_s: 1, estimate_limit_s: 1, "
-                              "silence_limit_s: 10}\n"
-                              "guidance: {sensor_limit_s: 1}\n"
-                              "sensors:\n"
-                              "  address: " +
-                              ports.sensors + "\n" + sources);
+        (void)bench.write(
+            "beside.yaml",
+            "description: three processes\n"
+            "vehicle: perching_uav\n"
+            "mission: perch_and_take_off\n"
+            "autopilot:\n"
+            "  address: " +
+                ports.autopilot +
+                "\n"
+                "  asks_for_mode: true\n"
+                // a busy machine is no reason to hand back
+                "limits: {late_limit_s: 0.9, estimate_limit_s: 1, silence_limit_s: 10, "
+                "wait_limit_s: 20, pose_limit_s: " +
+                pose_limit_s +
+                "}\n"
+                "guidance: {sensor_limit_s: 1}\n"
+                "sensors:\n"
+                "  address: " +
+                ports.sensors + "\n" + sources);
     }
 
-    void start(const std::string& speed) {
-        sim_io.emplace(
-            bench.folder(), "sim_io",
-            std::vector<std::string>{"sim-io", "perch_metal_valve", "beside.yaml", "--hil",
-                                     ports.hil, "--speed", speed, "--no-figures", "--expect",
-                                     "released", "--out", "sim"});
+    /// @param fault  of the scenario's table; empty: none
+    void start(const std::string& speed, const std::string& fault = "") {
+        std::vector<std::string> words = {
+            "sim-io", "perch_metal_valve", "beside.yaml", "--hil",    ports.hil, "--speed",
+            speed,    "--no-figures",      "--expect",    "released", "--out",   "sim"};
+        if (!fault.empty()) {
+            words.insert(words.end(), {"--set", "faults={" + fault + "}"});
+        }
+        sim_io.emplace(bench.folder(), "sim_io", words);
         stand_in.emplace(
             bench.folder(), "stand_in",
             std::vector<std::string>{"stand-in", "perch_metal_valve", "--hil", ports.hil,
@@ -121,6 +129,62 @@ TEST_F(OverDevices, ThreeProcessesPerchOverNatNetRangeFindersAndTheMechanismsLin
         "  valve: true\n");
     start("1");
     expect_released(180s);
+}
+
+/// Motive over NatNet 3.1, the rest over MAVLink.
+struct PosesThatAreWrong : OverDevices {
+    Finished guided;
+    std::optional<record::Recording> flown;
+
+    void fly(const std::string& fault) {
+        write_companion(
+            "motion_capture:\n"
+            "  source: natnet\n"
+            "  address: " +
+            ("udp:" + free_port(SOCK_DGRAM)) +
+            "\n"
+            "  command: " +
+            ports.motive +
+            "\n"
+            "  rigid_body: 3\n"
+            "  up: y\n"
+            "lidars:\n"
+            "  source: mavlink\n"
+            "mechanism:\n"
+            "  source: mavlink\n"
+            "  valve: true\n");
+        start("1", fault);
+        guided = companion->wait(120s);
+        sim_io->signal(SIGINT);
+        (void)sim_io->wait(30s);
+    }
+    [[nodiscard]] bool happened(const std::string& event) {
+        if (!flown) {
+            flown.emplace(record::read_recording(bench.folder() / "sim" / "flight.mcap"));
+        }
+        return std::any_of(flown->events.begin(), flown->events.end(),
+                           [&](const auto& each) { return each.name == event; });
+    }
+};
+
+TEST_F(PosesThatAreWrong, AJumpInTheApproachIsHandedBackBeforeTheWall) {
+    pose_limit_s = "0.25";
+    fly("fault: mocap_jumps, size: -5, phase: approaching, after_s: 0.3");
+    EXPECT_EQ(guided.exit_code, 1) << guided.out << guided.err;
+    EXPECT_NE(guided.err.find("motion-capture pose stale: its pose jumped (5."), std::string::npos)
+        << guided.err;
+    EXPECT_TRUE(happened("approach_started"));
+    EXPECT_FALSE(happened("impact")) << "flew on into the wall";
+}
+
+/// From the flight's first instant, while it stands: the stand-in's estimate follows.
+TEST_F(PosesThatAreWrong, ADriftOnTheStandArmsNobody) {
+    fly("fault: mocap_drifts, size: 1, at_s: 0");
+    EXPECT_EQ(guided.exit_code, 2) << guided.out << guided.err;
+    EXPECT_NE(guided.err.find("its pose moves while motors are off and the gyros are still"),
+              std::string::npos)
+        << guided.err;
+    EXPECT_EQ(guided.out.find("begins"), std::string::npos) << guided.out;
 }
 
 TEST_F(OverDevices, CtrlCLeavesTheSimulatorsRecordingWhole) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/companion/rehearsal.hpp"
 
 namespace limpet::companion {
@@ -54,7 +56,7 @@ TEST(Companion, NamesWhatIsMissingAndGivesUpInTime) {
     r.stage.puppet.force_works = false;
     r.stage.tells_pose = false;
     r.run(5.0);
-    EXPECT_TRUE(r.said("waits: no force, the autopilot tells no fresh pose"))
+    EXPECT_TRUE(r.said("waits: no force, the autopilot sends no fresh pose"))
         << testing::PrintToString(r.lines);
     ASSERT_TRUE(r.run_out(6.0));
     EXPECT_EQ(r.result().end, CompanionEnd::absent);
@@ -72,7 +74,8 @@ TEST(Companion, WaitsForEachOfItsInputs) {
         EXPECT_TRUE(r.said(what)) << what << testing::PrintToString(r.lines);
         EXPECT_EQ(r.stage.autopilot.set_points, 0) << what;
     };
-    waits([](Stage& s) { s.motion_capture_works = false; }, "no motion-capture pose");
+    waits([](Stage& s) { s.motion_capture_works = false; },
+          "no motion-capture pose (no ODOMETRY comes over the sensors' wire)");
     waits([](Stage& s) { s.puppet.lidar_works = false; }, "no left LiDAR, no right LiDAR");
     waits([](Stage& s) { s.puppet.force_works = false; }, "no force");
     waits([](Stage& s) { s.puppet.pressure_works = false; }, "no cup pressure");
@@ -84,6 +87,28 @@ TEST(Companion, WaitsForEachOfItsInputs) {
             s.motion_capture_off_m = {0.0, 0.5, 0.0};
         },
         "motion capture and the autopilot's pose differ by 0.50 m and 0 deg");
+    waits([](Stage& s) { s.motion_capture_off_m.x() = std::nan(""); },
+          "no motion-capture pose (ODOMETRY comes, but its position is not finite)");
+}
+
+/// Also when all that it waits for has come: what came, what was taken, and why the rest was not.
+TEST(Companion, ReportsWhatCameOfMotionCapture) {
+    Rehearsal r({"limits.wait_limit_s=2"});
+    r.run(1.0);
+    r.stage.motion_capture_off_m.x() = std::nan("");
+    ASSERT_TRUE(r.run_out(10.0) || r.stage.time_s() > 5.0);
+    r.interrupted = true;
+    (void)r.run_out(5.0);
+    const PoseReport& poses = r.result().motion_capture;
+    ASSERT_EQ(poses.refused.size(), 1U);
+    EXPECT_EQ(poses.refused[0].first, "no_pose");
+    EXPECT_NEAR(static_cast<double>(poses.taken), 50.0, 5.0);
+    EXPECT_EQ(poses.came, poses.taken + poses.refused[0].second);
+    EXPECT_EQ(poses.latest, "ODOMETRY comes, but its position is not finite");
+    const auto json = nlohmann::json::parse(summary_json(r.config, r.result()));
+    EXPECT_EQ(json["motion_capture"]["refused"]["no_pose"], poses.refused[0].second);
+    EXPECT_EQ(json["motion_capture"]["latest"], poses.latest);
+    EXPECT_THAT(text_of(poses), testing::EndsWith("no_pose; last: " + poses.latest));
 }
 
 TEST(Companion, LeavesAPumpAloneThatMayHoldAVehicle) {

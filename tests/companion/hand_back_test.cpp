@@ -59,6 +59,11 @@ TEST(HandBack, InTheAirAsksForHold) {
     expect_hold_in_the_approach(  // another body
         [](Rehearsal& r) { r.stage.motion_capture_turned_rad = 1.0; }, 0.35, handed_back,
         "motion-capture pose stale");
+    expect_hold_in_the_approach(
+        [](Rehearsal& r) {
+            r.stage.motion_capture_off_m = {5.0, 0.0, 0.0};
+        },
+        0.35, handed_back, "motion-capture pose stale: its pose jumped (5.00 m)");
     expect_hold_in_the_approach([](Rehearsal& r) { r.stage.tells_pose = false; }, 0.35, handed_back,
                                 "autopilot's pose stale");
     expect_hold_in_the_approach([](Rehearsal& r) { r.stage.beats = false; }, 3.1, handed_back,
@@ -67,6 +72,53 @@ TEST(HandBack, InTheAirAsksForHold) {
                                 "guidance came too late");
     expect_hold_in_the_approach([](Rehearsal& r) { r.interrupted = true; }, 0.05, interrupted,
                                 "interrupted");
+}
+
+TEST(HandBack, AJumpIsNotPassedOnFromItsFirstFrame) {
+    for (const guidance::PerchingState state :
+         {guidance::PerchingState::approaching, guidance::PerchingState::pitching_up,
+          guidance::PerchingState::resting, guidance::PerchingState::releasing}) {
+        Rehearsal r({"guidance.dock_speed_m_s=0.1"});
+        ASSERT_TRUE(r.run_to(state)) << to_string(state);
+        r.run(0.2);
+        r.stage.step();
+        const int before = r.stage.autopilot.poses;
+        r.stage.motion_capture_off_m = {-5.0, 0.0, 0.0};
+        r.run(0.2);
+        r.stage.step();
+        EXPECT_LE(r.stage.autopilot.poses - before, 1) << to_string(state) << ": one was under way";
+        EXPECT_TRUE(r.said(state == guidance::PerchingState::resting ? "moves while" : "jumped"))
+            << to_string(state);
+    }
+}
+
+TEST(HandBack, AJumpThatIsOverAtOnceIsNoReason) {
+    Rehearsal r;
+    ASSERT_TRUE(r.run_to(guidance::PerchingState::approaching));
+    r.stage.motion_capture_off_m = {5.0, 0.0, 0.0};
+    r.tick();
+    r.stage.motion_capture_off_m.setZero();
+    ASSERT_TRUE(r.run_out());
+    EXPECT_EQ(r.result().outcome, Outcome::released) << r.result().reason;
+    EXPECT_TRUE(r.said("motion capture: its pose jumped (5.00 m)"));
+}
+
+/// The autopilot's estimate follows, so both agree all the time.
+TEST(HandBack, APoseThatDriftsOnTheStandArmsNobody) {
+    for (const double begins_s : {0.0, 3.0}) {
+        Rehearsal r({"limits.wait_limit_s=10", "limits.operator_limit_s=10"});
+        r.stage.obeys_mode = false;
+        r.run(begins_s);
+        r.stage.estimate_drift_m_s = {1.0, 0.0, 0.0};
+        r.run(2.0);
+        r.stage.obeys_mode = true;
+        const int poses = r.stage.autopilot.poses;
+        ASSERT_TRUE(r.run_out(30.0));
+        EXPECT_EQ(r.stage.autopilot.poses, poses) << begins_s;
+        EXPECT_EQ(r.stage.autopilot.arms, 0) << begins_s;
+        EXPECT_EQ(r.result().end, CompanionEnd::absent) << begins_s;
+        EXPECT_THAT(r.result().reason, testing::HasSubstr("its pose moves while motors are off"));
+    }
 }
 
 TEST(HandBack, ALateTickOnTheWayToItsStartCountsToo) {

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "limpet/core/errors.hpp"
@@ -43,8 +44,8 @@ struct Theatre {
                         at(now_s);
                     }};
     }
-    CompanionResult run(const CompanionConduct& conduct = {}) {
-        return companion::run(config, wires, clock(), conduct, {});
+    CompanionResult run(const CompanionConduct& conduct = {}, const CompanionWatch& watch = {}) {
+        return companion::run(config, wires, clock(), conduct, watch);
     }
 };
 
@@ -113,6 +114,23 @@ TEST(Run, ALongStallInTheAirHandsControlBack) {
     EXPECT_EQ(result.end, CompanionEnd::handed_back);
     EXPECT_THAT(result.reason, testing::HasSubstr("guidance came too late"));
     EXPECT_EQ(theatre.stage.mode, Stage::kLoiter);
+}
+
+TEST(Run, WithoutMemoryInTheAirControlIsHandedBack) {
+    Theatre theatre({"guidance.dock_speed_m_s=0.1"});
+    bool lacks = false;
+    const CompanionResult result =
+        theatre.run({}, {.on_event = [&lacks](const Event& event) {
+                        if (event.name == EventName::approach_started && !lacks) {
+                            lacks = true;
+                            throw std::bad_alloc();
+                        }
+                    }});
+    EXPECT_TRUE(lacks);
+    EXPECT_EQ(result.end, CompanionEnd::handed_back);
+    EXPECT_THAT(result.reason, testing::StartsWith("not enough memory; interrupted"));
+    EXPECT_EQ(theatre.stage.mode, Stage::kLoiter);
+    EXPECT_FALSE(theatre.stage.mechanism.pump_on);
 }
 
 TEST(Run, TheRecordingIsWholeWhereNothingWasFlown) {

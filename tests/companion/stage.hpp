@@ -71,12 +71,14 @@ public:
     bool obeys_arming = true;
     Vector3 motion_capture_off_m = Vector3::Zero();
     double motion_capture_turned_rad = 0.0;
+    Vector3 estimate_drift_m_s = Vector3::Zero();  ///< of tracker and estimate, not of the vehicle
 
     /// Puppet::kDt_s of the world: hears, moves, tells.
     void step() {
         hear();
         puppet.memory.setpoint = followed();
         puppet.step_world();
+        drifted_m_ += estimate_drift_m_s * guidance::Puppet::kDt_s;
         tell();
     }
 
@@ -187,11 +189,14 @@ private:
             (void)autopilot_.send(state);
         }
         if (tells_pose) {
-            (void)autopilot_.send(mavlink::odometry(puppet.estimate, usec));
+            Estimate estimate = puppet.estimate;
+            estimate.p_WB_m += drifted_m_;
+            estimate.v_WB_m_s += estimate_drift_m_s;
+            (void)autopilot_.send(mavlink::odometry(estimate, usec));
         }
         if (motion_capture_works) {
             (void)sensors_.send(mavlink::odometry(
-                PoseReading{.p_WB_m = puppet.estimate.p_WB_m + motion_capture_off_m,
+                PoseReading{.p_WB_m = puppet.estimate.p_WB_m + motion_capture_off_m + drifted_m_,
                             .q_WB = quaternion_from_euler({.yaw_rad = motion_capture_turned_rad}) *
                                     puppet.estimate.q_WB},
                 usec));
@@ -224,6 +229,7 @@ private:
 
     mavlink::Link autopilot_;
     mavlink::Link sensors_;
+    Vector3 drifted_m_ = Vector3::Zero();
 };
 
 }  // namespace limpet::companion

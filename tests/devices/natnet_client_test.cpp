@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/devices/natnet_client.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace limpet::devices {
@@ -119,6 +120,72 @@ TEST_F(NatNetUnicast, LeavesAloneWhatItCannotUse) {
     server.number += 2;
     server.stream(8.0);
     EXPECT_TRUE(pose(1.0)) << "goes on behind it";
+}
+
+TEST_F(NatNetUnicast, SaysWhatCameAndWhyItWasNotTaken) {
+    using testing::HasSubstr;
+    EXPECT_THAT(client.obstacle(), HasSubstr("nothing comes over udp"));
+    shake_hands();
+    EXPECT_THAT(client.obstacle(), HasSubstr("no frame comes over udp"));
+    EXPECT_THAT(client.obstacle(), HasSubstr("Motive says that it streams unicast"));
+    const auto why = [this] {
+        EXPECT_FALSE(pose(1.0));
+        return client.obstacle();
+    };
+    server.stream(1.0, 9);
+    EXPECT_EQ(why(), "body 1 is not streamed, streamed: 9");
+    server.stream(1.0, 1, false);
+    EXPECT_EQ(why(), "body 1 is streamed but not tracked");
+    server.stream(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(why(), "position or attitude of body 1 is not finite");
+    server.number -= 3;
+    server.stream(1.0);
+    EXPECT_EQ(why(), "frames are older than one before");
+    server.number += 3;
+    server.version = {3, 1};  // not what it said
+    server.stream(1.0);
+    EXPECT_EQ(why(), "frames cannot be read as NatNet 4.1");
+    server.version = {5, 0};
+    server.tell(1000);
+    server.stream(1.0);
+    EXPECT_EQ(why(), "Motive speaks NatNet 5.0, understood are 3.0 to 4.x");
+    server.version = {4, 1};
+    server.tell(1000);
+    server.stream(1.0);
+    EXPECT_TRUE(pose(1.0));
+    EXPECT_EQ(client.obstacle(), "");
+    const auto frames = [this](NatNetRefusal why_not) {
+        return client.count().frames.at(static_cast<std::size_t>(why_not));
+    };
+    for (const NatNetRefusal each :
+         {NatNetRefusal::none, NatNetRefusal::absent, NatNetRefusal::untracked,
+          NatNetRefusal::not_finite, NatNetRefusal::late, NatNetRefusal::unreadable,
+          NatNetRefusal::version}) {
+        EXPECT_EQ(frames(each), 1U) << static_cast<int>(each);
+    }
+    EXPECT_EQ(client.count().packets, 10U);
+}
+
+/// Motive streams to another port than we listen on: only its answer to connect shows that.
+TEST(NatNetMulticast, OfAnotherPortIsNamedByWhatTheServerSays) {
+    Server server;
+    auto data = open_transport({.medium = wire::Medium::udp_multicast,
+                                .host = std::string(kNatNetGroup),
+                                .port = 0,
+                                .interface = "127.0.0.1"},
+                               wire::Role::listen);
+    NatNetClient client({}, std::move(data),
+                        open_transport(server.wire->address(), wire::Role::connect));
+    client.update(0.0);
+    ASSERT_EQ(heard(*server.wire), NatNetMessage::connect);
+    NatNetBuffer buffer;
+    say(*server.wire, encode_server({.version = {3, 1}, .data_port = 1512}, buffer));
+    const auto end = std::chrono::steady_clock::now() + 5s;
+    while (!client.server() && std::chrono::steady_clock::now() < end) {
+        (void)client.receive(0.0);
+    }
+    EXPECT_THAT(client.obstacle(),
+                testing::HasSubstr("Motive says that it streams multicast to 239.255.42.99:1512"));
 }
 
 TEST_F(NatNetUnicast, AStreamThatBeginsAnewIsFollowed) {

@@ -144,10 +144,52 @@ TEST(NatNet, APoseThatIsNoPoseGivesNothingUnlessItIsUntracked) {
     ASSERT_TRUE(decode_frame(frame_with(1.0F, 1.0F, 1), kOld, 3));
     EXPECT_FALSE(decode_frame(frame_with(nan, 1.0F, 1), kOld, 3));
     EXPECT_FALSE(decode_frame(frame_with(1.0F, 0.0F, 1), kOld, 3));
+    NatNetSeen seen;
+    (void)decode_frame(frame_with(1.0F, 1.0F, 1), kOld, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::none);
+    (void)decode_frame(frame_with(nan, 1.0F, 1), kOld, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::not_finite);
+    (void)decode_frame(frame_with(1.0F, 0.0F, 1), kOld, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::no_attitude);
+    (void)decode_frame(frame_with(1.0F, 1.0F, 0), kOld, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::untracked);
+    (void)decode_frame(frame_with(1.0F, 1.0F, 1), kOld, 4, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::absent);
+    EXPECT_EQ(seen.bodies, 1U);
+    EXPECT_EQ(seen.ids[0], 3);
+    (void)decode_frame(frame_with(1.0F, 1.0F, 1), {5, 0}, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::version);
+    (void)decode_frame(hex("0a00 0000"), kOld, 3, &seen);
+    EXPECT_EQ(seen.refusal, NatNetRefusal::not_natnet);
     const std::optional<NatNetFrame> untracked = decode_frame(frame_with(nan, 0.0F, 0), kOld, 3);
     ASSERT_TRUE(untracked);
     EXPECT_FALSE(untracked->body->tracking_valid);
     EXPECT_TRUE(untracked->body->pose.p_MP_m.allFinite());
+}
+
+/// Before 4.1 no section says its size: bytes that are left over are another layout. From there on
+/// a younger version may append.
+TEST(NatNet, BytesLeftOverAreAnotherLayoutBefore41) {
+    const auto longer = [](NatNetVersion version, std::size_t more) {
+        Bytes packet = full_frame(version);
+        packet.resize(packet.size() + more);
+        const auto length = static_cast<std::uint16_t>(packet.size() - 4);
+        std::memcpy(&packet[2], &length, sizeof(length));
+        return packet;
+    };
+    for (const std::size_t more : {1U, 4U, 8U, 300U}) {
+        NatNetSeen seen;
+        EXPECT_FALSE(decode_frame(longer(kOld, more), kOld, 12, &seen)) << more;
+        EXPECT_EQ(seen.refusal, NatNetRefusal::unreadable);
+        EXPECT_EQ(seen.bodies, 0U) << "what cannot be read names no bodies";
+        EXPECT_TRUE(decode_frame(longer(kNew, more), kNew, 12)) << more;
+        EXPECT_TRUE(decode_frame(longer(kNew, more), {4, 3}, 12)) << more;
+    }
+    Bytes bare = full_frame(kOld);  // without its end mark
+    bare.resize(bare.size() - 4);
+    const auto length = static_cast<std::uint16_t>(bare.size() - 4);
+    std::memcpy(&bare[2], &length, sizeof(length));
+    EXPECT_TRUE(decode_frame(bare, kOld, 12));
 }
 
 TEST(NatNet, WhatIsEncodedDecodes) {
@@ -209,13 +251,17 @@ TEST(NatNet, ReadsWhatTheServerSaysOfItself) {
         info.put('\x7F');  // Motive leaves old bytes behind its name
     }
     info.put(std::uint32_t{0x00000102}).put(std::uint32_t{0x00000104});
-    info.put(std::uint64_t{3312787}).put(std::uint16_t{1511}).put('\0').put(std::uint32_t{0});
+    info.put(std::uint64_t{3312787})
+        .put(std::uint16_t{1511})
+        .put('\0')
+        .put(std::uint32_t{0x632AFFEF});  // 239.255.42.99, in network order
     const std::optional<NatNetServer> server = decode_server(info.packet(1));
     ASSERT_TRUE(server);
     EXPECT_EQ(server->version, (NatNetVersion{4, 1}));
     EXPECT_EQ(server->clock_Hz, 3312787U);
     EXPECT_EQ(server->data_port, 1511);
     EXPECT_FALSE(server->multicast);
+    EXPECT_EQ(server->group, (std::array<std::uint8_t, 4>{239, 255, 42, 99}));
 
     NatNetBuffer buffer;
     const auto back = decode_server(encode_server(*server, buffer));

@@ -157,6 +157,8 @@ TEST_F(ManyOf, FliesAGridAndEachOfItsRunsAgain) {
     EXPECT_THROW((void)many.flight(R"({"id": 1, "run": 12})"), InputError);
     EXPECT_THROW((void)many.flight(R"({"id": 2, "run": 0})"), InputError);
     EXPECT_THROW((void)many.flight("{}"), InputError);
+    EXPECT_THROW((void)many.flight(R"({"id": 1, "run": 4294967296})"), InputError);
+    EXPECT_THROW((void)many.flight(R"({"id": 4294967297, "run": 0})"), InputError);
     EXPECT_EQ(json::parse(many.rows(R"({"from": 11})"))["rows"].size(), 1U);
 }
 
@@ -188,7 +190,22 @@ TEST_F(ManyOf, WhatCannotBeIsALine) {
     EXPECT_THAT(
         refusal(many,
                 R"({"axes": [{"key": "simulation.hover_s", "from": 1, "to": 2, "count": 30000}]})"),
-        HasSubstr("at most 20000"));
+        HasSubstr("\"count\": 30000; a whole number, allowed 1..20000"));
+    // The lowest 32 bits of the first are 3, of the second 1.
+    for (const char* count : {"4294967299", "1000000000000000001", "1e18", "2.5", "-1", "\"2\""}) {
+        EXPECT_THAT(refusal(many, fmt::format(R"({{"axes": [{{"key": "simulation.hover_s",
+                                                  "from": 1, "to": 2, "count": {}}}]}})",
+                                              count)),
+                    HasSubstr("\"count\": " + json::parse(count).dump() + "; a whole number"))
+            << count;
+        EXPECT_THAT(refusal(many, fmt::format(R"({{"axes": [], "repeats": {}}})", count)),
+                    HasSubstr("\"repeats\": "))
+            << count;
+    }
+    EXPECT_THAT(refusal(many, R"({"axes": [
+                    {"key": "simulation.hover_s", "from": 1, "to": 2, "count": 200},
+                    {"key": "simulation.start_offset_m", "from": 0, "to": 1, "count": 200}]})"),
+                HasSubstr("40000 runs, the lab flies at most 20000"));
     EXPECT_EQ(ended(many)["rows"].size(), 12U);  // the last one stood
 }
 
@@ -321,7 +338,8 @@ TEST(SwingOf, WhatCannotBeIsALineAndTheLastMapStands) {
             kLags, key, count);
     };
     EXPECT_THAT(refusal("{}"), HasSubstr("\"across\" is"));
-    EXPECT_THAT(refusal(up("autopilot.MC_PITCHRATE_I", 65)), HasSubstr("\"count\" 2..64"));
+    EXPECT_THAT(refusal(up("autopilot.MC_PITCHRATE_I", 65)),
+                HasSubstr("\"count\": 65; a whole number, allowed 2..64"));
     EXPECT_THAT(refusal(up("autopilot.nothing", 2)), HasSubstr("is no number of the scenario"));
     std::string hover = up("autopilot.MC_PITCHRATE_I", 2);
     hover.insert(1, R"("scenario": "hover", )");

@@ -287,6 +287,10 @@ TEST_F(Watched, NonsenseIsAnsweredAndHarmsNobody) {
           R"({"op":"subscribe","subscriptions":[{"id":"x","channelId":0}]})",
           R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":99}]})",
           R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":-1}]})",
+          // the lowest 32 bits are kSubscribe's
+          R"({"op":"subscribe","subscriptions":[{"id":4294967303,"channelId":0}]})",
+          R"({"op":"subscribe","subscriptions":[{"id":7,"channelId":4294967296}]})",
+          R"({"op":"fetchAsset","requestId":4294967296,"uri":"x"})",
           R"({"op":"getParameters","parameterNames":[1]})",
           R"({"op":"setParameters","parameters":{}})"}) {
         viewer->send(nonsense);

@@ -92,6 +92,20 @@ TEST(HilLockstep, WhoNeverAnswersIsGivenUp) {
     EXPECT_EQ(hil.exchange(at(0.0), 4000, kNobody), HilStatus::silent);
 }
 
+/// Neither may a board that is silent be waited for without an end.
+TEST(HilRealTime, WhoNeverAnswersIsGivenUp) {
+    ScriptedLink wire;
+    Hil hil(wire.link,
+            {.timing = HilTiming::real_time, .boot_limit = std::chrono::milliseconds(30)});
+    const auto begin = std::chrono::steady_clock::now();
+    HilStatus status = HilStatus::waiting;
+    for (std::uint64_t k = 1; k <= 1000 && status == HilStatus::waiting; ++k) {
+        status = hil.exchange(at(0.0), 4000 * k, kNobody);
+    }
+    EXPECT_EQ(status, HilStatus::silent);
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(30));
+}
+
 TEST(HilLockstep, ASlowBootIsNotLeftFarBehind) {
     ScriptedLink wire;
     Hil hil(wire.link, {});

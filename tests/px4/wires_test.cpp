@@ -35,6 +35,34 @@ TEST(Px4Wires, WhereNobodyComesSaysWhereAndWhatToTurn) {
     EXPECT_GE(waits, 1);
 }
 
+/// A peer that connects and says nothing is waited for no longer than one that does not come.
+TEST(Px4Wires, WhoConnectsAndIsSilentIsWaitedForNoLonger) {
+    const wire::TransportAddress here = [] {
+        const auto probe = open_transport({.medium = wire::Medium::tcp}, wire::Role::listen);
+        return probe->address();
+    }();
+    px4::Px4Addresses addresses = nobody(1.0);
+    addresses.hil = here;
+    const auto begin = std::chrono::steady_clock::now();
+    std::unique_ptr<wire::Transport> silent;
+    const px4::Px4WireWatch watch{.on_open = [&](const std::string&) {
+        silent = open_transport(here, wire::Role::connect);
+        EXPECT_TRUE(silent->wait_for_peer(std::chrono::seconds(5)));
+    }};
+    px4::Px4Wires wires(addresses, 250.0, true, watch);
+    Readings readings;
+    double time_s = 0.0;
+    while (!wires.autopilot().failure() && time_s < 60.0) {
+        time_s += 0.004;
+        readings.imu = {time_s, {}};
+        (void)wires.autopilot().control(readings, {}, time_s);
+    }
+    ASSERT_TRUE(wires.autopilot().failure());
+    EXPECT_THAT(std::string(*wires.autopilot().failure()),
+                HasSubstr("connected, and has not answered"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
 TEST(Px4Wires, CtrlCEndsTheWait) {
     const std::atomic<bool> stop = true;
     EXPECT_THROW(const px4::Px4Wires wires(nobody(60.0), 250.0, true, {}, &stop), Interrupted);

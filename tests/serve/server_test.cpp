@@ -52,6 +52,9 @@ struct Served : testing::Test {
             return Response{.content_type = "application/json", .body = asked.path};
         });
         server->post("/things", [](const Request& asked) -> Response {
+            if (asked.body == "memory") {
+                throw std::bad_alloc();
+            }
             if (asked.body == "bad") {
                 throw InputError("things are good");
             }
@@ -166,13 +169,53 @@ TEST_F(Served, ManyClientsAreBounded) {
         clients.emplace_back(server->port());
         EXPECT_EQ(clients.back().ask(request(http::verb::get, "/secret/")).result_int(), 200U);
     }
-    HttpClient one_more(server->port());
+    EXPECT_EQ(status(http::verb::get, "/secret/"), 503U) << "knows the token, there is no place";
+    // Those who are there are served on.
+    for (HttpClient& client : clients) {
+        EXPECT_EQ(client.ask(request(http::verb::get, "/secret/")).result_int(), 200U);
+    }
+}
+
+/// Who is silent takes no place from who knows the token, however many there are.
+TEST_F(Served, SilentStrangersLockNobodyOut) {
+    serve({.most_connections = 3});
+    HttpClient owner(server->port());
+    EXPECT_EQ(owner.ask(request(http::verb::get, "/secret/")).result_int(), 200U);
+    std::list<HttpClient> strangers;
+    for (int i = 0; i < 40; ++i) {
+        strangers.emplace_back(server->port());
+        if (i % 2 == 0) {  // half a request
+            boost::asio::write(strangers.back().socket(),
+                               boost::asio::buffer(std::string("GET / HTTP/1.1\r\nHo")));
+        }
+    }
+    EXPECT_EQ(status(http::verb::get, "/secret/"), 200U) << "a second page of the owner's";
+    EXPECT_EQ(handshake_status(server->port(), "/secret/", "new"), 101U);
+    EXPECT_EQ(owner.ask(request(http::verb::get, "/secret/")).result_int(), 200U);
     std::array<char, 1> nothing{};
     beast::error_code error;
-    one_more.socket().read_some(boost::asio::buffer(nothing), error);
-    EXPECT_TRUE(error) << "is closed unheard";
-    // Those who are there are served on.
-    EXPECT_EQ(clients.back().ask(request(http::verb::get, "/secret/")).result_int(), 200U);
+    strangers.front().socket().read_some(boost::asio::buffer(nothing), error);
+    EXPECT_TRUE(error) << "the first of them had to leave";
+}
+
+TEST_F(Served, TwoHostsAreOneTooMany) {
+    serve();
+    for (const http::field twice : {http::field::host, http::field::origin}) {
+        HttpRequest asked = request(http::verb::get, "/secret/");
+        asked.set(http::field::origin, "http://localhost");
+        asked.insert(twice, twice == http::field::host ? "evil.example" : "http://evil.example");
+        EXPECT_EQ(ask(asked).result_int(), 400U) << to_string(twice);
+    }
+}
+
+TEST_F(Served, WithoutMemoryARequestIsRefusedAndTheNextIsServed) {
+    serve();
+    HttpRequest sent = request(http::verb::post, "/secret/things");
+    sent.body() = "memory";
+    const HttpResponse answer = ask(sent);
+    EXPECT_EQ(answer.result_int(), 503U);
+    EXPECT_EQ(answer.body(), "not enough memory\n");
+    EXPECT_EQ(status(http::verb::get, "/secret/"), 200U);
 }
 
 TEST_F(Served, SessionsSpeakTheFirstSubprotocolThatBothKnow) {
