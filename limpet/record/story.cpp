@@ -163,9 +163,18 @@ Summary summary(const Recording& recording) {
         if (json.is_object()) {
             summary.outcome = text_of(json, "outcome");
             summary.reason = text_of(json, "reason");
+            summary.true_end = text_of(json, "true_end");
         }
     }
     return summary;
+}
+
+std::string ending_words(const Summary& summary) {
+    const auto outcome = outcome_from(summary.outcome);
+    const auto truth = true_end_from(summary.true_end);
+    return summary.outcome.empty() ? "unknown"
+           : outcome && truth      ? words(told_with_truth(*outcome, *truth))
+                                   : words(summary.outcome);
 }
 
 std::vector<Phase> phases(const Recording& recording) {

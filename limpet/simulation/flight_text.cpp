@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "limpet/core/errors.hpp"
+
 namespace limpet::simulation {
 namespace {
 
@@ -33,6 +35,28 @@ void add(std::vector<std::string>& lines, const Emphasis& bold, const std::strin
     if (!text.empty()) {
         lines.push_back(bold(fmt::format("{:<11}", label)) + text);
     }
+}
+
+std::string true_end_text(const FlightResult& result) {
+    const double off_m = result.metrics.off_place_m;
+    const auto words = [&]() -> std::string {
+        switch (result.true_end) {
+            case TrueEnd::on_wall: return "on the wall, sealed";
+            case TrueEnd::hovering:
+                return fmt::format("hovers where it belongs, {:.2f} m off", off_m);
+            case TrueEnd::adrift:
+                return fmt::format("hovers {:.2f} m from where it belongs", off_m);
+            case TrueEnd::standing: return "stands on the ground";
+            case TrueEnd::fallen: return "fell, or hit something";
+            case TrueEnd::moving:
+                return fmt::format("still moves, {:.2f} m from where it belongs", off_m);
+            case TrueEnd::mounted: return "";
+        }
+        throw InternalError("true end out of range");
+    };
+    return words() + (bears_out(result.true_end, result.outcome)
+                          ? ""
+                          : fmt::format(": not {}", to_string(result.outcome)));
 }
 
 std::string impact_text(const Metrics& m) {
@@ -156,6 +180,7 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
             fmt::format(" ({} docking run{})", result.attempts, result.attempts == 1 ? "" : "s");
     }
     add(lines, bold, "outcome", outcome);
+    add(lines, bold, "in truth", true_end_text(result));
     for (const std::string& fault : result.faults_not_begun) {
         add(lines, bold, "no fault", fault + " never began");
     }

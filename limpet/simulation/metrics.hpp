@@ -54,6 +54,7 @@ struct Metrics {
     double pitch_oscillation_max_deg = kNaN;   ///< while waiting for the release
     double pitch_swing_deg = kNaN;             ///< half of its span, lowest to highest, meanwhile
     double cup_margin_min_N = kNaN;
+    double off_place_m = kNaN;  ///< at the end in the air, from where it belongs
     double energy_flying_Wh = 0.0;
     double energy_perched_Wh = 0.0;
     std::array<CupLoads, kLoadPhases.size()> loads{};

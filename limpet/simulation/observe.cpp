@@ -151,6 +151,7 @@ void observe(Observations& seen, const FlightModel& model, const FlightState& st
     for (std::size_t k = 0; k < report.events.count; ++k) {
         observe_event(seen.metrics, report.events.events[k], state.truth, model.cup.wall);
     }
+    watch_end(seen.end, model, state);
     if (due(state.tick, kDigestRate_Hz)) {
         digest(seen.hash, state.truth, state.autopilot.estimate);
     }
