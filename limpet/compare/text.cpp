@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/signals/true_end.hpp"
 
 namespace limpet::compare {
 namespace {

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "limpet/core/signals/true_end.hpp"
+
 namespace limpet::record {
 namespace {
 

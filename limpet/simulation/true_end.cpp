@@ -15,6 +15,7 @@ constexpr double kPlace_m = 0.5;      ///< and nearer: pre_tolerance_m
 constexpr double kKeeps_m = 0.25;     ///< of a vehicle that is adrift
 constexpr double kKeeps_s = 2.0;      ///< so it drifts at less than 0.13 m/s
 constexpr double kBorne_share = 0.5;  ///< of the weight, on the legs
+constexpr double kFirst_s = 0.005;    ///< nothing is seen before the first step has been made
 
 void since(double& since_s, bool holds, double time_s) {
     since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;
@@ -78,7 +79,7 @@ TrueEnd true_end(const EndWatch& watch, const FlightModel& model, const FlightSt
     }
     const double time_s = seconds(state.tick);
     const auto for_as_long = [time_s](double since_s, double wanted_s) {
-        return since_s >= 0.0 && time_s - since_s >= wanted_s - 0.5 * kTick_s;
+        return since_s >= 0.0 && time_s - since_s >= wanted_s - kFirst_s;
     };
     if (for_as_long(watch.slow_since_s, kStill_s)) {
         if (for_as_long(watch.sealed_since_s, kStill_s)) {
