@@ -137,7 +137,7 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
     return chapter(recording, kFailedAttempt, "failed attempt", start_s - 0.5,
                    retreat->time_s + 3.0, first_event(recording, "impact", start_s),
-                   "no seal, retreat");
+                   retreat->reason + ", retreat");
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {

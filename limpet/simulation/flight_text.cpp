@@ -81,10 +81,46 @@ std::string seal_text(const Metrics& m) {
     return text;
 }
 
+/// Of the last docking run: where the cup attached, and how it came off before it was to.
+struct CameOff {
+    const Event* attached = nullptr;
+    const Event* lost = nullptr;
+    int times = 0;  ///< in all runs
+};
+CameOff came_off(const FlightResult& result) {
+    CameOff found;
+    const Event* attached = nullptr;
+    for (const Event& event : result.events) {
+        if (event.name == EventName::approach_started) {
+            found.attached = found.lost = attached = nullptr;
+        } else if (event.name == EventName::attached) {
+            attached = &event;
+        } else if (event.name == EventName::contact_lost && attached != nullptr) {
+            found = {attached, &event, found.times + 1};
+            attached = nullptr;
+        }
+    }
+    return found;
+}
+
+std::string came_off_text(const FlightResult& result) {
+    const CameOff off = came_off(result);
+    if (result.outcome != Outcome::failed_to_seal || off.lost == nullptr) {
+        return "";
+    }
+    const auto pressure_Pa = value_of(*off.lost, "pressure_Pa");
+    return fmt::format("attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why asks what would "
+                       "hold it",
+                       off.lost->reason, off.lost->time_s - off.attached->time_s,
+                       pressure_Pa.value_or(kNaN) / 100.0,
+                       off.times > 1 ? fmt::format(", {} times so or alike", off.times) : "");
+}
+
 /// What the last touch asked for, where none has sealed.
 std::string unsealed_text(const FlightResult& result) {
     const Metrics& m = result.metrics;
-    if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N)) {
+    if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N) ||
+        came_off(result).lost != nullptr) {
         return "";
     }
     std::optional<double> needed_N;
@@ -186,6 +222,7 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
     }
     add(lines, bold, "impact", impact_text(m));
     add(lines, bold, "seal", seal_text(m));
+    add(lines, bold, "came off", came_off_text(result));
     add(lines, bold, "no seal", unsealed_text(result));
     add(lines, bold, "perched", perched_text(m));
     add(lines, bold, "release", release_text(m, result.outcome));

@@ -253,13 +253,13 @@ Found find_why(const scenario::ScenarioText& text, const SearchOptions& options)
 
 const Hold* telling_hold(const Trial& trial) {
     const Hold* best = nullptr;
-    const auto how_far = [&](const Hold& hold) {
+    const auto order = [](const Hold& hold) {
         const bool landing = hold.phase == "pitching_up" || hold.phase == "unloading";
         return std::pair(std::isnan(hold.attached_s) ? 0 : landing ? 2 : 1,
                          landing ? hold.pitch_deg : 0.0);
     };
     for (const Hold& hold : trial.holds) {
-        if (best == nullptr || how_far(hold) >= how_far(*best)) {
+        if (best == nullptr || order(hold) >= order(*best)) {
             best = &hold;
         }
     }
