@@ -165,17 +165,18 @@ CampaignSummary summarise(Results& results) {
                 database,
                 "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
                 finished),
-            .true_ends = count_endings(
-                database,
-                "SELECT true_end, '', count(*) AS n FROM runs WHERE true_end <> '' "
-                "GROUP BY true_end ORDER BY n DESC, 1",
-                finished),
+            .true_ends =
+                count_endings(database,
+                              "SELECT true_end, '', count(*) AS n FROM runs WHERE true_end <> '' "
+                              "GROUP BY true_end ORDER BY n DESC, 1",
+                              finished),
             .failures = count_endings(
                 database,
-                fmt::format("SELECT outcome, CASE WHEN outcome IN ('{}') THEN reason || '; in truth '"
-                            " || true_end ELSE reason END, count(*) AS n FROM runs WHERE NOT {} "
-                            "GROUP BY 1, 2 ORDER BY n DESC, 1, 2",
-                            fmt::join(success_means, "', '"), success),
+                fmt::format(
+                    "SELECT outcome, CASE WHEN outcome IN ('{}') THEN reason || '; in truth '"
+                    " || true_end ELSE reason END, count(*) AS n FROM runs WHERE NOT {} "
+                    "GROUP BY 1, 2 ORDER BY n DESC, 1, 2",
+                    fmt::join(success_means, "', '"), success),
                 finished),
             .keys = {},
             .metrics = summarise_metrics(database)};

@@ -56,11 +56,9 @@ json row_json(const campaign::RunRow& row, bool success) {
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         metrics.push_back(row.metrics.*metric.field);  // null where it did not come to pass
     }
-    return {{"run", row.run},
-            {"outcome", row.outcome},
-            {"reason", row.reason},
-            {"true_end", row.true_end},
-            {"success", success}, {"values", values},       {"metrics", metrics}};
+    return {{"run", row.run},           {"outcome", row.outcome}, {"reason", row.reason},
+            {"true_end", row.true_end}, {"success", success},     {"values", values},
+            {"metrics", metrics}};
 }
 
 json keys_json(const campaign::Campaign& campaign) {

@@ -140,9 +140,8 @@ void Flight::conclude() {
     const double time_s = seconds(state_.tick);
     if (ended()) {
         if (ended_s < time_s) {
-            state_.ending->reason = std::string_view(
-                fmt::format("{}; guidance had ended: {}", state_.ending->reason.view(),
-                            told.reason.view()));
+            state_.ending->reason = std::string_view(fmt::format(
+                "{}; guidance had ended: {}", state_.ending->reason.view(), told.reason.view()));
         }
     } else if (outside_.guidance != nullptr || time_s - ended_s >= kAfterGuidance_s ||
                time_s >= model_->simulation.time_limit_s ||

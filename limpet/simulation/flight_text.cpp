@@ -109,11 +109,12 @@ std::string came_off_text(const FlightResult& result) {
         return "";
     }
     const auto pressure_Pa = value_of(*off.lost, "pressure_Pa");
-    return fmt::format("attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why asks what would "
-                       "hold it",
-                       off.lost->reason, off.lost->time_s - off.attached->time_s,
-                       pressure_Pa.value_or(kNaN) / 100.0,
-                       off.times > 1 ? fmt::format(", {} times so or alike", off.times) : "");
+    return fmt::format(
+        "attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why asks what would "
+        "hold it",
+        off.lost->reason, off.lost->time_s - off.attached->time_s,
+        pressure_Pa.value_or(kNaN) / 100.0,
+        off.times > 1 ? fmt::format(", {} times so or alike", off.times) : "");
 }
 
 /// What the last touch asked for, where none has sealed.

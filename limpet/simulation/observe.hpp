@@ -16,6 +16,7 @@ inline constexpr int kDigestRate_Hz = 100;
 /// What a flight has looked like from outside so far. No station reads it.
 struct Observations {
     Metrics metrics;
+    MetricsMemory memory;
     long long physics_steps = 0;
     std::uint64_t hash = 0;  ///< digest of the trajectory
     EndWatch end;

@@ -53,9 +53,9 @@ Vector3 place_W_m(const FlightModel& model) {
         return start_W_m;
     }
     const Vector3 ahead_W(into_W.x() / level, into_W.y() / level, 0.0);
-    return start_W_m + (wall.gap_m / level - model.guidance.pre_distance_m -
-                        model.guidance.lidar_x_m) *
-                           ahead_W;
+    return start_W_m +
+           (wall.gap_m / level - model.guidance.pre_distance_m - model.guidance.lidar_x_m) *
+               ahead_W;
 }
 
 double off_place_m(const FlightModel& model, const FlightState& state) {
@@ -65,8 +65,8 @@ double off_place_m(const FlightModel& model, const FlightState& state) {
 double place_tolerance_m(const FlightModel& model) {
     const auto& sensors = model.sensors.parameters;
     return model.scenario->autopilot.EKF2_GPS_CTRL > 0
-               ? kPlace_m + 2.0 * std::hypot(sensors.gps_drift_horizontal_m,
-                                             sensors.gps_drift_vertical_m)
+               ? kPlace_m +
+                     2.0 * std::hypot(sensors.gps_drift_horizontal_m, sensors.gps_drift_vertical_m)
                : kPlace_m;
 }
 

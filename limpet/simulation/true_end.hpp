@@ -19,8 +19,8 @@ struct EndWatch {
     double clear_since_s = -1.0;   ///< neither cup nor legs touch anything
     double borne_since_s = -1.0;   ///< the ground carries the weight
     Vector3 anchor_W_m = Vector3::Zero();
-    double anchored_since_s = -1.0;       ///< within 0.25 m of that
-    double guidance_ended_s = -1.0;       ///< when guidance ended the mission; < 0: it has not
+    double anchored_since_s = -1.0;  ///< within 0.25 m of that
+    double guidance_ended_s = -1.0;  ///< when guidance ended the mission; < 0: it has not
 };
 
 /// After a tick.

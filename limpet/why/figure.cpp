@@ -49,11 +49,10 @@ std::vector<std::filesystem::path> draw_why(const Found& found,
         panel.series.push_back(
             from_seal(found.trace, curve, *hold, for_s, {.name = name, .colour = colour}));
         if (mended != nullptr) {
-            panel.series.push_back(
-                from_seal(found.remedy_trace, curve, *mended, for_s,
-                          {.name = std::string(name) + ", with the changes",
-                           .mark = draw::ChartSeries::Mark::dashes,
-                           .colour = colour}));
+            panel.series.push_back(from_seal(found.remedy_trace, curve, *mended, for_s,
+                                             {.name = std::string(name) + ", with the changes",
+                                              .mark = draw::ChartSeries::Mark::dashes,
+                                              .colour = colour}));
         }
         if (!std::isnan(hold->ended_s)) {
             panel.moments = {{hold->ended_s - hold->sealed_s, hold->let_go}};

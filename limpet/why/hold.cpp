@@ -72,8 +72,9 @@ void HoldWatch::tick(const simulation::Flight& flight, const guidance::EventList
     if (sealed) {
         const vehicle::AirframeNumbers& airframe = flight.model().airframe;
         Hold& hold = holds_.back();
-        hold.pressure_Pa = std::isnan(hold.pressure_Pa) ? cup.pressure_Pa
-                                                        : std::min(hold.pressure_Pa, cup.pressure_Pa);
+        hold.pressure_Pa = std::isnan(hold.pressure_Pa)
+                               ? cup.pressure_Pa
+                               : std::min(hold.pressure_Pa, cup.pressure_Pa);
         hold.pitch_deg = std::max(hold.pitch_deg, simulation::pitch_deg(state.truth));
         hold.loads = loads_of(cup, airframe.cup.radius_m);
         hold.peel = sources_of(airframe, state.truth);

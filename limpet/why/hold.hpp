@@ -29,15 +29,15 @@ struct PeelSources {
 /// From one seal to the time when the cup let go.
 struct Hold {
     double sealed_s = 0.0;
-    double attached_s = kNaN;  ///< NaN: the pressure never fell below the threshold
-    double ended_s = kNaN;     ///< NaN: it holds to the flight's end
-    std::string let_go;        ///< "peeled off"; empty while it holds
-    bool on_purpose = false;   ///< pump off or valve open
+    double attached_s = kNaN;   ///< NaN: the pressure never fell below the threshold
+    double ended_s = kNaN;      ///< NaN: it holds to the flight's end
+    std::string let_go;         ///< "peeled off"; empty while it holds
+    bool on_purpose = false;    ///< pump off or valve open
     double pressure_Pa = kNaN;  ///< the lowest
     double pitch_deg = -90.0;   ///< the highest while sealed
     double margin_N = std::numeric_limits<double>::infinity();  ///< the least while attached
-    std::string phase;          ///< of guidance when it let go
-    LipLoads loads;             ///< at the end, before the lip moved
+    std::string phase;                                          ///< of guidance when it let go
+    LipLoads loads;  ///< at the end, before the lip moved
     PeelSources peel;
 
     [[nodiscard]] double held_s(double end_s) const {

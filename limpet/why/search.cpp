@@ -14,10 +14,10 @@
 namespace limpet::why {
 namespace {
 
-constexpr std::size_t kSeeds = 3;       ///< single keys beside which all others are tried
+constexpr std::size_t kSeeds = 3;  ///< single keys beside which all others are tried
 constexpr std::size_t kMostKeys = 3;
 constexpr std::size_t kMostOthers = 3;
-constexpr double kHelps = 0.05;         ///< of a stage: less is noise
+constexpr double kHelps = 0.05;  ///< of a stage: less is noise
 constexpr int kHalvings = 3;
 
 class Search {
@@ -105,8 +105,8 @@ Trial Search::milder(Trial trial) {
         for (int k = 0; k < kHalvings; ++k) {
             Changes changes = trial.changes;
             const double to = changes[i].to;
-            const double middle = near * to > 0.0 ? std::copysign(std::sqrt(near * to), to)
-                                                  : 0.5 * (near + to);
+            const double middle =
+                near * to > 0.0 ? std::copysign(std::sqrt(near * to), to) : 0.5 * (near + to);
             // A person would write two digits.
             changes[i].to = std::stod(fmt::format("{:.2g}", middle));
             if (changes[i].to == to || changes[i].to == near) {
@@ -140,8 +140,7 @@ void Search::fill_others(std::vector<Trial> mending) {
                 other.changes.end(),
                 [](const Change& a, const Change& b) { return a.key == b.key; });
         };
-        if (same(found_.remedy) ||
-            std::any_of(found_.others.begin(), found_.others.end(), same)) {
+        if (same(found_.remedy) || std::any_of(found_.others.begin(), found_.others.end(), same)) {
             continue;
         }
         Trial flown = whole(trial.changes);
@@ -229,8 +228,8 @@ Found Search::run() {
     found_.seed = scenario.seed;
     found_.base = whole({}, &found_.trace);
     if (found_.base.stage < Stage::done) {
-        const bool to_rest = found_.base.stage < Stage::rested &&
-                             scenario.mission != scenario::Mission::hover;
+        const bool to_rest =
+            found_.base.stage < Stage::rested && scenario.mission != scenario::Mission::hover;
         found_.goal = to_rest ? Stage::rested : Stage::done;
         screening_ = {.until_rest = to_rest, .stop = options_.stop};
         settings_ = settings_turned(scenario);
@@ -240,8 +239,7 @@ Found Search::run() {
         fill_keys(singles);
         fill_parts();
     }
-    found_.wall_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    found_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(found_);
 }
 
@@ -255,7 +253,9 @@ const Hold* telling_hold(const Trial& trial) {
     const Hold* best = nullptr;
     const auto order = [](const Hold& hold) {
         const bool landing = hold.phase == "pitching_up" || hold.phase == "unloading";
-        return std::pair(std::isnan(hold.attached_s) ? 0 : landing ? 2 : 1,
+        return std::pair(std::isnan(hold.attached_s) ? 0
+                         : landing                   ? 2
+                                                     : 1,
                          landing ? hold.pitch_deg : 0.0);
     };
     for (const Hold& hold : trial.holds) {

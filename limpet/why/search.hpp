@@ -12,7 +12,7 @@ namespace limpet::why {
 /// A key, and how far the flight came with it turned alone.
 struct HelpfulKey {
     Change change;
-    Trial alone;              ///< flown whole
+    Trial alone;  ///< flown whole
     bool in_remedy = false;
 };
 
@@ -23,11 +23,13 @@ struct Found {
     Trial base;       ///< the flight as it is, whole
     HoldTrace trace;  ///< of it
     Stage goal = Stage::rested;
-    std::vector<HelpfulKey> keys;  ///< at most three: those of the remedy, then by how far they help
-    Trial remedy;                  ///< fewest and smallest changes that reach the goal, whole
-    bool mended = false;           ///< the remedy came as far as the goal, or further
+    std::vector<HelpfulKey>
+        keys;             ///< at most three: those of the remedy, then by how far they help
+    Trial remedy;         ///< fewest and smallest changes that reach the goal, whole
+    bool mended = false;  ///< the remedy came as far as the goal, or further
     HoldTrace remedy_trace;
-    std::vector<Trial> others;  ///< other pairs and single keys that reach the goal, mildest not sought
+    std::vector<Trial>
+        others;  ///< other pairs and single keys that reach the goal, mildest not sought
     std::vector<HelpfulKey> parts;  ///< of what is built: each reaches the goal alone
     std::size_t flights = 0;
     double wall_s = 0.0;

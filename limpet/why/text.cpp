@@ -50,20 +50,22 @@ std::string held_text(const Hold& hold, double end_s) {
 /// What was at its limit, and where a peeling moment came from.
 void add_loads(std::string& text, const Hold& hold) {
     const LipLoads& loads = hold.loads;
-    fmt::format_to(std::back_inserter(text),
-                   "           at that moment pull {:.1f} of at most {:.1f} N, shear {:.1f} of {:.1f} "
-                   "N, peel {:.3f} of {:.3f} N m\n",
-                   loads.pull_N, loads.pull_most_N, loads.shear_N, loads.shear_most_N,
-                   loads.peel_N_m, loads.peel_most_N_m);
+    fmt::format_to(
+        std::back_inserter(text),
+        "           at that moment pull {:.1f} of at most {:.1f} N, shear {:.1f} of {:.1f} "
+        "N, peel {:.3f} of {:.3f} N m\n",
+        loads.pull_N, loads.pull_most_N, loads.shear_N, loads.shear_most_N, loads.peel_N_m,
+        loads.peel_most_N_m);
     if (hold.let_go != "peeled off") {
         return;
     }
     const PeelSources& peel = hold.peel;
-    fmt::format_to(std::back_inserter(text),
-                   "           the moment comes from the joint's centring spring {:.3f} N m (bent {:.0f} "
-                   "deg), its damper {:.3f}, the shear\n"
-                   "           at lip_offset_m {:.3f}; what is borne is (vacuum - pull) radius / 2\n",
-                   peel.spring_N_m, peel.bent_deg, peel.damper_N_m, peel.lever_N_m);
+    fmt::format_to(
+        std::back_inserter(text),
+        "           the moment comes from the joint's centring spring {:.3f} N m (bent {:.0f} "
+        "deg), its damper {:.3f}, the shear\n"
+        "           at lip_offset_m {:.3f}; what is borne is (vacuum - pull) radius / 2\n",
+        peel.spring_N_m, peel.bent_deg, peel.damper_N_m, peel.lever_N_m);
 }
 
 std::string how_far(const Trial& trial) {
@@ -104,8 +106,9 @@ void add_command(std::string& text, const Trial& trial, const std::string& wante
 
 void add_remedy(std::string& text, const Found& found, const std::string& wanted) {
     if (found.remedy.changes.empty()) {
-        text += "nothing    that can be set, within a third and three times of what it is, brings it "
-                "further\n";
+        text +=
+            "nothing    that can be set, within a third and three times of what it is, brings it "
+            "further\n";
         return;
     }
     fmt::format_to(std::back_inserter(text), "\n{:<11}{}\n           {}\n",

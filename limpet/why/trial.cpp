@@ -55,9 +55,9 @@ void judge(const simulation::FlightModel& model, Trial& trial) {
     }
     if (trial.stage >= Stage::rested) {
         const double margin_N = result.metrics.cup_margin_min_N;
-        const double vacuum_N = suction::vacuum_force_N(
-            result.metrics.pressure_min_Pa, model.airframe.cup.radius_m,
-            model.cup.parameters.ambient_Pa);
+        const double vacuum_N =
+            suction::vacuum_force_N(result.metrics.pressure_min_Pa, model.airframe.cup.radius_m,
+                                    model.cup.parameters.ambient_Pa);
         trial.share = std::clamp(margin_N / std::max(vacuum_N, 1e-3), 0.0, 1.0);
         return;
     }
@@ -98,8 +98,7 @@ bool is_over(const simulation::Flight& flight, const guidance::EventList& events
 }  // namespace
 
 std::string Change::override_text() const {
-    return key + "=" +
-           (is_switch ? (to != 0.0 ? "true" : "false") : scenario::number_text(to));
+    return key + "=" + (is_switch ? (to != 0.0 ? "true" : "false") : scenario::number_text(to));
 }
 
 bool further(const Trial& one, const Trial& other) {
@@ -152,8 +151,8 @@ Trial fly_trial(const scenario::ScenarioText& text, std::vector<Change> changes,
 }
 
 std::vector<Trial> fly_trials(const scenario::ScenarioText& text,
-                              std::vector<std::vector<Change>> trials,
-                              const TrialOptions& options, int jobs) {
+                              std::vector<std::vector<Change>> trials, const TrialOptions& options,
+                              int jobs) {
     std::vector<Trial> flown(trials.size());
     std::atomic<std::size_t> next = 0;
     std::exception_ptr failed;

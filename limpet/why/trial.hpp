@@ -52,8 +52,8 @@ struct Trial {
 
 /// What a trial is flown for.
 struct TrialOptions {
-    /// One docking run, ended when the cup has let go or the vehicle rests on the wall; no recording
-    /// and no trace of it.
+    /// One docking run, ended when the cup has let go or the vehicle rests on the wall; no
+    /// recording and no trace of it.
     bool until_rest = false;
     bool traces = false;
     HoldTrace* trace = nullptr;

@@ -79,8 +79,7 @@ TEST(Holds, ThePeelIsTheSpringsWhereTheJointIsBent) {
     // Spring and lever together are what peels, within what the cup's weight adds.
     EXPECT_NEAR(hold->loads.peel_N_m, hold->peel.spring_N_m + hold->peel.lever_N_m,
                 0.15 * hold->loads.peel_N_m);
-    EXPECT_NEAR(hold->loads.peel_N_m, hold->loads.peel_most_N_m,
-                0.05 * hold->loads.peel_most_N_m);
+    EXPECT_NEAR(hold->loads.peel_N_m, hold->loads.peel_most_N_m, 0.05 * hold->loads.peel_most_N_m);
 }
 
 TEST(Holds, TheTraceBreaksWhereTheCupIsOff) {

@@ -44,7 +44,8 @@ TEST(Why, TwoSettingsTogetherMendIt) {
     EXPECT_EQ(found().base.result.outcome, Outcome::failed_to_seal);
     EXPECT_EQ(found().base.stage, Stage::attached);
     EXPECT_TRUE(found().mended);
-    EXPECT_THAT(keys_of(found().remedy.changes), testing::UnorderedElementsAre(kDamping, kCentring));
+    EXPECT_THAT(keys_of(found().remedy.changes),
+                testing::UnorderedElementsAre(kDamping, kCentring));
     EXPECT_GE(found().remedy.stage, Stage::rested);
     EXPECT_EQ(found().remedy.result.true_end, TrueEnd::on_wall);
     for (const Change& change : found().remedy.changes) {
@@ -115,7 +116,8 @@ TEST(Why, SettingsAreTurnedWithinTheirRanges) {
     EXPECT_THAT(keys_of(settings), Contains(kDamping));
     EXPECT_THAT(keys_of(settings), Contains(kCentring));
     EXPECT_THAT(keys_of(settings), Contains("suction.valve_fitted"));
-    EXPECT_THAT(keys_of(settings), Not(Contains("guidance.hover_thrust")));  // follows from the mass
+    EXPECT_THAT(keys_of(settings),
+                Not(Contains("guidance.hover_thrust")));  // follows from the mass
     EXPECT_THAT(keys_of(settings), Not(Contains("guidance.attempts")));
     EXPECT_THAT(keys_of(settings), Not(Contains("vehicle.mass_kg")));
     EXPECT_THAT(keys_of(parts_turned(steel)), Contains("vehicle.mass_kg"));
