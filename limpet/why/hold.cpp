@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
+#include "limpet/simulation/collision.hpp"
 #include "limpet/simulation/observe.hpp"
+#include "limpet/suction/force_law.hpp"
 
 namespace limpet::why {
 namespace {
@@ -16,6 +20,39 @@ LipLoads loads_of(const CupStatus& cup, double radius_m) {
             .shear_most_N = cup.shear_N + cup.shear_margin_N,
             .peel_N_m = cup.peel_N_m,
             .peel_most_N_m = cup.peel_N_m + cup.peel_margin_N * 0.5 * radius_m};
+}
+
+std::optional<double> value_of(const Event& event, std::string_view name) {
+    for (std::size_t k = 0; k < event.value_count; ++k) {
+        if (event.values[k].name == name) {
+            return event.values[k].value;
+        }
+    }
+    return std::nullopt;
+}
+
+/// What the lip was asked to bear when it let go, by the margins that the cup tells: within a tick
+/// a blow rises further than the tick before shows.
+std::optional<LipLoads> loads_when_let_go(const Event& event, const simulation::FlightModel& model,
+                                          const suction::Surface& surface) {
+    const auto pressure_Pa = value_of(event, "pressure_Pa");
+    const auto pressed_N = value_of(event, "pull_margin_N");  // what holds the lip on the wall
+    const auto shear_margin_N = value_of(event, "shear_margin_N");
+    const auto peel_margin_N = value_of(event, "peel_margin_N");
+    if (!pressure_Pa || !pressed_N || !shear_margin_N || !peel_margin_N) {
+        return std::nullopt;
+    }
+    const double radius_m = model.airframe.cup.radius_m;
+    const double held_N = std::max(0.0, *pressed_N);
+    LipLoads loads;
+    loads.pull_most_N =
+        suction::vacuum_force_N(*pressure_Pa, radius_m, model.cup.parameters.ambient_Pa);
+    loads.pull_N = loads.pull_most_N - *pressed_N;
+    loads.shear_most_N = surface.friction * held_N;
+    loads.shear_N = loads.shear_most_N - *shear_margin_N;
+    loads.peel_most_N_m = held_N * 0.5 * radius_m;
+    loads.peel_N_m = loads.peel_most_N_m - *peel_margin_N * 0.5 * radius_m;
+    return loads;
 }
 
 PeelSources sources_of(const vehicle::AirframeNumbers& airframe, const Truth& truth) {
@@ -36,13 +73,6 @@ double least_margin_N(const CupStatus& cup) {
 }
 
 }  // namespace
-
-void HoldWatch::end(const simulation::Flight& flight, double time_s) {
-    Hold& hold = holds_.back();
-    hold.ended_s = time_s;
-    hold.phase = std::string(to_string(state_));
-    (void)flight;
-}
 
 void HoldWatch::add_to_trace(const simulation::Flight& flight, bool sealed) {
     const simulation::FlightState& state = flight.state();
@@ -84,14 +114,19 @@ void HoldWatch::tick(const simulation::Flight& flight, const guidance::EventList
             hold.margin_N = std::min(hold.margin_N, least_margin_N(cup));
         }
     } else if (sealed_) {
-        end(flight, time_s);
+        holds_.back().ended_s = time_s;
+        holds_.back().phase = std::string(to_string(state_));
     }
     for (std::size_t k = 0; k < events.count; ++k) {
         const Event& event = events.events[k];
         const bool lets_go =
             event.name == EventName::contact_lost || event.name == EventName::detached;
-        if (lets_go && !holds_.empty()) {
-            holds_.back().let_go = event.reason;
+        if (lets_go && !holds_.empty() && holds_.back().let_go.empty()) {
+            Hold& hold = holds_.back();
+            hold.let_go = event.reason;
+            hold.loads = loads_when_let_go(event, flight.model(),
+                                           surface_under_cup(flight.model(), state.cup))
+                             .value_or(hold.loads);
         }
     }
     if (traces_) {

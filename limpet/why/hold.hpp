@@ -37,7 +37,7 @@ struct Hold {
     double pitch_deg = -90.0;   ///< the highest while sealed
     double margin_N = std::numeric_limits<double>::infinity();  ///< the least while attached
     std::string phase;                                          ///< of guidance when it let go
-    LipLoads loads;  ///< at the end, before the lip moved
+    LipLoads loads;  ///< what it was asked to bear when it let go; else the last tick's
     PeelSources peel;
 
     [[nodiscard]] double held_s(double end_s) const {
@@ -60,7 +60,6 @@ public:
     [[nodiscard]] const HoldTrace& trace() const { return trace_; }
 
 private:
-    void end(const simulation::Flight& flight, double time_s);
     void add_to_trace(const simulation::Flight& flight, bool sealed);
 
     bool traces_;

@@ -31,8 +31,8 @@ void judge_hold(const Hold& hold, const guidance::PerchingParameters& guidance, 
     Stage stage = Stage::sealed;
     double share = 0.0;
     if (!std::isnan(hold.attached_s)) {
-        const bool landed = hold.phase == "pitching_up" || hold.phase == "unloading" ||
-                            (std::isnan(hold.ended_s) && hold.pitch_deg > 0.0);
+        constexpr double kBegun = 0.1;  // of the pitch at rest: before that it is still pressed on
+        const bool landed = hold.pitch_deg > kBegun * guidance.perched_pitch_deg;
         stage = landed ? Stage::landing : Stage::attached;
         share = landed ? hold.pitch_deg / std::max(guidance.perched_pitch_deg, 1.0)
                        : hold.held_s(end_s) / std::max(guidance.hold_s, 0.02);
