@@ -84,17 +84,19 @@ std::string why_json(const Found& found) {
         others.push_back(json_of(other));
     }
     const bool any = !found.remedy.changes.empty();
-    return WhyJson{{"scenario", found.scenario},
-                   {"seed", found.seed},
-                   {"flight", json_of(found.base)},
-                   {"goal", to_string(found.goal)},
-                   {"mended", found.mended},
-                   {"remedy", any ? json_of(found.remedy) : WhyJson(nullptr)},
-                   {"others", others},
-                   {"keys", json_of(found.keys)},
-                   {"parts", json_of(found.parts)},
-                   {"flights", found.flights},
-                   {"wall_s", found.wall_s}}
+    return WhyJson{
+        {"scenario", found.scenario},
+        {"seed", found.seed},
+        {"flight", json_of(found.base)},
+        {"goal", to_string(found.goal)},
+        {"mended", found.mended},
+        {"remedy", any ? json_of(found.remedy) : WhyJson(nullptr)},
+        {"and_then", found.and_then.changes.empty() ? WhyJson(nullptr) : json_of(found.and_then)},
+        {"others", others},
+        {"keys", json_of(found.keys)},
+        {"parts", json_of(found.parts)},
+        {"flights", found.flights},
+        {"wall_s", found.wall_s}}
         .dump(2);
 }
 

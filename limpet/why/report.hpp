@@ -9,7 +9,7 @@
 
 namespace limpet::why {
 
-/// For people: what happened, what bore what, which keys help, each flown; lines of at most 120.
+/// For people: what happened, what bore what, which keys help, each flown.
 /// @param wanted  how the flight is named in the commands that fly it again
 [[nodiscard]] std::string why_text(const Found& found, const std::string& wanted);
 /// One JSON object.

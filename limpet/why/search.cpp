@@ -95,8 +95,10 @@ std::vector<Trial> Search::screen(const std::vector<Change>& turned, const Chang
     return sorted;
 }
 
-/// As near to the flight as it is as it may be: each change in turn is halved towards it.
+/// As near to the flight as it is as it may be with half of the margin: each change in turn is
+/// halved towards it.
 Trial Search::milder(Trial trial) {
+    const double enough = 0.5 * trial.share;
     for (std::size_t i = 0; i < trial.changes.size(); ++i) {
         if (trial.changes[i].is_switch) {
             continue;
@@ -113,7 +115,7 @@ Trial Search::milder(Trial trial) {
                 break;
             }
             Trial tried = whole(changes);
-            if (reaches(tried)) {
+            if (reaches(tried) && tried.share >= enough) {
                 trial = std::move(tried);
             } else {
                 near = changes[i].to;
@@ -127,6 +129,17 @@ void Search::go_on(Trial best) {
     found_.remedy = milder(std::move(best));
     found_.mended = true;
     found_.remedy = whole(found_.remedy.changes, &found_.remedy_trace);
+    for (const Change& change : settings_) {
+        if (found_.remedy.stage < Stage::done && found_.and_then.changes.empty() &&
+            change.is_switch) {
+            Changes changes = found_.remedy.changes;
+            changes.push_back(change);
+            Trial tried = whole(changes);
+            if (tried.flown && tried.stage == Stage::done) {
+                found_.and_then = std::move(tried);
+            }
+        }
+    }
 }
 
 void Search::fill_others(std::vector<Trial> mending) {
@@ -204,7 +217,9 @@ void Search::fill_keys(const std::vector<Trial>& singles) {
         }
     }
     for (const Trial& single : singles) {
-        add(single.changes.front(), false);
+        if (found_.keys.size() < kMostKeys && helps(whole(single.changes), found_.base)) {
+            add(single.changes.front(), false);
+        }
     }
 }
 

@@ -28,6 +28,9 @@ struct Found {
     Trial remedy;         ///< fewest and smallest changes that reach the goal, whole
     bool mended = false;  ///< the remedy came as far as the goal, or further
     HoldTrace remedy_trace;
+    /// A switch beside the remedy, where that rests but does not do what was asked, that makes it
+    /// do so; without changes: none.
+    Trial and_then;
     std::vector<Trial>
         others;  ///< other pairs and single keys that reach the goal, mildest not sought
     std::vector<HelpfulKey> parts;  ///< of what is built: each reaches the goal alone

@@ -120,6 +120,10 @@ void add_remedy(std::string& text, const Found& found, const std::string& wanted
     if (!found.mended) {
         text += "           nothing within a third and three times mends it, alone or in pairs\n";
     }
+    if (!found.and_then.changes.empty()) {
+        fmt::format_to(std::back_inserter(text), "{:<11}{}\n           {}\n", "and then",
+                       change_text(found.and_then.changes.back()), how_far(found.and_then));
+    }
     for (const Trial& other : found.others) {
         fmt::format_to(std::back_inserter(text), "{:<11}{}\n           {}\n", "or",
                        changes_text(other.changes), how_far(other));

@@ -29,15 +29,14 @@ bool came(const simulation::FlightResult& result, EventName name) {
 void judge_hold(const Hold& hold, const guidance::PerchingParameters& guidance, Trial& trial) {
     const double end_s = trial.simulated_s;
     Stage stage = Stage::sealed;
-    double share = 0.0;
+    constexpr double kLong_s = 0.5;  // whatever guidance.hold_s is: that may be the key in question
+    const double held_share = 1.0 - std::exp(-hold.held_s(end_s) / kLong_s);
+    double share = held_share;
     if (!std::isnan(hold.attached_s)) {
         constexpr double kBegun = 0.1;  // of the pitch at rest: before that it is still pressed on
         const bool landed = hold.pitch_deg > kBegun * guidance.perched_pitch_deg;
         stage = landed ? Stage::landing : Stage::attached;
-        share = landed ? hold.pitch_deg / std::max(guidance.perched_pitch_deg, 1.0)
-                       : hold.held_s(end_s) / std::max(guidance.hold_s, 0.02);
-    } else {
-        share = hold.held_s(end_s) / std::max(guidance.hold_s, 0.02);
+        share = landed ? hold.pitch_deg / std::max(guidance.perched_pitch_deg, 1.0) : held_share;
     }
     share = std::clamp(share, 0.0, 1.0);
     if (std::pair(stage, share) > std::pair(trial.stage, trial.share)) {

@@ -42,8 +42,8 @@ struct Trial {
     simulation::FlightResult result;
     std::vector<Hold> holds;
     Stage stage = Stage::nothing;
-    /// Within the stage, 0..1: share of the press that seals, of the hold, of the pitch at rest; of
-    /// those that rested the least margin over the vacuum's force.
+    /// Within the stage, 0..1: share of the press that seals, how long it held, share of the pitch
+    /// at rest; of those that rested the least margin over the vacuum's force.
     double share = 0.0;
     double simulated_s = 0.0;
 };
