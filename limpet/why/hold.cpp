@@ -74,20 +74,29 @@ double least_margin_N(const CupStatus& cup) {
 
 }  // namespace
 
-void HoldWatch::add_to_trace(const simulation::Flight& flight, bool sealed) {
+void HoldWatch::add_to_trace(const simulation::Flight& flight, bool sealed, const Event* lets_go) {
     const simulation::FlightState& state = flight.state();
-    const auto put = [&](const CupStatus* cup) {
+    const auto put = [&](double pressure_Pa, double pull_N, double shear_N, double peel_N) {
+        const bool any = std::isfinite(pressure_Pa);
         trace_.time_s.push_back(seconds(state.tick));
-        trace_.pitch_deg.push_back(cup != nullptr ? simulation::pitch_deg(state.truth) : kNaN);
-        trace_.pressure_hPa.push_back(cup != nullptr ? cup->pressure_Pa / 100.0 : kNaN);
-        trace_.pull_margin_N.push_back(cup != nullptr ? cup->pull_margin_N : kNaN);
-        trace_.shear_margin_N.push_back(cup != nullptr ? cup->shear_margin_N : kNaN);
-        trace_.peel_margin_N.push_back(cup != nullptr ? cup->peel_margin_N : kNaN);
+        trace_.pitch_deg.push_back(any ? simulation::pitch_deg(state.truth) : kNaN);
+        trace_.pressure_hPa.push_back(pressure_Pa / 100.0);
+        trace_.pull_margin_N.push_back(pull_N);
+        trace_.shear_margin_N.push_back(shear_N);
+        trace_.peel_margin_N.push_back(peel_N);
     };
-    if (sealed && due(state.tick, simulation::kDigestRate_Hz)) {
-        put(&state.cup.status);
-    } else if (!sealed && !trace_.time_s.empty() && !std::isnan(trace_.pitch_deg.back())) {
-        put(nullptr);
+    const bool dense = state.tick < state.fine_until;
+    if (sealed && (dense || due(state.tick, simulation::kDigestRate_Hz))) {
+        const CupStatus& cup = state.cup.status;
+        put(cup.pressure_Pa, cup.pull_margin_N, cup.shear_margin_N, cup.peel_margin_N);
+    } else if (!sealed && sealed_) {
+        if (lets_go != nullptr) {
+            const auto of = [lets_go](std::string_view name) {
+                return value_of(*lets_go, name).value_or(kNaN);
+            };
+            put(of("pressure_Pa"), of("pull_margin_N"), of("shear_margin_N"), of("peel_margin_N"));
+        }
+        put(kNaN, kNaN, kNaN, kNaN);
     }
 }
 
@@ -117,11 +126,13 @@ void HoldWatch::tick(const simulation::Flight& flight, const guidance::EventList
         holds_.back().ended_s = time_s;
         holds_.back().phase = std::string(to_string(state_));
     }
+    const Event* lets_go = nullptr;
     for (std::size_t k = 0; k < events.count; ++k) {
         const Event& event = events.events[k];
-        const bool lets_go =
-            event.name == EventName::contact_lost || event.name == EventName::detached;
-        if (lets_go && !holds_.empty() && holds_.back().let_go.empty()) {
+        if (event.name == EventName::contact_lost || event.name == EventName::detached) {
+            lets_go = &event;
+        }
+        if (lets_go == &event && !holds_.empty() && holds_.back().let_go.empty()) {
             Hold& hold = holds_.back();
             hold.let_go = event.reason;
             hold.loads = loads_when_let_go(event, flight.model(),
@@ -130,7 +141,7 @@ void HoldWatch::tick(const simulation::Flight& flight, const guidance::EventList
         }
     }
     if (traces_) {
-        add_to_trace(flight, sealed);
+        add_to_trace(flight, sealed, lets_go);
     }
     sealed_ = sealed;
     state_ = state.guidance.state;

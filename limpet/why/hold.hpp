@@ -45,7 +45,8 @@ struct Hold {
     }
 };
 
-/// The cup against time while it is sealed, at most 100 times a second; NaN between two holds.
+/// The cup against time while it is sealed, 100 times a second, each tick around a touch, and as it
+/// lets go; NaN between two holds.
 struct HoldTrace {
     std::vector<double> time_s, pitch_deg, pressure_hPa;
     std::vector<double> pull_margin_N, shear_margin_N, peel_margin_N;
@@ -60,7 +61,7 @@ public:
     [[nodiscard]] const HoldTrace& trace() const { return trace_; }
 
 private:
-    void add_to_trace(const simulation::Flight& flight, bool sealed);
+    void add_to_trace(const simulation::Flight& flight, bool sealed, const Event* lets_go);
 
     bool traces_;
     bool sealed_ = false;
