@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-FlightResult with_fault(const char* scenario, const std::string& fault) {
+FlightResult ended_with(const char* scenario, const std::string& fault) {
     return fly(model_of(scenario, {"faults={" + fault + "}"}));
 }
 
@@ -52,7 +52,7 @@ TEST(TrueEnds, AtRestItIsOnTheWall) {
 /// Guidance gives up at 0.1 s, with no rotor turning.
 TEST(TrueEnds, AFallThatGuidanceEndedIsACrash) {
     const FlightResult result =
-        with_fault("perch_concrete", "fault: battery_empty, phase: pre_positioning");
+        ended_with("perch_concrete", "fault: battery_empty, phase: pre_positioning");
     EXPECT_EQ(result.outcome, Outcome::crashed);
     EXPECT_EQ(result.reason, "hit the ground; guidance had ended: battery low");
     EXPECT_EQ(result.true_end, TrueEnd::fallen);
@@ -61,7 +61,7 @@ TEST(TrueEnds, AFallThatGuidanceEndedIsACrash) {
 /// Its estimate drifts, and guidance stands at the pre-position by that.
 TEST(TrueEnds, ReleasedMetresAwayIsNoSuccess) {
     const FlightResult result =
-        with_fault("perch_concrete", "fault: estimate_drifts, phase: resting");
+        ended_with("perch_concrete", "fault: estimate_drifts, phase: resting");
     ASSERT_EQ(result.outcome, Outcome::released) << result.reason;
     EXPECT_NE(result.true_end, TrueEnd::hovering);
     EXPECT_GT(result.metrics.off_place_m, 2.0);
