@@ -156,8 +156,9 @@ std::string why_text(const Found& found, const std::string& wanted) {
                            change_text(part.change), how_far(part.alone));
         }
     }
-    fmt::format_to(std::back_inserter(text), "\n{:<11}{} in {:.1f} s\n", "flights", found.flights,
-                   found.wall_s);
+    fmt::format_to(std::back_inserter(text), "\n{:<11}{} flown in {:.1f} s, {:.0f} a second\n",
+                   "flights", found.flights, found.wall_s,
+                   static_cast<double>(found.flights) / std::max(found.wall_s, 1e-3));
     return text;
 }
 
