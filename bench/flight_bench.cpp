@@ -49,7 +49,7 @@ const Tape& tape() {
         recorded.start = plant.save();
         TapePlant writer(plant);
         simulation::TickReport report;
-        while (!state.ending) {
+        while (!state.ending && !state.guidance.ending) {
             step(*model(), state, writer, report);
         }
         recorded.steps = writer.steps();

@@ -35,6 +35,8 @@ struct Metric {
 struct Result {
     Outcome outcome = Outcome::timed_out;
     std::string reason;
+    TrueEnd true_end = TrueEnd::moving;  ///< what the truth shows, whatever guidance believed
+    bool success = false;                ///< perched or released, and so by the truth
     double simulated_s = 0.0;
     int attempts = 0;  ///< docking runs
     std::vector<Event> events;

@@ -13,5 +13,6 @@
 #include "limpet/core/signals/readings.hpp"
 #include "limpet/core/signals/rotor_command.hpp"
 #include "limpet/core/signals/setpoint.hpp"
+#include "limpet/core/signals/true_end.hpp"
 #include "limpet/core/signals/truth.hpp"
 #include "limpet/core/time.hpp"

@@ -135,7 +135,13 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
                           : in_flight ? "interrupted; the recording is whole up to here"
                                       : "interrupted after the flight; its recording is whole");
     }
-    return judged(expected_outcome(options.expect), "flight", result.outcome, result.reason);
+    const auto expected = expected_outcome(options.expect);
+    if (expected == result.outcome && !bears_out(result.true_end, result.outcome)) {
+        complain(fmt::format("expected {}, the flight ended {}: {}", to_string(*expected),
+                             told_with_truth(result.outcome, result.true_end), result.reason));
+        return ExitCode::other_outcome;
+    }
+    return judged(expected, "flight", result.outcome, result.reason);
 }
 
 }  // namespace limpet::app

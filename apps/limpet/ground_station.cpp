@@ -139,9 +139,11 @@ void GroundStation::tell_of_refusals() {
 }
 
 void GroundStation::end(const simulation::FlightResult& result) {
-    const bool amiss = result.outcome == Outcome::crashed || result.outcome == Outcome::timed_out;
-    telemetry_.text(amiss ? ground_station::Severity::error : ground_station::Severity::info,
-                    fmt::format("{}: {}", to_string(result.outcome), result.reason));
+    const bool amiss = result.outcome == Outcome::crashed || result.outcome == Outcome::timed_out ||
+                       !bears_out(result.true_end, result.outcome);
+    telemetry_.text(
+        amiss ? ground_station::Severity::error : ground_station::Severity::info,
+        fmt::format("{}: {}", told_with_truth(result.outcome, result.true_end), result.reason));
 }
 
 std::string GroundStation::report() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "limpet/campaign/statistics.hpp"
+#include "limpet/campaign/success.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/write_file.hpp"
 #include "limpet/draw/html.hpp"
@@ -31,6 +32,7 @@ struct Cell {
     int badness = -1;
     std::string outcome;
     std::string reason;
+    std::string look;  ///< its class in the page
 };
 
 constexpr const char* kStyle = R"(
@@ -49,7 +51,7 @@ td button { width: 5.6rem; height: 1.5rem; padding: 0; border: 0; border-radius:
 button:focus-visible, .scroll:focus-visible { outline: 3px solid #3b7dd8 }
 .perched, .released { background: #8fd19e } .release_aborted { background: #b9dd8a }
 .failed_to_seal { background: #f3dc7d } .aborted { background: #f4c27a }
-.timed_out, .interrupted { background: #c6ccd6 } .crashed, .fault { background: #f08a80 }
+.timed_out, .interrupted { background: #c6ccd6 } .crashed, .fault, .untrue { background: #f08a80 }
 ul.key { list-style: none; padding: 0; display: flex; flex-wrap: wrap; gap: .3rem .6rem }
 ul.key li { border-radius: 3px; padding: 0 .5rem; color: #10151c }
 #said { position: fixed; inset: auto 0 0; padding: .6rem 1rem; background: var(--paper);
@@ -68,12 +70,17 @@ document.addEventListener("click", (event) => {
 });
 )";
 
-int badness_of(const std::string& outcome, const Campaign& campaign) {
-    if (outcome == "crashed" || outcome == kFault) {
+int badness_of(const RunRow& row, const Campaign& campaign) {
+    if (row.outcome == "crashed" || row.outcome == kFault) {
         return 3;
     }
-    const auto meant = [&](Outcome one) { return outcome == to_string(one); };
-    return std::any_of(campaign.success.begin(), campaign.success.end(), meant) ? 1 : 2;
+    return is_success(campaign, row) ? 1 : 2;
+}
+
+/// Guidance's outcome is the truth's; no flight has none.
+bool ended_as_told(const RunRow& row) {
+    const auto outcome = outcome_from(row.outcome);
+    return !outcome || ended_as(row, *outcome);
 }
 
 std::string text_of(const SampledValue& value) {
@@ -91,14 +98,16 @@ public:
             at.push_back(text_of(row.sample[key]));
         }
         Cell& cell = cells_[at];
-        const int badness = badness_of(row.outcome, campaign_);
+        const int badness = badness_of(row, campaign_);
         ++cell.runs;
         cell.successes += badness == 1 ? 1 : 0;
         if (badness > cell.badness) {
             cell.badness = badness;
             cell.run = row.run;
             cell.outcome = row.outcome;
-            cell.reason = row.reason;
+            cell.reason =
+                row.true_end.empty() ? row.reason : row.reason + "; in truth " + row.true_end;
+            cell.look = ended_as_told(row) ? row.outcome : "untrue";
         }
         ++outcomes_[row.outcome];
     }
@@ -185,9 +194,10 @@ private:
                                       ? record::words(cell->outcome)
                                       : fmt::format("{} of {}", cell->successes, cell->runs);
         add_text(
-            "<td><button class=\"{0}\" data-run=\"{1}\" title=\"run {1}, {0}: {2}\">{3}"
+            "<td><button class=\"{4}\" data-run=\"{1}\" title=\"run {1}, {0}: {2}\">{3}"
             "</button></td>",
-            escaped(cell->outcome), cell->run, escaped(cell->reason), escaped(shown));
+            escaped(cell->outcome), cell->run, escaped(cell->reason), escaped(shown),
+            escaped(cell->look));
     }
 
     const Campaign& campaign_;

@@ -21,6 +21,7 @@ void for_each_column(const Campaign& campaign, Row&& row, const Each& each) {
     }
     each("outcome", "TEXT", row.outcome);
     each("reason", "TEXT", row.reason);
+    each("true_end", "TEXT", row.true_end);
     each("attempts", "INTEGER", row.attempts);
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         each(metric.name, "REAL", row.metrics.*metric.field);

@@ -24,6 +24,7 @@ struct RunRow {
     /// PX4 did not begin it.
     std::string outcome;
     std::string reason;
+    std::string true_end;  ///< name of a TrueEnd; empty when there was no flight
     int attempts = 0;
     simulation::Metrics metrics;
     double simulated_s = 0.0;
@@ -51,8 +52,8 @@ struct Identity {
 ///   campaign   one row: name, the file's text, version of Limpet, hashes of file and scenarios
 ///   scenarios  the scenario spelled out, for each combination of named values
 ///   runs       a row a run: run, seed, a column for each varied key (named like it: `"guidance.
-///              dock_speed_m_s"`), outcome, reason, attempts, metrics, simulated_s, physics_steps,
-///              state_hash; on PX4s autopilot, who flew it
+///              dock_speed_m_s"`), outcome, reason, true_end, attempts, metrics, simulated_s,
+///              physics_steps, state_hash; on PX4s autopilot, who flew it
 ///   on_px4     is there where PX4s fly it
 ///   shard      where the file holds a part of the campaign: part, parts
 ///

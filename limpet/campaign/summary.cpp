@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "limpet/campaign/success.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
@@ -144,8 +145,7 @@ CampaignSummary summarise(Results& results) {
         SQLite::Database& database = results.database();
         const std::vector<std::string> success_means =
             names_of(campaign.success, [](Outcome outcome) { return to_string(outcome); });
-        const std::string success =
-            fmt::format("(outcome IN ('{}'))", fmt::join(success_means, "', '"));
+        const std::string success = success_sql(campaign);
         const std::uint32_t finished = results.finished();
         const auto successes =
             database.execAndGet(fmt::format("SELECT count(*) FROM runs WHERE {}", success))
@@ -165,11 +165,18 @@ CampaignSummary summarise(Results& results) {
                 database,
                 "SELECT outcome, '', count(*) AS n FROM runs GROUP BY outcome ORDER BY n DESC, 1",
                 finished),
+            .true_ends =
+                count_endings(database,
+                              "SELECT true_end, '', count(*) AS n FROM runs WHERE true_end <> '' "
+                              "GROUP BY true_end ORDER BY n DESC, 1",
+                              finished),
             .failures = count_endings(
                 database,
-                fmt::format("SELECT outcome, reason, count(*) AS n FROM runs WHERE NOT {} "
-                            "GROUP BY outcome, reason ORDER BY n DESC, 1, 2",
-                            success),
+                fmt::format(
+                    "SELECT outcome, CASE WHEN outcome IN ('{}') THEN reason || '; in truth '"
+                    " || true_end ELSE reason END, count(*) AS n FROM runs WHERE NOT {} "
+                    "GROUP BY 1, 2 ORDER BY n DESC, 1, 2",
+                    fmt::join(success_means, "', '"), success),
                 finished),
             .keys = {},
             .metrics = summarise_metrics(database)};

@@ -55,8 +55,9 @@ struct CampaignSummary {
     std::uint32_t finished = 0;  ///< flown
     std::vector<std::string> success_means;
     Proportion success;
-    std::vector<EndingCount> outcomes;  ///< most frequent first
-    std::vector<EndingCount> failures;  ///< outcome and reason of what is no success
+    std::vector<EndingCount> outcomes;   ///< most frequent first
+    std::vector<EndingCount> true_ends;  ///< by the truth, their names as outcomes
+    std::vector<EndingCount> failures;   ///< outcome and reason of what is no success
     std::vector<KeySummary> keys;
     std::vector<MetricSummary> metrics;  ///< those that came to pass at all
 };

@@ -46,6 +46,10 @@ void add_endings(Text& text, const CampaignSummary& summary) {
     for (const EndingCount& ending : summary.outcomes) {
         text.line("{:<16} {}", ending.outcome, cells(ending.proportion));
     }
+    text.line("\nin truth          share  95 %        runs");
+    for (const EndingCount& ending : summary.true_ends) {
+        text.line("{:<16} {}", ending.outcome, cells(ending.proportion));
+    }
     if (!summary.failures.empty()) {
         text.line("\nwhat went wrong");
         for (const EndingCount& ending : summary.failures) {
@@ -176,6 +180,7 @@ std::string summary_json(const CampaignSummary& summary) {
                        {"success_means", summary.success_means},
                        {"success", json_of(summary.success)},
                        {"outcomes", json_of(summary.outcomes, false)},
+                       {"true_ends", json_of(summary.true_ends, false)},
                        {"failures", json_of(summary.failures, true)},
                        {"keys", keys},
                        {"metrics", metrics}};

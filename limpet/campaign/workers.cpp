@@ -72,6 +72,7 @@ RunRow row_to_fly(const Campaign& campaign, std::uint32_t run) {
 void fill(RunRow& row, const simulation::FlightResult& result) {
     row.outcome = to_string(result.outcome);
     row.reason = result.reason;
+    row.true_end = to_string(result.true_end);
     row.attempts = result.attempts;
     row.metrics = result.metrics;
     row.simulated_s = result.performance.simulated_s;

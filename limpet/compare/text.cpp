@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/signals/true_end.hpp"
 
 namespace limpet::compare {
 namespace {
@@ -96,12 +97,19 @@ std::string short_of(double value, int digits = 4) {
     return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "-";
 }
 
+/// As recorded, and the truth where it does not bear it out.
+std::string told_outcome(const record::Summary& summary) {
+    const auto outcome = outcome_from(summary.outcome);
+    const auto truth = true_end_from(summary.true_end);
+    return outcome && truth ? told_with_truth(*outcome, *truth) : summary.outcome;
+}
+
 std::string flight_line(const FlightIdentity& flight, std::size_t width) {
     const record::Summary& s = flight.summary;
     return fmt::format("{:<{}}  {}{}: {}{}\n", flight.label, width,
                        s.scenario.empty() ? "flight" : s.scenario,
                        s.seed.empty() ? "" : ", seed " + s.seed,
-                       s.outcome.empty() ? "no outcome recorded" : s.outcome,
+                       s.outcome.empty() ? "no outcome recorded" : told_outcome(s),
                        s.reason.empty() ? "" : " (" + s.reason + ")");
 }
 

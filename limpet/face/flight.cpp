@@ -203,6 +203,8 @@ Result Flight::result() const {
     const simulation::FlightResult ended = inside_->result();
     Result result{.outcome = ended.outcome,
                   .reason = ended.reason,
+                  .true_end = ended.true_end,
+                  .success = is_success(ended.outcome, ended.true_end),
                   .simulated_s = ended.performance.simulated_s,
                   .attempts = ended.attempts,
                   .events = ended.events,

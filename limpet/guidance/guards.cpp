@@ -281,6 +281,12 @@ bool too_long_released(const Scene& s) {
 bool attempts_used_up(const Scene& s) {
     return s.settled() && s.memory.attempt >= s.parameters.attempts;
 }
+bool seal_lost(const Scene& s) {
+    return s.memory.cup.sealed;
+}
+bool all_seals_lost(const Scene& s) {
+    return attempts_used_up(s) && s.memory.cup.seals_lost >= s.memory.attempt;
+}
 bool rest_over(const Scene& s) {
     return s.elapsed_s() >= s.parameters.rest_s;
 }

@@ -84,6 +84,8 @@ struct Scene {
 /// The pump was switched off to leave, and not since switched on again.
 [[nodiscard]] bool settled_released(const Scene& s);
 [[nodiscard]] bool too_long_released(const Scene& s);
+[[nodiscard]] bool seal_lost(const Scene& s);
+[[nodiscard]] bool all_seals_lost(const Scene& s);
 [[nodiscard]] bool attempts_used_up(const Scene& s);
 [[nodiscard]] bool rest_over(const Scene& s);
 [[nodiscard]] bool rest_over_given_up(const Scene& s);

@@ -69,9 +69,13 @@ constexpr std::array kTable = {
 
     Transition{S::holding, hold_is_over, S::deciding, "held", E::hold_over},
     Transition{S::deciding, sealed, S::pitching_up, "pressure below P_land", E::landing_started},
+    Transition{S::deciding, seal_lost, S::retreating, "sealed, but does not hold",
+               E::retreat_started},
     Transition{S::deciding, always, S::retreating, "no seal", E::retreat_started},
 
     Transition{S::retreating, estimate_lost, S::braking, "position estimate lost", E::aborted},
+    done(S::retreating, all_seals_lost, "sealed and came off in every attempt",
+         Outcome::failed_to_seal),
     done(S::retreating, attempts_used_up, "no landing in any attempt", Outcome::failed_to_seal),
     Transition{S::retreating, settled, S::pre_positioning, "tries again"},
     Transition{S::retreating, held_back, S::resealing, "the cup does not come off", E::aborted},
@@ -186,6 +190,11 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
         memory.cup.pressure_doubted ||
         (row.to == S::resealing && (row.guard == held_back || row.guard == brakes_held) &&
          s.pressure_known() && (!seems_sealed(s) || pressure_stuck(s)));
+    if (row.to == S::approaching) {
+        memory.cup.sealed = false;
+    } else if (row.to == S::retreating && row.from != S::braking) {
+        memory.cup.seals_lost += memory.cup.sealed ? 1 : 0;
+    }
     if (row.outcome) {
         memory.ending = Ending{.outcome = *row.outcome, .reason = row.reason};
     }
@@ -306,6 +315,7 @@ void update(const PerchingParameters& parameters, const PerchingTask& task, Perc
     const auto since = [time_s](double& since_s, bool holds) {
         since_s = !holds ? -1.0 : since_s < 0.0 ? time_s : since_s;
     };
+    memory.cup.sealed = memory.cup.sealed || (memory.state == S::holding && sealed(scene));
     since(memory.settled_since_s, guards::settling(scene));
     since(memory.weak_since_s, scene.pressure_known() && guards::weak(scene));
     since(memory.off_since_s, guards::looks_off(scene));

@@ -98,6 +98,8 @@ struct WindFelt {
 };
 
 struct CupBelief {
+    bool sealed = false;            ///< in this attempt the pressure has been below P_land
+    int seals_lost = 0;             ///< attempts that sealed and went back all the same
     bool lets_go = false;           ///< the pump went off so that the cup comes off, and stayed off
     bool pump_stays = false;        ///< leaves, though the pressure says that the cup holds
     bool pressure_doubted = false;  ///< the cup held when the sensor said that it could not

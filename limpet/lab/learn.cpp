@@ -121,7 +121,7 @@ void Learn::fly(Turned& turned) {
         if (stop_) {
             return;
         }
-        outcome = to_string(result.outcome);
+        outcome = told_with_truth(result.outcome, result.true_end);
         metrics = result.metrics;
         flown = true;
     } catch (const InputError&) {  // the value does not go with another one

@@ -34,7 +34,8 @@ public:
     void stop() { stop_ = true; }
     /// @return {"id", 0: nothing yet, "running", "flights", "flown", "metrics": [names],
     ///         "base": {"outcome", "metrics"}, "rows": [{"key", "unit", "less", "more": {"value",
-    ///         "outcome", "metrics"}}]}; of a flight that a value does not allow the outcome is
+    ///         "outcome", "metrics"}}]}; an outcome that the truth does not
+    ///         bear out says so; of a flight that a value does not allow it is
     ///         "refused", its metrics are null
     /// @throws what ended the flights: no memory
     [[nodiscard]] std::string state();

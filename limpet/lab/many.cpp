@@ -8,6 +8,7 @@
 #include <new>
 
 #include "limpet/campaign/statistics.hpp"
+#include "limpet/campaign/success.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
 #include "limpet/lab/request.hpp"
@@ -57,8 +58,9 @@ json row_json(const campaign::RunRow& row, bool success) {
     for (const simulation::MetricInfo& metric : simulation::metric_table()) {
         metrics.push_back(row.metrics.*metric.field);  // null where it did not come to pass
     }
-    return {{"run", row.run},     {"outcome", row.outcome}, {"reason", row.reason},
-            {"success", success}, {"values", values},       {"metrics", metrics}};
+    return {{"run", row.run},           {"outcome", row.outcome}, {"reason", row.reason},
+            {"true_end", row.true_end}, {"success", success},     {"values", values},
+            {"metrics", metrics}};
 }
 
 json keys_json(const campaign::Campaign& campaign) {
@@ -71,12 +73,6 @@ json keys_json(const campaign::Campaign& campaign) {
         keys.push_back({{"key", key.key}, {"values", values}});
     }
     return keys;
-}
-
-bool is_success(const campaign::Campaign& campaign, const campaign::RunRow& row) {
-    const auto& wanted = campaign.success;
-    return std::any_of(wanted.begin(), wanted.end(),
-                       [&](Outcome outcome) { return to_string(outcome) == row.outcome; });
 }
 
 }  // namespace
@@ -197,7 +193,7 @@ std::string Many::rows(std::string_view request) {
     json rows = json::array();
     const auto from = wanted.get<std::size_t>();
     for (std::size_t i = 0; i < landed_.size(); ++i) {
-        const bool succeeded = is_success(campaign, landed_[i]);
+        const bool succeeded = campaign::is_success(campaign, landed_[i]);
         success.successes += succeeded ? 1U : 0U;
         if (i >= from && rows.size() < kMostRowsAtOnce) {
             rows.push_back(row_json(landed_[i], succeeded));

@@ -87,7 +87,9 @@ void LiveFlight::tick(simulation::Flight& flight) {
 }
 
 void LiveFlight::end(const simulation::FlightResult& result) {
-    live_.say(StatusLevel::info, fmt::format("{}: {}", to_string(result.outcome), result.reason));
+    live_.say(
+        StatusLevel::info,
+        fmt::format("{}: {}", told_with_truth(result.outcome, result.true_end), result.reason));
 }
 
 }  // namespace limpet::live

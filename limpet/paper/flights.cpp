@@ -270,7 +270,9 @@ void measure(const PaperFlight& flight, Evidence& evidence) {
          {Outcome::perched, Outcome::released, Outcome::failed_to_seal, Outcome::release_aborted,
           Outcome::aborted, Outcome::crashed, Outcome::timed_out}) {
         take.set("is_" + std::string(to_string(outcome)),
-                 flight.result.outcome == outcome ? 1.0 : 0.0);
+                 flight.result.outcome == outcome && bears_out(flight.result.true_end, outcome)
+                     ? 1.0
+                     : 0.0);
     }
     take.set("cup_sensors",
              (find_table(flight.recording, "/sensors/cup_pressure") != nullptr ? 1.0 : 0.0) +

@@ -91,7 +91,7 @@ TableRows flight_rows(const std::vector<PaperFlight>& flights) {
     TableRows rows;
     for (const PaperFlight& flight : flights) {
         const simulation::Metrics& m = flight.result.metrics;
-        rows.push_back({flight.name, std::string(to_string(flight.result.outcome)),
+        rows.push_back({flight.name, told_with_truth(flight.result.outcome, flight.result.true_end),
                         static_cast<double>(flight.result.attempts),
                         number_or(m.impact_speed_m_s, "–"), number_or(m.impact_force_N, "–"),
                         number_or(m.time_to_land_pressure_s, "–"),

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "limpet/campaign/success.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
@@ -120,7 +121,9 @@ double RareEvent::value(const campaign::RunRow& row) const {
 
 bool RareEvent::happened(const campaign::RunRow& row) const {
     if (outcome) {
-        return row.outcome == to_string(*outcome);
+        // A success is one by the truth alone; a failure is one whatever the truth adds to it.
+        const bool is_good = *outcome == Outcome::perched || *outcome == Outcome::released;
+        return is_good ? campaign::ended_as(row, *outcome) : row.outcome == to_string(*outcome);
     }
     const double at = value(row);
     return (rising ? at > limit : at < limit) || (inclusive && at == limit);

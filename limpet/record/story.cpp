@@ -6,6 +6,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "limpet/core/signals/true_end.hpp"
+
 namespace limpet::record {
 namespace {
 
@@ -136,7 +138,7 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
     return chapter(recording, kFailedAttempt, "failed attempt", start_s - 0.5,
                    retreat->time_s + 3.0, first_event(recording, EventName::impact, start_s),
-                   "no seal, retreat");
+                   retreat->reason + ", retreat");
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {
@@ -162,8 +164,17 @@ Summary summary(const Recording& recording) {
     if (json.is_object()) {
         summary.outcome = text_of(json, "outcome");
         summary.reason = text_of(json, "reason");
+            summary.true_end = text_of(json, "true_end");
     }
     return summary;
+}
+
+std::string ending_words(const Summary& summary) {
+    const auto outcome = outcome_from(summary.outcome);
+    const auto truth = true_end_from(summary.true_end);
+    return summary.outcome.empty() ? "unknown"
+           : outcome && truth      ? words(told_with_truth(*outcome, *truth))
+                                   : words(summary.outcome);
 }
 
 std::vector<Phase> phases(const Recording& recording) {

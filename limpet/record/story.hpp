@@ -44,7 +44,10 @@ struct Summary {
     std::string seed;
     std::string outcome;
     std::string reason;
+    std::string true_end;  ///< name of a TrueEnd; empty in recordings of before 0.3
 };
+/// For people: the outcome in words, and the truth where it does not bear it out; "unknown".
+[[nodiscard]] std::string ending_words(const Summary& summary);
 
 /// A stretch in one state of guidance.
 struct Phase {

@@ -19,7 +19,7 @@ std::string subtitle_of(const record::Summary& summary, const record::Chapter& c
     std::string text = chapter.ending.empty()
                            ? "outcome: "
                            : fmt::format("ends: {}  ·  the whole flight: ", chapter.ending);
-    text += summary.outcome.empty() ? "unknown" : record::words(summary.outcome);
+    text += record::ending_words(summary);
     if (!summary.reason.empty()) {
         text += fmt::format(" ({})", summary.reason);
     }

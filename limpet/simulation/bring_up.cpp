@@ -134,9 +134,8 @@ Snapshot bring_up(const FlightModel& model, const Outside& outside, const BringU
         if (options.stop != nullptr && *options.stop) {
             throw Interrupted("interrupted while the autopilot was brought up");
         }
-        if (state.ending) {
-            give_up(fmt::format("{} on the way to the start", state.ending->reason.view()),
-                    obstacle);
+        if (const auto& ending = state.ending ? state.ending : state.guidance.ending) {
+            give_up(fmt::format("{} on the way to the start", ending->reason.view()), obstacle);
         }
         if (outside.guidance != nullptr && !on_stand) {
             return first_state(model, state, plant, options.run);

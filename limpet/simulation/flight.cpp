@@ -72,8 +72,13 @@ FlightResult result_of(const Flight& flight, double wall_s) {
     result.seed = flight.model().seed;
     result.outcome = state.ending->outcome;
     result.reason = state.ending->reason.view();
+    result.true_end = true_end(seen.end, flight.model(), state);
     result.attempts = seen.metrics.attempts;
     result.metrics = seen.metrics;
+    if (result.true_end == TrueEnd::hovering || result.true_end == TrueEnd::adrift ||
+        result.true_end == TrueEnd::moving) {
+        result.metrics.off_place_m = off_place_m(flight.model(), state);
+    }
     result.performance = {
         .simulated_s = seconds(state.tick), .wall_s = wall_s, .physics_steps = seen.physics_steps};
     result.state_hash = seen.hash;
@@ -109,9 +114,7 @@ const guidance::EventList& Flight::tick() {
     }
     step(*model_, state_, *plant_, report_, outside_);
     observe(seen_, *model_, state_, report_);
-    if (ended()) {
-        state_.ending = as_it_was(*state_.ending, *model_, state_, seen_.metrics);
-    }
+    conclude();
     report_parameters();
     if (outside_.autopilot != nullptr && outside_.autopilot->failure()) {
         // In the air it falls; on the wall the cup still holds it.
@@ -125,6 +128,26 @@ const guidance::EventList& Flight::tick() {
         stop(Outcome::timed_out, "the scenario's time is over");
     }
     return report_.events;
+}
+
+/// Guidance's end is the flight's when the truth has come to one as well.
+void Flight::conclude() {
+    const double ended_s = seen_.end.guidance_ended_s;
+    if (ended_s < 0.0) {
+        return;
+    }
+    const guidance::Ending& told = *state_.guidance.ending;
+    const double time_s = seconds(state_.tick);
+    if (ended()) {
+        if (ended_s < time_s) {
+            state_.ending->reason = std::string_view(fmt::format(
+                "{}; guidance had ended: {}", state_.ending->reason.view(), told.reason.view()));
+        }
+    } else if (outside_.guidance != nullptr || time_s - ended_s >= kAfterGuidance_s ||
+               time_s >= model_->simulation.time_limit_s ||
+               true_end(seen_.end, *model_, state_) != TrueEnd::moving) {
+        state_.ending = as_it_was(told, *model_, state_, seen_.metrics);
+    }
 }
 
 void Flight::stop(Outcome outcome, std::string_view reason) {

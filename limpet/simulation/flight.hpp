@@ -29,7 +29,9 @@ public:
     Flight(std::shared_ptr<const FlightModel> model, const Snapshot& airborne,
            const Outside& outside);
 
-    /// One base tick. Does nothing once the flight has ended.
+    /// One base tick. Does nothing once the flight has ended. A mission that guidance has ended is
+    /// flown on until the truth has come to an end too (true_end.hpp), 10 s at most; one that is
+    /// guided from elsewhere ends when it is told to.
     /// @return what happened in it, valid until the next tick
     const guidance::EventList& tick();
     /// Ends it from outside, with a reason. Nothing when it has ended already.
@@ -57,6 +59,7 @@ public:
 
 private:
     void report_parameters();
+    void conclude();
 
     std::shared_ptr<const FlightModel> model_;
     std::unique_ptr<plant::Plant> plant_;
@@ -112,6 +115,7 @@ struct FlightResult {
     std::uint64_t seed = 0;
     Outcome outcome = Outcome::timed_out;
     std::string reason;
+    TrueEnd true_end = TrueEnd::moving;
     int attempts = 0;
     std::vector<Event> events;
     std::vector<std::string> faults_not_begun;  ///< of the scenario's table, as YAML

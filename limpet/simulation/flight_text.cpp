@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "limpet/core/errors.hpp"
+
 namespace limpet::simulation {
 namespace {
 
@@ -35,6 +37,28 @@ void add(std::vector<std::string>& lines, const Emphasis& bold, const std::strin
     }
 }
 
+std::string true_end_text(const FlightResult& result) {
+    const double off_m = result.metrics.off_place_m;
+    const auto words = [&]() -> std::string {
+        switch (result.true_end) {
+            case TrueEnd::on_wall: return "on the wall, sealed";
+            case TrueEnd::hovering:
+                return fmt::format("hovers where it belongs, {:.2f} m off", off_m);
+            case TrueEnd::adrift:
+                return fmt::format("hovers {:.2f} m from where it belongs", off_m);
+            case TrueEnd::standing: return "stands on the ground";
+            case TrueEnd::fallen: return "fell, or hit something";
+            case TrueEnd::moving:
+                return fmt::format("still moves, {:.2f} m from where it belongs", off_m);
+            case TrueEnd::mounted: return "";
+        }
+        throw InternalError("true end out of range");
+    };
+    return words() + (bears_out(result.true_end, result.outcome)
+                          ? ""
+                          : fmt::format(": not {}", to_string(result.outcome)));
+}
+
 std::string impact_text(const Metrics& m) {
     return known(m.impact_speed_m_s) && known(m.impact_force_N)
                ? fmt::format(
@@ -57,10 +81,47 @@ std::string seal_text(const Metrics& m) {
     return text;
 }
 
+/// Of the last docking run: where the cup attached, and how it came off before it was to.
+struct CameOff {
+    const Event* attached = nullptr;
+    const Event* lost = nullptr;
+    int times = 0;  ///< in all runs
+};
+CameOff came_off(const FlightResult& result) {
+    CameOff found;
+    const Event* attached = nullptr;
+    for (const Event& event : result.events) {
+        if (event.name == EventName::approach_started) {
+            found.attached = found.lost = attached = nullptr;
+        } else if (event.name == EventName::attached) {
+            attached = &event;
+        } else if (event.name == EventName::contact_lost && attached != nullptr) {
+            found = {attached, &event, found.times + 1};
+            attached = nullptr;
+        }
+    }
+    return found;
+}
+
+std::string came_off_text(const FlightResult& result) {
+    const CameOff off = came_off(result);
+    if (result.outcome != Outcome::failed_to_seal || off.lost == nullptr) {
+        return "";
+    }
+    const auto pressure_Pa = value_of(*off.lost, "pressure_Pa");
+    return fmt::format(
+        "attached, and {} {:.2f} s later at {:.0f} hPa{}; limpet why asks what would "
+        "hold it",
+        off.lost->reason, off.lost->time_s - off.attached->time_s,
+        pressure_Pa.value_or(kNaN) / 100.0,
+        off.times > 1 ? fmt::format(", {} times so or alike", off.times) : "");
+}
+
 /// What the last touch asked for, where none has sealed.
 std::string unsealed_text(const FlightResult& result) {
     const Metrics& m = result.metrics;
-    if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N)) {
+    if (result.outcome != Outcome::failed_to_seal || !known(m.cup_press_max_N) ||
+        came_off(result).lost != nullptr) {
         return "";
     }
     std::optional<double> needed_N;
@@ -156,11 +217,13 @@ std::vector<std::string> flight_summary(const FlightResult& result, const Emphas
             fmt::format(" ({} docking run{})", result.attempts, result.attempts == 1 ? "" : "s");
     }
     add(lines, bold, "outcome", outcome);
+    add(lines, bold, "in truth", true_end_text(result));
     for (const std::string& fault : result.faults_not_begun) {
         add(lines, bold, "no fault", fault + " never began");
     }
     add(lines, bold, "impact", impact_text(m));
     add(lines, bold, "seal", seal_text(m));
+    add(lines, bold, "came off", came_off_text(result));
     add(lines, bold, "no seal", unsealed_text(result));
     add(lines, bold, "perched", perched_text(m));
     add(lines, bold, "release", release_text(m, result.outcome));

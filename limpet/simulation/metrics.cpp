@@ -20,6 +20,7 @@ std::span<const MetricInfo> metric_table() {
         {"pitch_oscillation_max_deg", &Metrics::pitch_oscillation_max_deg},
         {"pitch_swing_deg", &Metrics::pitch_swing_deg},
         {"cup_margin_min_N", &Metrics::cup_margin_min_N},
+        {"off_place_m", &Metrics::off_place_m},
         {"energy_flying_Wh", &Metrics::energy_flying_Wh},
         {"energy_perched_Wh", &Metrics::energy_perched_Wh},
     };

@@ -54,21 +54,21 @@ struct Metrics {
     double pitch_oscillation_max_deg = kNaN;   ///< while waiting for the release
     double pitch_swing_deg = kNaN;             ///< half of its span, lowest to highest, meanwhile
     double cup_margin_min_N = kNaN;
+    double off_place_m = kNaN;  ///< at the end in the air, from where it belongs
     double energy_flying_Wh = 0.0;
     double energy_perched_Wh = 0.0;
     std::array<CupLoads, kLoadPhases.size()> loads{};
+};
 
-    /// Bookkeeping.
-    struct Memory {
-        double touch_s = kNaN;
-        double pump_off_s = kNaN;
-        bool awaits_touch = false;
-        double waiting_pitch_min_deg = kNaN;
-        double waiting_pitch_max_deg = kNaN;
-        double rest_pitch_min_deg = kNaN;
-        double rest_pitch_max_deg = kNaN;
-    };
-    Memory memory;
+/// Bookkeeping beside them.
+struct MetricsMemory {
+    double touch_s = kNaN;
+    double pump_off_s = kNaN;
+    bool awaits_touch = false;
+    double waiting_pitch_min_deg = kNaN;
+    double waiting_pitch_max_deg = kNaN;
+    double rest_pitch_min_deg = kNaN;
+    double rest_pitch_max_deg = kNaN;
 };
 
 /// A figure under the name by which results and columns call it; the unit is in the name.

@@ -39,11 +39,12 @@ std::optional<LoadPhase> load_phase(guidance::PerchingState state) {
     throw InternalError("perching state out of range");
 }
 
-void observe_contact(Metrics& metrics, guidance::PerchingState state, const ContactPeaks& peaks) {
-    if (metrics.memory.awaits_touch && !std::isnan(peaks.touch_s)) {
-        metrics.memory.awaits_touch = false;
+void observe_contact(Metrics& metrics, MetricsMemory& memory, guidance::PerchingState state,
+                     const ContactPeaks& peaks) {
+    if (memory.awaits_touch && !std::isnan(peaks.touch_s)) {
+        memory.awaits_touch = false;
         metrics.impact_speed_m_s = peaks.touch_speed_m_s;
-        metrics.memory.touch_s = peaks.touch_s;
+        memory.touch_s = peaks.touch_s;
     }
     const auto phase = load_phase(state);
     if (!phase) {
@@ -62,39 +63,39 @@ void observe_contact(Metrics& metrics, guidance::PerchingState state, const Cont
     lower(metrics.cup_margin_min_N, peaks.margin_N);
 }
 
-void observe_tick(Metrics& metrics, const guidance::PerchingParameters& guidance,
-                  const FlightState& flight) {
+void observe_tick(Metrics& metrics, MetricsMemory& memory,
+                  const guidance::PerchingParameters& guidance, const FlightState& flight) {
     const guidance::PerchingState state = flight.guidance.state;
     const Truth& truth = flight.truth;
     const CupStatus& cup = truth.cup_status;
     lower(metrics.pressure_min_Pa, cup.pressure_Pa);
-    if (std::isnan(metrics.time_to_land_pressure_s) && !std::isnan(metrics.memory.touch_s) &&
+    if (std::isnan(metrics.time_to_land_pressure_s) && !std::isnan(memory.touch_s) &&
         cup.pressure_Pa < guidance.land_pressure_Pa) {
-        metrics.time_to_land_pressure_s = truth.time_s - metrics.memory.touch_s;
+        metrics.time_to_land_pressure_s = truth.time_s - memory.touch_s;
     }
     if (state == guidance::PerchingState::releasing) {
         const double now_deg = pitch_deg(truth);
         raise(metrics.pitch_oscillation_max_deg, std::abs(now_deg));
-        lower(metrics.memory.waiting_pitch_min_deg, now_deg);
-        raise(metrics.memory.waiting_pitch_max_deg, now_deg);
+        lower(memory.waiting_pitch_min_deg, now_deg);
+        raise(memory.waiting_pitch_max_deg, now_deg);
         metrics.pitch_swing_deg =
-            0.5 * (metrics.memory.waiting_pitch_max_deg - metrics.memory.waiting_pitch_min_deg);
+            0.5 * (memory.waiting_pitch_max_deg - memory.waiting_pitch_min_deg);
         metrics.pressure_at_release_end_Pa = cup.pressure_Pa;
     }
     if (state == guidance::PerchingState::resting) {
         metrics.perched_pitch_deg = pitch_deg(truth);
         if (seconds(flight.tick) - flight.guidance.since_s >= guidance.rest_s - kSteady_s) {
-            lower(metrics.memory.rest_pitch_min_deg, metrics.perched_pitch_deg);
-            raise(metrics.memory.rest_pitch_max_deg, metrics.perched_pitch_deg);
+            lower(memory.rest_pitch_min_deg, metrics.perched_pitch_deg);
+            raise(memory.rest_pitch_max_deg, metrics.perched_pitch_deg);
             metrics.perched_pitch_spread_deg =
-                metrics.memory.rest_pitch_max_deg - metrics.memory.rest_pitch_min_deg;
+                memory.rest_pitch_max_deg - memory.rest_pitch_min_deg;
         }
     }
     metrics.energy_flying_Wh = flight.battery.energy_flying_J / kWh_J;
     metrics.energy_perched_Wh = flight.battery.energy_resting_J / kWh_J;
 }
 
-void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
+void observe_event(Metrics& metrics, MetricsMemory& memory, const Event& event, const Truth& truth,
                    const WallGeometry& wall) {
     if (event.name == EventName::approach_started) {
         const Vector3 x_B_W = truth.base.q_WF * Vector3::UnitX();
@@ -102,8 +103,8 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
         metrics.alignment_at_approach_deg = degrees(
             std::abs(wrap_pi(std::atan2(x_B_W.y(), x_B_W.x()) - std::atan2(x_T_W.y(), x_T_W.x()))));
         ++metrics.attempts;
-        metrics.memory.awaits_touch = true;
-        metrics.memory.touch_s = kNaN;
+        memory.awaits_touch = true;
+        memory.touch_s = kNaN;
         metrics.time_to_land_pressure_s = kNaN;
         metrics.impact_force_N = kNaN;
         metrics.cup_press_max_N = kNaN;
@@ -112,13 +113,13 @@ void observe_event(Metrics& metrics, const Event& event, const Truth& truth,
     } else if (event.name == EventName::motors_off) {
         metrics.perched_pitch_deg = pitch_deg(truth);
         metrics.perched_pitch_spread_deg = kNaN;
-        metrics.memory.rest_pitch_min_deg = kNaN;
-        metrics.memory.rest_pitch_max_deg = kNaN;
+        memory.rest_pitch_min_deg = kNaN;
+        memory.rest_pitch_max_deg = kNaN;
     } else if (event.name == EventName::pump_off) {
-        metrics.memory.pump_off_s = event.time_s;
+        memory.pump_off_s = event.time_s;
         metrics.release_s = kNaN;
-    } else if (event.name == EventName::detached && !std::isnan(metrics.memory.pump_off_s)) {
-        metrics.release_s = event.time_s - metrics.memory.pump_off_s;
+    } else if (event.name == EventName::detached && !std::isnan(memory.pump_off_s)) {
+        metrics.release_s = event.time_s - memory.pump_off_s;
     }
 }
 
@@ -146,11 +147,13 @@ double pitch_deg(const Truth& truth) {
 
 void observe(Observations& seen, const FlightModel& model, const FlightState& state,
              const TickReport& report) {
-    observe_contact(seen.metrics, state.guidance.state, report.contact);
-    observe_tick(seen.metrics, model.guidance, state);
+    observe_contact(seen.metrics, seen.memory, state.guidance.state, report.contact);
+    observe_tick(seen.metrics, seen.memory, model.guidance, state);
     for (std::size_t k = 0; k < report.events.count; ++k) {
-        observe_event(seen.metrics, report.events.events[k], state.truth, model.cup.wall);
+        observe_event(seen.metrics, seen.memory, report.events.events[k], state.truth,
+                      model.cup.wall);
     }
+    watch_end(seen.end, model, state);
     if (due(state.tick, kDigestRate_Hz)) {
         digest(seen.hash, state.truth, state.autopilot.estimate);
     }

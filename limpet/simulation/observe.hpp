@@ -6,6 +6,7 @@
 #include "limpet/simulation/metrics.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/tick_report.hpp"
+#include "limpet/simulation/true_end.hpp"
 
 namespace limpet::simulation {
 
@@ -15,8 +16,10 @@ inline constexpr int kDigestRate_Hz = 100;
 /// What a flight has looked like from outside so far. No station reads it.
 struct Observations {
     Metrics metrics;
+    MetricsMemory memory;
     long long physics_steps = 0;
     std::uint64_t hash = 0;  ///< digest of the trajectory
+    EndWatch end;
 };
 
 /// Of the vehicle's nose, up positive.

@@ -62,10 +62,17 @@ Json common(const FlightResult& result) {
     for (const Event& event : result.events) {
         events.push_back(json_of(event));
     }
-    Json json = {{"scenario", result.scenario},          {"seed", result.seed},
-                 {"outcome", to_string(result.outcome)}, {"reason", result.reason},
-                 {"attempts", result.attempts},          {"events", events},
-                 {"metrics", json_of(result.metrics)},   {"loads", loads_of(result.metrics)}};
+    Json json = {{"scenario", result.scenario},
+                 {"seed", result.seed},
+                 {"outcome", to_string(result.outcome)},
+                 {"reason", result.reason},
+                 {"true_end", to_string(result.true_end)},
+                 {"borne_out", bears_out(result.true_end, result.outcome)},
+                 {"success", is_success(result.outcome, result.true_end)},
+                 {"attempts", result.attempts},
+                 {"events", events},
+                 {"metrics", json_of(result.metrics)},
+                 {"loads", loads_of(result.metrics)}};
     if (result.autopilot) {
         json["autopilot"] = json_of(*result.autopilot);
     }

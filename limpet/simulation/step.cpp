@@ -155,8 +155,7 @@ LIMPET_FOR_MACHINES [[gnu::flatten]] void step(const FlightModel& model, FlightS
     state.tick += stride.ticks;
     see_truth(model, state, plant);
     if (!state.ending) {
-        const std::optional<guidance::Ending> hit = collision(model, state.truth);
-        state.ending = hit ? hit : state.guidance.ending;
+        state.ending = collision(model, state.truth);
     }
 }
 

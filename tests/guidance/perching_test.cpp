@@ -94,6 +94,38 @@ TEST(Perching, GivesUpAfterItsAttempts) {
     EXPECT_EQ(puppet.memory.attempt, puppet.parameters.attempts);
 }
 
+/// A seal that comes and goes again is another failure than one that never came.
+TEST(Perching, TellsASealThatWasLostFromNone) {
+    Puppet puppet;
+    puppet.leak_tau_s = 0.03;
+    for (int attempt = 1; attempt <= puppet.parameters.attempts; ++attempt) {
+        puppet.seals = true;
+        ASSERT_TRUE(puppet.run_to(PerchingState::holding));
+        puppet.run(0.3);
+        puppet.seals = false;  // it comes off before the decision
+        ASSERT_TRUE(puppet.run_to(PerchingState::retreating));
+        EXPECT_EQ(puppet.events.back().name, EventName::retreat_started);
+        EXPECT_EQ(puppet.events.back().reason, "sealed, but does not hold");
+        EXPECT_EQ(puppet.memory.cup.seals_lost, attempt);
+    }
+    puppet.run(60.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.ending->outcome, Outcome::failed_to_seal);
+    EXPECT_EQ(puppet.memory.ending->reason.view(), "sealed and came off in every attempt");
+}
+
+TEST(Perching, OneAttemptWithoutASealIsNotOneThatCameOff) {
+    Puppet puppet;
+    puppet.leak_tau_s = 0.03;
+    ASSERT_TRUE(puppet.run_to(PerchingState::holding));
+    puppet.run(0.3);
+    puppet.seals = false;
+    puppet.run(200.0);
+    ASSERT_TRUE(puppet.memory.ending);
+    EXPECT_EQ(puppet.memory.cup.seals_lost, 1);
+    EXPECT_EQ(puppet.memory.ending->reason.view(), "no landing in any attempt");
+}
+
 TEST(Perching, PumpGoesOffOnlyOnceLevelAndStable) {
     Puppet puppet;
     ASSERT_TRUE(puppet.run_to(PerchingState::pitching_down));

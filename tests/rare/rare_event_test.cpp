@@ -67,6 +67,20 @@ TEST(RareEvent, AnOutcomeHasAFigureThatLeadsToIt) {
     EXPECT_FALSE(crashed.rising);
 }
 
+TEST(RareEvent, ASuccessIsOneByTheTruthAlone) {
+    const RareEvent released =
+        parse_rare_event("released", {.falling = "cup_margin_min_N", .rising = {}});
+    campaign::RunRow row;
+    row.outcome = "released";
+    row.true_end = "hovering";
+    EXPECT_TRUE(released.happened(row));
+    row.true_end = "adrift";
+    EXPECT_FALSE(released.happened(row));
+    const RareEvent failed = parse_rare_event("failed_to_seal");
+    row.outcome = "failed_to_seal";
+    EXPECT_TRUE(failed.happened(row)) << "a failure, whatever the truth adds";
+}
+
 TEST(RareEvent, OneLineForWhatIsNone) {
     EXPECT_THAT(refusal("crash"), HasSubstr("did you mean crashed?"));
     EXPECT_THAT(refusal("cup_margin_mn_N<0"), HasSubstr("did you mean cup_margin_min_N?"));

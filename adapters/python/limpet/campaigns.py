@@ -38,8 +38,10 @@ class CampaignResult:
 
     @property
     def success(self) -> np.ndarray:
-        """Of each run."""
-        return np.isin(self.runs["outcome"], self.success_means)
+        """Of each run: its outcome is one that counts, and the truth (`true_end`) bears it out."""
+        pairs = list(zip(self.runs["true_end"].tolist(), self.runs["outcome"].tolist()))
+        good = {pair for pair in set(pairs) if pair[1] in self.success_means and _core._bears_out(*pair)}
+        return np.array([pair in good for pair in pairs], dtype=bool)
 
     def interval(self, which: Any = slice(None)) -> tuple[float, float, float]:
         """share_of() among the runs `which`."""

@@ -321,7 +321,7 @@ class Mission(_Env):
         result = fly(self.scenario, {"simulation.start_yaw_deg": 10.0 * yaw, "wall.lean_deg": 3.0 * lean,
                                      "simulation.start_offset_m": 0.1 * offset,
                                      **mission_changes(action)}, seed=self._seed, rate_Hz=1)
-        success = result.outcome == "released"
+        success = result.outcome == "released" and result.success
         reward = 1.0 - 0.1 * (result.attempts - 1) if success else -1.0 * (result.outcome == "crashed")
         return (self._drawn.astype(np.float32), reward, True, False,
                 {"success": success, "outcome": result.outcome, "metrics": result.metrics})

@@ -49,7 +49,7 @@ def plot(result: _core.Result, *others: _core.Result, events: bool = True,
                          for i, event in enumerate(named, 1))
         figure.text(1.005, 0.98, text, va="top", fontsize="small")
     axes[-1, 0].set_xlabel("time [s]")
-    axes[0, 0].set_title(f"{result.outcome.replace('_', ' ')}: {result.reason}", loc="left", pad=14)
+    axes[0, 0].set_title(f"{result.outcome.replace('_', ' ')}: {result.reason}; in truth {result.true_end.replace('_', ' ')}", loc="left", pad=14)
     if file is not None:
         figure.savefig(file, dpi=150, bbox_inches="tight")
     return figure

@@ -60,6 +60,12 @@ std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
     return {proportion.probability(), interval.low, interval.high};
 }
 
+bool bears_out_named(const std::string& truth, const std::string& outcome) {
+    const auto end = true_end_from(truth);
+    const auto told = outcome_from(outcome);
+    return end && told && bears_out(*end, *told);
+}
+
 /// Flies the runs that are missing, on other threads, while this one listens to Ctrl-C.
 /// @return the file of results
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
@@ -115,6 +121,7 @@ void add_campaign(py::module_& module) {
                py::arg("jobs"), py::arg("resume"), py::arg("on_progress"));
     module.def("_success_of", &success_of, py::arg("yaml"));
     module.def("_share", &share, py::arg("successes"), py::arg("runs"));
+    module.def("_bears_out", &bears_out_named, py::arg("true_end"), py::arg("outcome"));
 }
 
 }  // namespace limpet::python

@@ -153,6 +153,12 @@ void add_result(py::module_& module) {
         .def_property_readonly(
             "outcome", [](const Flown& f) { return std::string(to_string(f.result.outcome)); },
             "released, perched, failed_to_seal, crashed, ...")
+        .def_property_readonly(
+            "true_end", [](const Flown& f) { return std::string(to_string(f.result.true_end)); },
+            "what the truth shows: on_wall, hovering, adrift, standing, fallen, moving, mounted")
+        .def_property_readonly(
+            "success", [](const Flown& f) { return f.result.success; },
+            "perched or released, and so by the truth")
         .def_property_readonly("reason", [](const Flown& f) { return f.result.reason; })
         .def_property_readonly(
             "simulated_s", [](const Flown& f) { return f.result.simulated_s; }, "[s]")

@@ -89,8 +89,8 @@ void Simulator::end() {
         log_->finish(summary_json(result));
         log_.reset();
     }
-    fmt::print("{}: {}, after {:.2f} s\n", to_string(result.outcome), result.reason,
-               result.performance.simulated_s);
+    fmt::print("{}: {}, after {:.2f} s\n", told_with_truth(result.outcome, result.true_end),
+               result.reason, result.performance.simulated_s);
     flight_.reset();
 }
 

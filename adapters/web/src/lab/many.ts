@@ -205,11 +205,16 @@ export class Many {
       [x, y],
       this.rows.map((row) => ({ ...row, x: xOf(row), y: yOf(row) })),
     );
-    const counts = new Map<string, { outcome: string; success: boolean; runs: number }>();
+    const counts = new Map<
+      string,
+      { outcome: string; told: string; success: boolean; runs: number }
+    >();
     for (const { outcome, success } of this.rows) {
-      const count = counts.get(outcome) ?? { outcome, success, runs: 0 };
+      const untrue = !success && (this.state?.success.outcomes.includes(outcome) ?? false);
+      const told = untrue ? `${outcome}, but not in truth` : outcome;
+      const count = counts.get(told) ?? { outcome, told, success, runs: 0 };
       count.runs += 1;
-      counts.set(outcome, count);
+      counts.set(told, count);
     }
     this.legend.replaceChildren(
       ...[...counts.values()]
@@ -220,13 +225,13 @@ export class Many {
           if (context !== null) {
             drawMark(context, count, 6, 6);
           }
-          return element("li", {}, sign, ` ${count.outcome} ${count.runs}`);
+          return element("li", {}, sign, ` ${count.told} ${count.runs}`);
         }),
     );
     this.map.canvas.ariaLabel = `${this.rows.length} runs, ${x.name} across, ${y.name} up: ${[
       ...counts.values(),
     ]
-      .map(({ outcome, runs }) => `${runs} ${outcome}`)
+      .map(({ told, runs }) => `${runs} ${told}`)
       .join(", ")}`;
   }
   /** The server flies it to the state hash of its row, or says that it cannot. */
@@ -245,7 +250,7 @@ export class Many {
       this.map.draw();
       this.looked = { run, outcome: recording.outcome, end: recording.duration };
       this.told.textContent = [
-        `run ${run}: ${row.outcome}${row.reason === "" ? "" : `, ${row.reason}`}`,
+        `run ${run}: ${row.outcome}${row.reason === "" ? "" : `, ${row.reason}`}; in truth ${row.true_end}`,
         ...state.keys.map(({ key }, k) => `${key} = ${row.values[k]}`),
       ].join("\n");
     });

@@ -49,6 +49,7 @@ export interface ManyRow {
   run: number;
   outcome: string;
   reason: string;
+  true_end: string; // of limpet/core/signals/true_end.hpp
   success: boolean;
   values: (number | string)[];
   metrics: (number | null)[];

@@ -192,8 +192,10 @@ export class Builder implements McapTaker {
     if (name.toLowerCase().endsWith(".stl")) {
       this.recording.meshes.set(name, data);
     } else if (name === "summary.json") {
-      const summary: unknown = JSON.parse(new TextDecoder().decode(data));
-      this.recording.outcome = String((summary as { outcome?: unknown }).outcome ?? "");
+      const summary = JSON.parse(new TextDecoder().decode(data)) as Record<string, unknown>;
+      const outcome = String(summary.outcome ?? "");
+      this.recording.outcome =
+        summary.borne_out === false ? `${outcome}, in truth ${String(summary.true_end)}` : outcome;
     }
   }
   metadata(name: string, values: Map<string, string>): void {

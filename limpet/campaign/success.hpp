@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "limpet/campaign/results.hpp"
+
+// What of a campaign's runs counts as a success: an outcome that it names, borne out by the truth
+// (core/signals/true_end.hpp).
+namespace limpet::campaign {
+
+/// Whether a run ended with `outcome`, and so by the truth.
+[[nodiscard]] bool ended_as(const RunRow& row, Outcome outcome);
+[[nodiscard]] bool is_success(const Campaign& campaign, const RunRow& row);
+
+/// The same as a condition on the columns of the table `runs`.
+[[nodiscard]] std::string success_sql(const Campaign& campaign);
+
+}  // namespace limpet::campaign
