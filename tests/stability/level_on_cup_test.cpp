@@ -138,13 +138,15 @@ TEST(LevelOnCup, KnowsWhatItDoesNotLinearise) {
     EXPECT_EQ(refused({"vehicle.rotor.motor_kv_rpm_V=380"}), "");
 }
 
-/// A broken promise is no answer: it comes out, where a vehicle without a rest is none.
-TEST(LevelOnCup, AFaultComesOutAndNoRestIsNone) {
+/// A broken promise is no answer: it comes out, where modes without one in pitch are none.
+TEST(LevelOnCup, AFaultComesOutAndNoModeInPitchIsNone) {
     const auto sound = simulation::build_model(scenario::load_scenario("perch_metal"));
     auto broken = std::make_shared<simulation::FlightModel>(*sound);
     broken->control_rate_Hz = 300;
     EXPECT_THROW(LevelOnCup{broken}, InternalError);
-    EXPECT_FALSE(linear_swing("perch_metal", kRestless));
+    EXPECT_FALSE(pitch_mode({}));
+    EXPECT_FALSE(pitch_mode({{.growth_1_s = 0.1, .frequency_Hz = 0.6, .pitch_share = 0.1}}));
+    EXPECT_TRUE(pitch_mode({{.growth_1_s = -0.1, .frequency_Hz = 0.6, .pitch_share = 0.9}}));
 }
 
 /// The paper tells of pitch: nothing else may grow.

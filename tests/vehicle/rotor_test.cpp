@@ -55,7 +55,7 @@ TEST(Rotor, SeveralStepsAtOnceAreThoseOneByOne) {
             for (int k = 0; k < 4; ++k) {
                 step(airframe.rotor, lag, one_by_one, command);
             }
-            step(airframe.rotor, lag, at_once, command, 1.0, nullptr, 4);
+            step(airframe.rotor, lag, at_once, command, {}, 4);
             EXPECT_EQ(at_once.speed_rad_s, one_by_one.speed_rad_s);
         }
     }
