@@ -11,6 +11,7 @@
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
+#include "limpet/models/stl_reader.hpp"
 
 namespace limpet::simulation {
 namespace {
