@@ -134,7 +134,7 @@ void Unpacker::unpack(std::string_view compression, ByteView stored, Bytes& out)
         const std::size_t size = ZSTD_decompressDCtx(contexts_->zstd.get(), out.data(), out.size(),
                                                      stored.data(), stored.size());
         if (ZSTD_isError(size) != 0U || size != out.size()) {
-            throw Malformed("chunk that does not unpack");
+            throw Malformed("chunk that does not unpack by " + std::string(compression));
         }
         return;
     }
@@ -151,7 +151,7 @@ void Unpacker::unpack(std::string_view compression, ByteView stored, Bytes& out)
     }
     if (size != out.size() || more != 0 || !progress.whole || progress.broken ||
         progress.at != stored.size()) {
-        throw Malformed("chunk that does not unpack");
+        throw Malformed("chunk that does not unpack by " + std::string(compression));
     }
 }
 
