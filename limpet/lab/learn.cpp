@@ -78,9 +78,8 @@ void Learn::begin(std::string_view request) {
     next_ = 0;
     trouble_.clear();
     stop_ = false;
-    running_ = true;
     ++id_;
-    thread_ = std::jthread([this] {
+    thread_ = begin_thread(running_, [this] {
         try {
             plant::fly_side_by_side([this] { fly_all(); });
         } catch (const std::exception&) {

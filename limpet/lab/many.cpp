@@ -145,8 +145,7 @@ void Many::begin(std::string_view request) {
     progress_ = {};
     problem_.clear();
     stop_ = false;
-    running_ = true;
-    thread_ = std::jthread([this] {
+    thread_ = begin_thread(running_, [this] {
         // One processor is the page's.
         const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
         try {
