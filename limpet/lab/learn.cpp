@@ -78,21 +78,15 @@ void Learn::begin(std::string_view request) {
     next_ = 0;
     trouble_.clear();
     stop_ = false;
-    running_ = true;
     ++id_;
-    try {
-        thread_ = std::jthread([this] {
-            try {
-                plant::fly_side_by_side([this] { fly_all(); });
-            } catch (const std::exception&) {
-                trouble_.keep();
-            }
-            running_ = false;
-        });
-    } catch (...) {  // no thread can be had
+    thread_ = begin_thread(running_, [this] {
+        try {
+            plant::fly_side_by_side([this] { fly_all(); });
+        } catch (const std::exception&) {
+            trouble_.keep();
+        }
         running_ = false;
-        throw;
-    }
+    });
 }
 
 void Learn::fly_all() {

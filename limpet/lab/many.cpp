@@ -143,8 +143,7 @@ void Many::begin(std::string_view request) {
     progress_ = {};
     problem_.clear();
     stop_ = false;
-    running_ = true;
-    const auto fly = [this] {
+    thread_ = begin_thread(running_, [this] {
         // One processor is the page's.
         const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
         try {
@@ -168,13 +167,7 @@ void Many::begin(std::string_view request) {
             problem_ = error.what();
         }
         running_ = false;
-    };
-    try {
-        thread_ = std::jthread(fly);
-    } catch (...) {
-        running_ = false;
-        throw;
-    }
+    });
 }
 
 std::string Many::rows(std::string_view request) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -9,6 +10,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <utility>
 #include <vector>
 
 namespace limpet::lab {
@@ -47,6 +50,18 @@ private:
     mutable std::mutex guards_it_;
     std::exception_ptr first_;
 };
+
+/// @param running  set, and cleared again where there is no thread to be had: that is thrown
+template <class Work>
+[[nodiscard]] std::jthread begin_thread(std::atomic<bool>& running, Work work) {
+    running = true;
+    try {
+        return std::jthread(std::move(work));
+    } catch (...) {
+        running = false;
+        throw;
+    }
+}
 
 /// @return a file's bytes; the file is removed
 [[nodiscard]] std::string taken(const std::filesystem::path& file);

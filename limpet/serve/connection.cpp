@@ -8,6 +8,7 @@
 #include <boost/beast/websocket.hpp>
 #include <new>
 #include <optional>
+#include <system_error>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/serve/address.hpp"
@@ -280,6 +281,10 @@ private:
             return Response{.status = 400, .body = std::string(error.what()) + "\n"};
         } catch (const std::bad_alloc&) {
             return Response{.status = 503, .body = "not enough memory\n"};
+        } catch (const std::system_error& error) {
+            const bool for_now = error.code() == std::errc::resource_unavailable_try_again;
+            return Response{.status = for_now ? 503U : 500U,  // no thread to be had
+                            .body = std::string(error.what()) + "\n"};
         } catch (const std::exception& error) {
             return Response{.status = 500, .body = std::string(error.what()) + "\n"};
         }

@@ -120,12 +120,14 @@ TEST(Run, WithoutMemoryInTheAirControlIsHandedBack) {
     Theatre theatre({"guidance.dock_speed_m_s=0.1"});
     bool lacks = false;
     const CompanionResult result =
-        theatre.run({}, {.on_event = [&lacks](const Event& event) {
-                        if (event.name == EventName::approach_started && !lacks) {
-                            lacks = true;
-                            throw std::bad_alloc();
-                        }
-                    }});
+        theatre.run({}, {.on_event =
+                             [&lacks](const Event& event) {
+                                 if (event.name == EventName::approach_started && !lacks) {
+                                     lacks = true;
+                                     throw std::bad_alloc();
+                                 }
+                             },
+                         .on_line = {}});
     EXPECT_TRUE(lacks);
     EXPECT_EQ(result.end, CompanionEnd::handed_back);
     EXPECT_THAT(result.reason, testing::StartsWith("not enough memory; interrupted"));

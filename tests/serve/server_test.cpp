@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <future>
 #include <list>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -52,6 +53,9 @@ struct Served : testing::Test {
             return Response{.content_type = "application/json", .body = asked.path};
         });
         server->post("/things", [](const Request& asked) -> Response {
+            if (asked.body == "thread") {
+                throw std::system_error(EAGAIN, std::generic_category());
+            }
             if (asked.body == "memory") {
                 throw std::bad_alloc();
             }
@@ -215,6 +219,8 @@ TEST_F(Served, WithoutMemoryARequestIsRefusedAndTheNextIsServed) {
     const HttpResponse answer = ask(sent);
     EXPECT_EQ(answer.result_int(), 503U);
     EXPECT_EQ(answer.body(), "not enough memory\n");
+    sent.body() = "thread";
+    EXPECT_EQ(ask(sent).result_int(), 503U);
     EXPECT_EQ(status(http::verb::get, "/secret/"), 200U);
 }
 
