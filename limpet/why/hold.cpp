@@ -106,7 +106,7 @@ void HoldWatch::tick(const simulation::Flight& flight, const guidance::EventList
     const double time_s = seconds(state.tick);
     const bool sealed = suction::is_sealed(cup.phase);
     if (sealed && !sealed_) {
-        holds_.push_back({.sealed_s = time_s});
+        holds_.emplace_back().sealed_s = time_s;
     }
     if (sealed) {
         const vehicle::AirframeNumbers& airframe = flight.model().airframe;
