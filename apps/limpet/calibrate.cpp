@@ -162,6 +162,10 @@ void calibrate(CalibrateOptions options) {
         }
         require_known_motion(scenario.airframe, options.vehicle);
         fit = identify_vehicle(data, scenario.airframe);
+        if (data.origin_s > 0.0) {
+            fit.notes.push_back(
+                fmt::format("times are from the first sample, at {:.3f} s", data.origin_s));
+        }
     } catch (const InputError& error) {
         const std::string why = error.what();
         throw InputError(why.find(options.log) == std::string::npos ? options.log + ": " + why

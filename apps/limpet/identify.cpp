@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/identification/identification.hpp"
@@ -130,7 +131,7 @@ std::string text_of(const identification::PressureFit& fit, const std::vector<Ro
 }
 
 ordered_json json_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
-                     const std::optional<scenario::Surface>& surface) {
+                     const std::optional<scenario::Surface>& surface, double origin_s) {
     ordered_json json;
     for (const Row& row : rows) {
         json[row.key] = nullptr;
@@ -145,6 +146,7 @@ ordered_json json_of(const identification::PressureFit& fit, const std::vector<R
     json["residual_Pa"] = fit.residual_Pa;
     json["residual_memory_s"] = fit.memory_s;
     json["samples"] = fit.samples;
+    json["time_origin_s"] = origin_s;
     json["nearest_surface"] = surface ? ordered_json(surface->name) : ordered_json(nullptr);
     json["notes"] = fit.notes;
     return json;
@@ -222,12 +224,22 @@ void identify(IdentifyOptions options) {
     };
     const fs::path log = scenario::find_sample(options.log, ".csv");
     const identification::PressureTrace trace = identification::read_pressure_log(log);
+    for (std::optional<double>* time_s : {&options.of_log.pump_on_s, &options.of_log.pump_off_s,
+                                          &options.of_log.from_s, &options.of_log.to_s}) {
+        if (*time_s) {
+            *time_s = since_origin_s(**time_s, trace.origin_s);
+        }
+    }
     go_on("nothing");
     identification::PressureFit fit;
     try {
         fit = identify_pressure(trace, options.of_log);
     } catch (const InputError& error) {
         throw InputError(log.string() + ": " + error.what());
+    }
+    if (trace.origin_s > 0.0) {
+        fit.notes.push_back(
+            fmt::format("times are from the first sample, at {:.3f} s", trace.origin_s));
     }
     go_on("nothing");
     const std::optional<scenario::Surface> surface = nearest_surface(fit);
@@ -237,7 +249,7 @@ void identify(IdentifyOptions options) {
     if (draws) {
         (void)make_folder(folder);
     }
-    fmt::print("{}", options.json ? json_of(fit, rows, surface).dump(2) + "\n"
+    fmt::print("{}", options.json ? json_of(fit, rows, surface, trace.origin_s).dump(2) + "\n"
                                   : text_of(fit, rows, surface));
     if (!draws) {
         return;

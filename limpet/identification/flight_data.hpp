@@ -28,6 +28,7 @@ struct FlightData {
     /// (simulation/stride.hpp), which says when a command acts. Empty: nothing went in steps.
     std::vector<int> strides = {};
     std::string scenario_yaml = {};  ///< that a flight of ours was flown by
+    double origin_s = 0.0;           ///< of all times, in the log's clock (core/clock_origin.hpp)
     std::string kind = {};           ///< "recording", "PX4 log", "CSV"
 };
 
@@ -39,7 +40,8 @@ struct FlightSpan {
 /// Reads a log by how it begins: an MCAP recording of ours (or of others with our topics), PX4's
 /// ULog, or CSV: a header with `t_s` and any of gyro_x_rad_s (y, z), accel_x_m_s2, command_0 (1,
 /// ...), velocity_x_m_s (all in B, forward-right-down), force_N, pressure_Pa; an empty cell is no
-/// sample.
+/// sample. Times of a clock (Unix, GPS) count from the first sample.
+/// @param span  in the log's clock or from its first sample
 /// @throws InputError one line: file:line in CSV, what is missing or cannot be read
 [[nodiscard]] FlightData read_flight(const std::filesystem::path& path,
                                      const FlightSpan& span = {});

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
@@ -74,7 +75,11 @@ void add_sample(const CsvLine& line, const Columns& columns, PressureTrace& trac
         }
         return *value;
     };
-    const double t_s = number("t_s", columns.time);
+    double t_s = number("t_s", columns.time);
+    if (trace.t_s.empty()) {
+        trace.origin_s = clock_origin_s(t_s);
+    }
+    t_s -= trace.origin_s;
     const double pressure_Pa = number("pressure_Pa", columns.pressure);
     if (!trace.t_s.empty() && t_s <= trace.t_s.back()) {
         line.refuse(
@@ -82,8 +87,10 @@ void add_sample(const CsvLine& line, const Columns& columns, PressureTrace& trac
             t_s == trace.t_s.back() ? "as in the row before" : "earlier than the row before");
     }
     if (pressure_Pa < 0.0) {
-        line.refuse("pressure_Pa is {}, below zero: it must be absolute, in Pa",
-                    in_quotes(fields[columns.pressure]));
+        line.refuse(
+            "pressure_Pa is {}, below zero: gauge pressure? It must be absolute, in Pa: add "
+            "the atmosphere's, some 101325",
+            in_quotes(fields[columns.pressure]));
     }
     trace.t_s.push_back(t_s);
     trace.pressure_Pa.push_back(pressure_Pa);

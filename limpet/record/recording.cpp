@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <memory>
+#include <optional>
 
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/mcap/reader.hpp"
 #include "limpet/record/topics.hpp"
@@ -68,6 +70,11 @@ std::vector<RecordedEvent> events_of(const Table& table) {
     return events;
 }
 
+double seconds_after(std::uint64_t origin_ns, std::uint64_t time_ns) {
+    return time_ns >= origin_ns ? 1e-9 * static_cast<double>(time_ns - origin_ns)
+                                : -1e-9 * static_cast<double>(origin_ns - time_ns);
+}
+
 }  // namespace
 
 const Table& Recording::table(std::string_view topic) const {
@@ -100,6 +107,7 @@ Recording read_recording(const std::filesystem::path& path) {
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
     std::vector<std::string> problems;
     std::size_t unread = 0;
+    std::optional<std::uint64_t> origin_ns;  // whole: a double of a clock's time ends at 0.2 us
     mcap::Contents contents = mcap::read(path, [&](const mcap::Contents& so_far,
                                                    const mcap::Message& message) {
         const auto [at, is_new] = topics.try_emplace(message.channel_id);
@@ -110,7 +118,10 @@ Recording read_recording(const std::filesystem::path& path) {
                 open(so_far, channel, allowance, topic);
             }
             if (topic.reader) {
-                topic.reader->append(static_cast<double>(message.log_time_ns) * 1e-9, message.data);
+                if (!origin_ns) {
+                    origin_ns = clock_origin_ns(message.log_time_ns);
+                }
+                topic.reader->append(seconds_after(*origin_ns, message.log_time_ns), message.data);
             }
         } catch (const TooMuch& problem) {
             throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
@@ -126,6 +137,7 @@ Recording read_recording(const std::filesystem::path& path) {
 
     Recording recording;
     recording.path = path;
+    recording.origin_ns = origin_ns.value_or(0);
     for (auto& [id, topic] : topics) {
         if (topic.reader) {
             recording.tables.push_back(std::move(topic.table));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -36,6 +37,7 @@ struct Recording {
     std::vector<mcap::Attachment> attachments;
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
+    std::uint64_t origin_ns = 0;  ///< of all times, in the clock of the file (core/clock_origin.hpp)
     std::string damage;  ///< what is missing, in one sentence; empty when whole
 
     /// @throws InputError naming the topics that are there
@@ -48,7 +50,7 @@ struct Recording {
 
 /// Reads a whole recording, or what is whole in a damaged one: see Recording::damage. Any MCAP file
 /// of ROS 2 messages with "ros2msg" schemas can be read, not ours alone; topics of another kind are
-/// left out and named in `damage`.
+/// left out and named in `damage`. Times of a clock count from the first message.
 /// @throws InputError if path is no MCAP file
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -153,6 +155,46 @@ void expect_refused(const std::string& log, const std::vector<std::string>& text
         EXPECT_THAT(finished.err, HasSubstr(text));
     }
     EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
+}
+
+std::string at_unix_time(const std::string& log) {
+    std::istringstream lines(log);
+    std::string out;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t comma = line.rfind(',');
+        out += line.starts_with("x,") ? fmt::format("{}{:.6f}", line.substr(0, comma + 1),
+                                                    1.71e9 + std::stod(line.substr(comma + 1)))
+                                      : line;
+        out += '\n';
+    }
+    return out;
+}
+
+TEST(Identify, ALogWithAClocksTimesGivesTheSameNumbers) {
+    const Bench bench;
+    (void)bench.write("rel.csv", concrete_log());
+    (void)bench.write("unix.csv", at_unix_time(concrete_log()));
+    const auto numbers = [&](const std::string& log, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"identify", log, "--json"});
+        const Finished finished = bench.run(more);
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        return nlohmann::json::parse(finished.out);
+    };
+    const auto rel = numbers("rel.csv"), unix_time = numbers("unix.csv");
+    for (const char* key :
+         {"sealing_time_constant_s", "unsealing_time_constant_s", "sealing_begins_s"}) {
+        for (const char* part : {"value", "low", "high"}) {
+            EXPECT_NEAR(unix_time[key][part].get<double>(), rel[key][part].get<double>(), 2e-6)
+                << key;
+        }
+    }
+    EXPECT_EQ(unix_time["time_origin_s"], 1.71e9);
+    EXPECT_EQ(rel["time_origin_s"], 0.0);
+    // Times are taken in the clock, too.
+    EXPECT_EQ(numbers("unix.csv", {"--to", "1710000005"})["samples"],
+              numbers("rel.csv", {"--to", "5"})["samples"]);
+    EXPECT_THAT(bench.run({"identify", "unix.csv"}).out,
+                HasSubstr("note            times are from the first sample, at 1710000000.000 s"));
 }
 
 TEST(Identify, RefusesBadInputInOneLine) {

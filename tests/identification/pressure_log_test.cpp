@@ -45,6 +45,17 @@ TEST(PressureLog, TakesARecordingWrittenAsCsv) {
     EXPECT_THAT(trace.pressure_Pa, ElementsAre(101284.0));
 }
 
+TEST(PressureLog, AClocksTimesCountFromTheFirstSample) {
+    const PressureTrace unix_time =
+        read("t_s,pressure_Pa\n1710000000.000,101325\n1710000000.026,101000\n");
+    EXPECT_EQ(unix_time.origin_s, 1710000000.0);
+    EXPECT_EQ(unix_time.t_s[0], 0.0);
+    EXPECT_NEAR(unix_time.t_s[1], 0.026, 3e-7);
+    const PressureTrace of_its_own = read("t_s,pressure_Pa\n5.2,101325\n5.3,101000\n");
+    EXPECT_EQ(of_its_own.origin_s, 0.0);
+    EXPECT_THAT(of_its_own.t_s, ElementsAre(5.2, 5.3));
+}
+
 TEST(PressureLog, RefusesWithTheLineAndWhatIsThere) {
     EXPECT_THAT(refusal(""), HasSubstr("log.csv: is empty"));
     EXPECT_THAT(refusal("# only\n\n"), HasSubstr("is empty"));
