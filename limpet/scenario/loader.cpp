@@ -122,7 +122,7 @@ fs::path data_of(const LoadOptions& options) {
 
 Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
     for (const std::string& override_text : options.overrides) {
-        set_override(root, override_text);
+        set_override(root, with_files_of(override_text, options.folder));
     }
     read_scenario(root, data_of(options), scenario);
     scenario.seed = options.seed.value_or(scenario.seed);
