@@ -248,9 +248,8 @@ OptionRule not_with(const char* other) {
 }
 
 Option overrides_option(std::vector<std::string>& overrides, const char* about) {
-    return {"--set KEY=VALUE", &overrides, about, [](CLI::App&, CLI::Option& option) {
-                option.expected(1)->take_all();
-            }};
+    return {"--set KEY=VALUE", &overrides, about,
+            [](CLI::App&, CLI::Option& option) { option.expected(1)->take_all(); }};
 }
 
 Option jobs_option(int& jobs) {

@@ -8,7 +8,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/data_folder.hpp"
-#include "limpet/scenario/makers.hpp"
+#include "limpet/scenario/remarks.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "output.hpp"
 
@@ -78,7 +78,7 @@ ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outco
 void introduce(const scenario::Scenario& scenario, Terminal& terminal) {
     terminal.line(terminal.bold(scenario.name) +
                   fmt::format(", seed {}: {}", scenario.seed, scenario.description));
-    for (const std::string& warning : scenario::makers_warnings(scenario)) {
+    for (const std::string& warning : scenario::remarks(scenario)) {
         terminal.line("note", warning);
     }
 }

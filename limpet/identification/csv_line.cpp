@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string_view> csv_fields(std::string_view line) {
+std::vector<std::string_view> csv_fields(std::string_view line, char separator) {
     std::vector<std::string_view> fields;
     std::size_t begin = 0;
     bool quoted = false;
@@ -30,7 +30,7 @@ std::vector<std::string_view> csv_fields(std::string_view line) {
         if (i < line.size() && line[i] == '"') {
             quoted = !quoted;
         }
-        if (i == line.size() || (line[i] == ',' && !quoted)) {
+        if (i == line.size() || (line[i] == separator && !quoted)) {
             fields.push_back(trimmed(line.substr(begin, i - begin)));
             begin = i + 1;
         }
@@ -47,7 +47,7 @@ void for_each_csv_line(std::istream& text, const std::string& name,
         }
         const CsvLine line{row, name, number};
         if (row.find('\0') != std::string::npos || row.size() > kLongestLine) {
-            line.refuse("not a text file of comma-separated values");
+            line.refuse("not a text file of rows and columns");
         }
         const std::string_view content = trimmed(row);
         if (!content.empty() && content.front() != '#') {

@@ -25,9 +25,9 @@ struct CsvLine {
     }
 };
 
-/// Fields between commas, without blanks and quotes around them; commas inside quotes belong to
-/// their field.
-[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+/// Fields between separators, without blanks and quotes around them; separators inside quotes
+/// belong to their field.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line, char separator = ',');
 
 /// Every line with something in it, in turn; blank ones and those that begin with '#' are passed
 /// over, a byte order mark too.
