@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"

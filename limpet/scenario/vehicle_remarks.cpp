@@ -115,7 +115,7 @@ private:
         if (!keys.empty() && !within(share, 1.0, kFactor)) {
             say("{} not given, so the {:.3g} kg vehicle's; with {:.3g} kg the slider moves as its "
                 "does at some {:.2g} N/m, {:.2g} N s/m, {:.2g} N",
-                fmt::join(keys, ", "), paper.mass_kg, mass_kg_, share * paper.slider.stiffness_N_m,
+                fmt::format("{}", fmt::join(keys, ", ")), paper.mass_kg, mass_kg_, share * paper.slider.stiffness_N_m,
                 share * paper.slider.damping_N_s_m, share * paper.slider.preload_N);
         }
     }
