@@ -98,8 +98,8 @@ void check_scenario(const Checked& it) {
     const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
     const std::vector<std::string> remarks = scenario::remarks(scenario);
-    fmt::print("{}: a good scenario{}: {}\n", it.name, counted(remarks.size()),
-               scenario.description);
+    fmt::print("{}: a good scenario: {}{}\n", it.name, scenario.description,
+               counted(remarks.size()));
     for (const scenario::Note& note : notes_of(scenario)) {
         if (!note.warns) {
             fmt::print("  {}\n", note.text);
@@ -161,8 +161,8 @@ void check_campaign(const Checked& it) {
     if (std::string uneven = campaign::uneven_runs(campaign.keys, campaign.runs); !uneven.empty()) {
         remarks.push_back(std::move(uneven));
     }
-    fmt::print("{}: a good campaign{}: {} runs of {}\n", it.name, counted(remarks.size()),
-               campaign.runs, campaign.scenario_name);
+    fmt::print("{}: a good campaign: {} runs of {}{}\n", it.name, campaign.runs,
+               campaign.scenario_name, counted(remarks.size()));
     print_remarks(remarks);
 }
 
@@ -211,8 +211,8 @@ void check_log(const Checked& it) {
         }
     }
     const std::vector<std::string> remarks = log_remarks(log);
-    fmt::print("{}: a good log ({}){}, samples: {}\n", it.name, log.kind, counted(remarks.size()),
-               fmt::join(parts, ", "));
+    fmt::print("{}: a good log ({}), samples: {}{}\n", it.name, log.kind, fmt::join(parts, ", "),
+               counted(remarks.size()));
     print_remarks(remarks);
 }
 

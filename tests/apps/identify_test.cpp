@@ -93,6 +93,74 @@ TEST(Calibrate, RefusesWhatItDoesNotKnow) {
     }
 }
 
+/// Another's numbers would come out, with intervals.
+TEST(Calibrate, TakesTheRecordingsVehicleAlsoWithoutACup) {
+    const Bench bench;
+    ASSERT_EQ(bench
+                  .run({"fly", "hover", "--set", "vehicle=iris", "--set",
+                        "simulation.record_rate_Hz=250", "--no-figures", "--quiet", "--out", "."})
+                  .exit_code,
+              0);
+    const Finished own = bench.run({"calibrate", "flight.mcap"});
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_THAT(own.out, Not(HasSubstr("slider")));
+    EXPECT_THAT(own.out, AllOf(HasSubstr("limpet fly hover \\\n  --set vehicle=iris"),
+                               HasSubstr("--set vehicle.inertia_kg_m2.xx=0.0")));
+    EXPECT_EQ(bench.run({"calibrate", "flight.mcap", "--vehicle", "iris"}).out, own.out);
+    const auto json = nlohmann::json::parse(bench.run({"calibrate", "flight.mcap", "--json"}).out);
+    EXPECT_EQ(json["vehicle"], "iris");
+    const auto& xx = json["numbers"]["vehicle.inertia_kg_m2.xx"];
+    EXPECT_LT(xx["low"].get<double>(), 0.029125);  // vehicles/iris.yaml
+    EXPECT_GT(xx["high"].get<double>(), 0.029125);
+    EXPECT_EQ(xx["plausible"], true);
+    const Finished other = bench.run({"calibrate", "flight.mcap", "--vehicle", "perching_uav"});
+    EXPECT_THAT(other.out, HasSubstr("the recording's vehicle is iris, taken as known is "
+                                     "perching_uav"));
+}
+
+TEST(Calibrate, AsksWhichVehicleWhereNothingSaysIt) {
+    const Bench bench;
+    std::string csv =
+        "t_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,command_0,command_1,command_2,"
+        "command_3\n";
+    for (int k = 0; k < 1000; ++k) {
+        csv += fmt::format("{},0,0,0,0.6,0.6,0.6,0.6\n", 0.004 * k);
+    }
+    (void)bench.write("log.csv", csv);
+    const Finished finished = bench.run({"calibrate", "log.csv"});
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_THAT(finished.err, HasSubstr("log.csv: the log does not say which vehicle flew: "
+                                        "--vehicle NAME|FILE"));
+    // A relative path counts from here.
+    (void)bench.write("mine.yaml", "mass_kg: 3.3\n");
+    const Finished named = bench.run({"calibrate", "log.csv", "--vehicle", "mine.yaml"});
+    EXPECT_THAT(named.err, Not(HasSubstr("mine.yaml"))) << named.err;
+}
+
+/// A log that tells nothing of the inertia: whatever comes out is not offered.
+TEST(Calibrate, OffersNoImplausibleInertia) {
+    const Bench bench;
+    std::string csv =
+        "t_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,command_0,command_1,command_2,"
+        "command_3\n";
+    std::uint32_t noise = 1;
+    const auto next = [&noise] {
+        noise = 1664525U * noise + 1013904223U;
+        return static_cast<double>(noise >> 8U) / 16777216.0 - 0.5;
+    };
+    for (int k = 0; k < 2000; ++k) {
+        csv += fmt::format("{},{},{},{}", 0.004 * k, 1e-3 * next(), 1e-3 * next(), 1e-3 * next());
+        csv += fmt::format(",{},{},{},{}\n", 0.6 + 0.1 * next(), 0.6 + 0.1 * next(),
+                           0.6 + 0.1 * next(), 0.6 + 0.1 * next());
+    }
+    (void)bench.write("log.csv", csv);
+    const Finished finished = bench.run({"calibrate", "log.csv", "--vehicle", "perching_uav"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_THAT(finished.out, Not(HasSubstr("--set vehicle.inertia_kg_m2")));
+    EXPECT_THAT(finished.out, HasSubstr("note  vehicle.inertia_kg_m2.xx: "));
+}
+
 TEST(Calibrate, WhatItSaysToFlyHasItsVehicle) {
     const Bench bench;
     ASSERT_EQ(bench
