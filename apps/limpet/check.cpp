@@ -144,8 +144,7 @@ void check_vehicle(const Checked& it) {
         const std::string why = error.what(), where = file + ":1: vehicle";
         throw InputError(why.starts_with(where) ? file + why.substr(where.size()) : why);
     }
-    const std::vector<std::string> remarks =
-        scenario::vehicle_remarks(hover.airframe, hover.inherited);
+    const std::vector<std::string> remarks = scenario::remarks(hover);
     if (const std::string why = why_it_does_not_hover(hover); !why.empty()) {
         throw InputError(
             fmt::format("{}: does not hover: flown by mission hover in still air it {}{}{}",

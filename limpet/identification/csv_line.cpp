@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/csv_line.hpp"
 
+#include <algorithm>
+
+#include "limpet/core/user_text.hpp"
+
 namespace limpet::identification {
 namespace {
 
@@ -36,6 +40,23 @@ std::vector<std::string_view> csv_fields(std::string_view line, char separator) 
         }
     }
     return fields;
+}
+
+char separator_of(std::string_view header) {
+    for (const char separator : {',', ';', '\t'}) {
+        if (header.find(separator) != std::string_view::npos) {
+            return separator;
+        }
+    }
+    return ',';
+}
+
+std::optional<double> number_in(std::string_view field, char separator) {
+    std::string text(field);
+    if (separator == ';' && std::count(text.begin(), text.end(), ',') == 1) {
+        std::replace(text.begin(), text.end(), ',', '.');
+    }
+    return decimal(text);
 }
 
 void for_each_csv_line(std::istream& text, const std::string& name,

@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
+#include "limpet/autopilot/allocation.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/makers.hpp"
 #include "limpet/suction/force_law.hpp"
+#include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::scenario {
 namespace {
@@ -71,6 +74,67 @@ std::optional<Note> rebound(const Scenario& scenario) {
                             100.0 * back, pulls_N, holds_N, slider.damping_N_s_m, critical_N_s_m)};
 }
 
+/// How fast the rate loop turns the vehicle, against its motors and against the loop around it.
+struct RateLoop {
+    const char* axis;
+    const char* gain;
+    double scale = 0.0;  ///< MC_ROLLRATE_K or MC_PITCHRATE_K
+    double crossover_rad_s = 0.0;
+    double attitude_1_s = 0.0;  ///< MC_ROLL_P or MC_PITCH_P
+};
+
+/// Roll and pitch around hover: a command's moment over the inertia, times the gains.
+std::array<RateLoop, 2> rate_loops(const Scenario& scenario) {
+    const vehicle::Airframe& airframe = scenario.airframe;
+    const autopilot::AutopilotParameters& p = scenario.autopilot;
+    const autopilot::Mixer mixer = autopilot::make_mixer(rotor_geometry(airframe));
+    const double thrust_N = 2.0 * airframe.rotor.thrust_per_speed_2_kg_m() *
+                            hover_speed_rad_s(airframe) * airframe.rotor.speed_scale_rad_s;
+    double roll_N_m = 0.0, pitch_N_m = 0.0;
+    for (std::size_t i = 0; i < airframe.rotors.size(); ++i) {
+        const vehicle::Rotor& rotor = airframe.rotors[i];
+        const auto at = static_cast<Eigen::Index>(i);
+        roll_N_m -= mixer.roll[at] * rotor.p_B_m.y() * rotor.thrust_share * thrust_N;
+        pitch_N_m += mixer.pitch[at] * rotor.p_B_m.x() * rotor.thrust_share * thrust_N;
+    }
+    const Vector3& inertia = airframe.inertia_kg_m2;
+    return {RateLoop{"roll", "MC_ROLLRATE_K", p.MC_ROLLRATE_K,
+                     p.MC_ROLLRATE_K * p.MC_ROLLRATE_P * roll_N_m / inertia.x(), p.MC_ROLL_P},
+            RateLoop{"pitch", "MC_PITCHRATE_K", p.MC_PITCHRATE_K,
+                     p.MC_PITCHRATE_K * p.MC_PITCHRATE_P * pitch_N_m / inertia.y(), p.MC_PITCH_P}};
+}
+
+/// PX4's gains, which nobody has set, on a vehicle that they do not suit.
+std::vector<Note> gains(const Scenario& scenario) {
+    constexpr double kQuickest = 1.8, kSlowest = 1.2;  ///< times the lag; times the attitude's
+    constexpr double kUsual_rad_s = 30.0;              ///< of the paper's vehicle and the Iris
+    std::vector<Note> notes;
+    if (scenario.mount != vehicle::Mount::free) {
+        return notes;
+    }
+    const vehicle::RotorParameters& rotor = scenario.airframe.rotor;
+    const double lag_s =
+        rotor.motor_kv_rpm_V > 0.0
+            ? 0.0
+            : 0.5 * (rotor.time_constant_up_s + rotor.time_constant_down_s) + rotor.command_delay_s;
+    for (const RateLoop& loop : rate_loops(scenario)) {
+        const bool quick = loop.crossover_rad_s * lag_s > kQuickest;
+        if (quick || loop.crossover_rad_s < kSlowest * loop.attitude_1_s) {
+            notes.push_back(
+                {true,
+                 fmt::format(
+                     "by its gains the {} rate follows at {:.2g} rad/s, too {}: "
+                     "autopilot.{} is {:.3g}, some {:.2g} is right",
+                     loop.axis, loop.crossover_rad_s,
+                     quick ? fmt::format("fast for motors that lag by {:.2g} ms", 1e3 * lag_s)
+                           : fmt::format("slow for an attitude that asks {:.2g} 1/s",
+                                         loop.attitude_1_s),
+                     loop.gain, loop.scale, loop.scale * kUsual_rad_s / loop.crossover_rad_s)});
+        }
+    }
+    return notes;
+}
+
 /// Guidance looks for a wall that both LiDARs see near enough.
 std::optional<Note> start(const Scenario& scenario) {
     const bool docks = scenario.mission != Mission::hover;
@@ -129,6 +193,8 @@ std::vector<Note> notes_of(const Scenario& scenario) {
             }
         }
     }
+    const std::vector<Note> of_gains = gains(scenario);
+    notes.insert(notes.end(), of_gains.begin(), of_gains.end());
     for (const std::string& text : vehicle_remarks(scenario.airframe, scenario.inherited)) {
         notes.push_back({true, text});
     }
