@@ -112,11 +112,14 @@ private:
         const double share = mass_kg_ / paper.mass_kg;
         const std::vector<std::string> keys =
             left_out({"slider.stiffness_N_m", "slider.damping_N_s_m", "slider.preload_N"});
-        if (!keys.empty() && !within(share, 1.0, kFactor)) {
+        const bool moves =
+            is_inherited("slider.stiffness_N_m") || is_inherited("slider.damping_N_s_m");
+        if (moves && !within(share, 1.0, kFactor)) {
             say("{} not given, so the {:.3g} kg vehicle's; with {:.3g} kg the slider moves as its "
                 "does at some {:.2g} N/m, {:.2g} N s/m, {:.2g} N",
-                fmt::format("{}", fmt::join(keys, ", ")), paper.mass_kg, mass_kg_, share * paper.slider.stiffness_N_m,
-                share * paper.slider.damping_N_s_m, share * paper.slider.preload_N);
+                fmt::format("{}", fmt::join(keys, ", ")), paper.mass_kg, mass_kg_,
+                share * paper.slider.stiffness_N_m, share * paper.slider.damping_N_s_m,
+                share * paper.slider.preload_N);
         }
     }
 
