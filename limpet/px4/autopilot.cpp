@@ -22,7 +22,8 @@ namespace {
 constexpr std::chrono::milliseconds kRoom{5};
 
 constexpr std::string_view kVersion1 =
-    "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2";
+    "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink "
+    "2";
 
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
