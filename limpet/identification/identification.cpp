@@ -12,6 +12,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/identification/stages.hpp"
 #include "limpet/identification/suspicion.hpp"
+#include "limpet/identification/time_shift.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -344,34 +345,6 @@ CurveFit fitted_curve(const PressureTrace& trace, Stages stages,
         throw InputError("the log is too short or too coarse to tell its time constants");
     }
     return fit;
-}
-
-/// A time far from 0 swamps a search's relative steps: everything is fitted from the first sample.
-PressureTrace from_first_sample(PressureTrace trace) {
-    const double first_s = trace.t_s.empty() ? 0.0 : trace.t_s.front();
-    for (double& t_s : trace.t_s) {
-        t_s -= first_s;
-    }
-    return trace;
-}
-
-IdentificationOptions earlier(IdentificationOptions options, double by_s) {
-    for (std::optional<double>* time_s : {&options.pump_on_s, &options.pump_off_s}) {
-        if (*time_s) {
-            **time_s -= by_s;
-        }
-    }
-    return options;
-}
-
-void go_later(PressureFit& fit, double by_s) {
-    for (std::optional<Fitted>* time : {&fit.sealing_begins_s, &fit.unsealing_begins_s}) {
-        if (*time) {
-            (*time)->value += by_s;
-        }
-    }
-    fit.curve.on_s += by_s;
-    fit.curve.off_s += by_s;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Unit {
     const char* name;
     double pascals;
 };
-constexpr std::array<Unit, 4> kUnits = {
+constexpr std::array<Unit, 4> kPressureUnits = {
     {{"hPa", 100.0}, {"kPa", 1e3}, {"psi", 6895.0}, {"bar", 1e5}}};
 constexpr double kLowestAtmosphere_Pa = 30e3, kHighestAtmosphere_Pa = 115e3;
 
@@ -51,7 +51,7 @@ std::string suspected_pressure_unit(const std::vector<double>& pressure_Pa, doub
                ": vacuum as a positive gauge pressure? It must be absolute, in Pa: the "
                "atmosphere's less it";
     }
-    for (const Unit& unit : kUnits) {
+    for (const Unit& unit : kPressureUnits) {
         if (high * unit.pascals >= kLowestAtmosphere_Pa &&
             high * unit.pascals <= kHighestAtmosphere_Pa) {
             return fmt::format("{}: {}? It must be in Pa: times {:g}", runs, unit.name,

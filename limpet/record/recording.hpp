@@ -40,7 +40,8 @@ struct Recording {
     std::vector<mcap::Attachment> attachments;
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
-    std::uint64_t origin_ns = 0;  ///< of all times, in the clock of the file (core/clock_origin.hpp)
+    std::uint64_t origin_ns =
+        0;               ///< of all times, in the clock of the file (core/clock_origin.hpp)
     std::string damage;  ///< what is missing, in one sentence; empty when whole
     /// What is no damage: a line for each topic that does not become columns, "topic /x is not
     /// taken: why".

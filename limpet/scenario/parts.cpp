@@ -114,7 +114,7 @@ void validate_at(const YamlNode& node, const vehicle::Airframe& airframe) {
 }
 
 /// Keys of a vehicle that a map does not give.
-std::vector<std::string> left_out_of(const YamlNode& map, const vehicle::Airframe& airframe) {
+std::vector<std::string> not_given_in(const YamlNode& map, const vehicle::Airframe& airframe) {
     std::vector<std::string> keys;
     vehicle::Airframe rows_of = airframe;
     for (const Section& section : vehicle_sections(rows_of)) {
@@ -149,7 +149,7 @@ vehicle::Airframe load_vehicle_file(const fs::path& file,
     read_vehicle(root, false, file.parent_path(), airframe);
     validate_at(root, airframe);
     if (inherited != nullptr) {
-        *inherited = left_out_of(root, airframe);
+        *inherited = not_given_in(root, airframe);
     }
     return airframe;
 }
@@ -232,7 +232,7 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
     if (node.kind == YamlNode::Kind::map) {
         read_vehicle(node, true, folder, airframe);
         validate_at(node, airframe);
-        std::vector<std::string> left_out = left_out_of(node, airframe);
+        std::vector<std::string> left_out = not_given_in(node, airframe);
         std::erase_if(left_out, [&](const std::string& key) {
             return of_base && std::find(keys.begin(), keys.end(), key) == keys.end();
         });
