@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command_line.hpp"
@@ -14,9 +15,12 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/samples.hpp"
+#include "limpet/scenario/sections.hpp"
 #include "limpet/simulation/model.hpp"
+#include "limpet/vehicle/plausible.hpp"
 #include "output.hpp"
 
 namespace limpet::app {
@@ -25,9 +29,11 @@ namespace {
 using identification::Fitted;
 using CalibrateJson = nlohmann::ordered_json;
 
+constexpr std::string_view kDefaultName = "perching_uav";  ///< of perch_concrete
+
 struct CalibrateOptions {
     std::string log;
-    std::string vehicle = "perching_uav";
+    std::optional<std::string> vehicle;
     identification::FlightSpan span;
     bool json = false;
 };
@@ -37,11 +43,58 @@ struct Calibrated {
     std::string key;
     std::string unit;
     std::optional<Fitted> fitted;
-    double there = kNaN;  ///< the vehicle's own
+    double there = kNaN;     ///< the vehicle's own
+    std::string doubt = {};  ///< why no vehicle has such a number; empty: it may have
 };
 
-std::vector<Calibrated> rows_of(const identification::VehicleFit& fit,
-                                const vehicle::AirframeNumbers& airframe) {
+/// Whose rotors, mass and cup are taken as known.
+struct Known {
+    vehicle::Airframe airframe;
+    std::string vehicle;                  ///< by which a scenario names it; empty: by nothing
+    bool named = true;                    ///< false: nothing says which vehicle it is
+    std::vector<std::string> notes = {};  ///< a sentence each
+};
+
+/// Why an inertia or a lag that came out is no vehicle's.
+std::string doubt_of(const Fitted& fitted, std::optional<int> axis,
+                     const vehicle::AirframeNumbers& airframe) {
+    constexpr double kFactor = 8.0;  ///< to either side of what is usual
+    if (!std::isfinite(fitted.value) || !std::isfinite(fitted.half_width)) {
+        return "the log does not tell it";
+    }
+    if (fitted.value <= fitted.half_width) {
+        return "its interval reaches down to 0: the log does not tell it";
+    }
+    if (axis && !is_plausible_inertia(airframe, fitted.value, *axis, kFactor)) {
+        return fmt::format(
+            "{:.3g} kg m2 is implausible: a vehicle of {:.3g} kg with its hubs {:.3g} m out has "
+            "some {:.2g}; the wrong vehicle, or the log does not tell it",
+            fitted.value, airframe.mass_kg, hubs_reach_m(airframe),
+            usual_inertia_kg_m2(airframe)[*axis]);
+    }
+    return {};
+}
+
+/// What a scenario does not take is no number of a vehicle either.
+void doubt_what_is_out_of_range(std::vector<Calibrated>& rows) {
+    scenario::Scenario bounds;
+    for (const scenario::Section& section : scenario_sections(bounds)) {
+        for (const BoundParameter& number : section.rows) {
+            const std::string key = fmt::format("{}.{}", section.name, number.name);
+            const auto row = std::find_if(rows.begin(), rows.end(), [&](const Calibrated& each) {
+                return each.key == key && each.fitted;
+            });
+            if (row != rows.end() && row->doubt.empty() && !number.allows(row->fitted->value)) {
+                row->doubt =
+                    fmt::format("{:.4g} {} is out of range, allowed {:g}..{:g}", row->fitted->value,
+                                number.unit, number.minimum, number.maximum);
+            }
+        }
+    }
+}
+
+std::vector<Calibrated> rows_of(const identification::VehicleFit& fit, const Known& known) {
+    const vehicle::AirframeNumbers& airframe = known.airframe;
     std::vector<Calibrated> rows;
     constexpr const char* kAxes[] = {"xx", "yy", "zz"};
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,10 +104,20 @@ std::vector<Calibrated> rows_of(const identification::VehicleFit& fit,
     }
     const vehicle::RotorParameters& rotor = airframe.rotor;
     const vehicle::SliderParameters& slider = airframe.slider;
+    for (std::size_t axis = 0; axis < rows.size(); ++axis) {
+        if (rows[axis].fitted) {
+            rows[axis].doubt = doubt_of(*rows[axis].fitted, static_cast<int>(axis), airframe);
+        }
+    }
     rows.push_back(
         {"vehicle.rotor.time_constant_up_s", "s", fit.lag_up_s, rotor.time_constant_up_s});
     rows.push_back(
         {"vehicle.rotor.time_constant_down_s", "s", fit.lag_down_s, rotor.time_constant_down_s});
+    for (Calibrated& row : rows) {
+        if (row.fitted && row.doubt.empty()) {
+            row.doubt = doubt_of(*row.fitted, std::nullopt, airframe);
+        }
+    }
     rows.push_back(
         {"vehicle.rotor.drag_constant_kg", "kg", fit.drag_constant_kg, rotor.drag_constant_kg});
     rows.push_back(
@@ -70,6 +133,10 @@ std::vector<Calibrated> rows_of(const identification::VehicleFit& fit,
     rows.push_back({"wall.surface.sealing_time_constant_s", "s", of_pressure(&P::sealing_time_s)});
     rows.push_back(
         {"wall.surface.unsealing_time_constant_s", "s", of_pressure(&P::unsealing_time_s)});
+    doubt_what_is_out_of_range(rows);
+    for (Calibrated& row : rows) {
+        row.there = known.named ? row.there : kNaN;
+    }
     return rows;
 }
 
@@ -81,7 +148,22 @@ std::string number_text(double value, double half_width) {
     return fmt::format("{:>12.{}f} +- {:<10.{}f}", value, digits, half_width, digits);
 }
 
-std::string text_of(const identification::VehicleFit& fit, const std::vector<Calibrated>& rows) {
+/// What is missing, assumed or not to be believed.
+std::vector<std::string> notes_of(const identification::VehicleFit& fit,
+                                  const std::vector<Calibrated>& rows, const Known& known) {
+    std::vector<std::string> notes;
+    for (const Calibrated& row : rows) {
+        if (!row.doubt.empty()) {
+            notes.push_back(fmt::format("{}: {}", row.key, row.doubt));
+        }
+    }
+    notes.insert(notes.end(), fit.notes.begin(), fit.notes.end());
+    notes.insert(notes.end(), known.notes.begin(), known.notes.end());
+    return notes;
+}
+
+std::string text_of(const identification::VehicleFit& fit, const std::vector<Calibrated>& rows,
+                    const std::vector<std::string>& notes) {
     std::string text =
         fmt::format("{:<42}{:>12}    {:<10}{:<7}{}\n", "", "value", "95 %", "", "vehicle file");
     for (const Calibrated& row : rows) {
@@ -94,15 +176,17 @@ std::string text_of(const identification::VehicleFit& fit, const std::vector<Cal
     if (fit.free_s > 0.0) {
         text += fmt::format("free flight: {:.1f} s\n", fit.free_s);
     }
-    for (const std::string& note : fit.notes) {
+    for (const std::string& note : notes) {
         text += "note  " + note + "\n";
     }
     return text;
 }
 
 CalibrateJson json_of(const identification::VehicleFit& fit, const std::vector<Calibrated>& rows,
+                      const std::vector<std::string>& notes, const Known& known,
                       const std::string& kind) {
     CalibrateJson json{{"log", kind}, {"confidence", identification::kConfidence}};
+    json["vehicle"] = known.named ? CalibrateJson(known.airframe.name) : CalibrateJson(nullptr);
     CalibrateJson found = CalibrateJson::object();
     for (const Calibrated& row : rows) {
         found[row.key] = nullptr;
@@ -110,12 +194,13 @@ CalibrateJson json_of(const identification::VehicleFit& fit, const std::vector<C
             found[row.key] = {{"value", row.fitted->value},
                               {"low", row.fitted->value - row.fitted->half_width},
                               {"high", row.fitted->value + row.fitted->half_width},
-                              {"unit", row.unit}};
+                              {"unit", row.unit},
+                              {"plausible", row.doubt.empty()}};
         }
     }
     json["numbers"] = found;
     json["free_flight_s"] = fit.free_s;
-    json["notes"] = fit.notes;
+    json["notes"] = notes;
     return json;
 }
 
@@ -148,50 +233,133 @@ std::vector<int> strides_of(const scenario::Scenario& flown) {
     return {model->strides.begin(), model->strides.end()};
 }
 
+vehicle::Airframe shipped_or_file(const std::string& vehicle) {
+    return scenario::load_scenario("hover", {.overrides = {"vehicle=" + vehicle}}).airframe;
+}
+
+/// The numbers, whatever the air around was.
+bool same_numbers(vehicle::Airframe a, const vehicle::Airframe& b) {
+    a.rotor.density_ratio = b.rotor.density_ratio;
+    a.rotor.nominal_voltage_V = b.rotor.nominal_voltage_V;
+    return static_cast<const vehicle::AirframeNumbers&>(a) == b;
+}
+
+/// The vehicle that flew, as its recording has it.
+Known from_recording(const scenario::Scenario& flown) {
+    Known known{.airframe = flown.airframe, .vehicle = {}};
+    const auto shipped = scenario::names_in(scenario::data_root() / "vehicles");
+    if (std::find(shipped.begin(), shipped.end(), flown.airframe.name) == shipped.end()) {
+        known.notes.push_back(
+            fmt::format("the vehicle is the recording's, {}", known.airframe.name));
+        return known;
+    }
+    known.vehicle = flown.airframe.name;
+    if (!same_numbers(flown.airframe, shipped_or_file(known.vehicle))) {
+        known.notes.push_back(fmt::format(
+            "the vehicle is the recording's, {} with other numbers than its file's: fly "
+            "with what was set then, too",
+            known.vehicle));
+    }
+    return known;
+}
+
+/// @param options  whose `--vehicle` goes before what a recording says
+Known known_of(const CalibrateOptions& options, const identification::FlightData& data,
+               const std::optional<scenario::Scenario>& flown) {
+    if (options.vehicle) {
+        Known known{.airframe = shipped_or_file(*options.vehicle), .vehicle = *options.vehicle};
+        if (flown && flown->airframe.name != known.airframe.name) {
+            known.notes.push_back(fmt::format("the recording's vehicle is {}, taken as known is {}",
+                                              flown->airframe.name, known.airframe.name));
+        }
+        return known;
+    }
+    if (flown) {
+        return from_recording(*flown);
+    }
+    if (!data.imu_s.empty() && !data.command_s.empty()) {
+        throw InputError(
+            "the log does not say which vehicle flew: --vehicle NAME|FILE, whose rotors, mass and "
+            "cup are taken as known");
+    }
+    return {.airframe = {}, .vehicle = {}, .named = false};  // nothing that is fitted depends on it
+}
+
+std::string sets_of(const std::vector<Calibrated>& rows) {
+    std::string sets;
+    for (const Calibrated& row : rows) {
+        if (row.fitted && row.doubt.empty() && std::isfinite(row.there) &&
+            row.fitted->value > 0.0) {
+            sets += fmt::format(" \\\n  --set {}={:.5g}", row.key, row.fitted->value);
+        }
+    }
+    return sets;
+}
+
+/// How a flight takes what was found.
+void print_command(const std::vector<Calibrated>& rows, const Known& known) {
+    const std::string sets = sets_of(rows);
+    if (sets.empty()) {
+        return;
+    }
+    const std::string vehicle =
+        known.vehicle.empty() ? " --set vehicle=FILE"
+        : known.vehicle == kDefaultName
+            ? ""
+            : fmt::format(" \\\n  --set vehicle={}", for_shell(known.vehicle));
+    fmt::print("\nfly with it: limpet fly {}{}{}\n",
+               known.airframe.has_cup ? "perch_concrete" : "hover", vehicle, sets);
+}
+
+/// @throws InputError that names the log
+template <class Does>
+void of_log(const std::string& log, const Does& does) {
+    try {
+        does();
+    } catch (const InputError& error) {
+        const std::string why = error.what();
+        throw InputError(why.find(log) == std::string::npos ? log + ": " + why : why);
+    }
+}
+
 void calibrate(CalibrateOptions options) {
     options.log = scenario::find_sample(options.log, ".csv").string();
-    const scenario::Scenario scenario =
-        scenario::load_scenario("perch_concrete", {.overrides = {"vehicle=" + options.vehicle}});
     identification::VehicleFit fit;
     identification::FlightData data;
-    try {
+    Known known;
+    if (options.vehicle) {
+        (void)shipped_or_file(*options.vehicle);  // its own errors name no log
+    }
+    of_log(options.log, [&] {
         data = identification::read_flight(options.log, options.span);
-        if (const auto flown = flown_by(data)) {
+        const std::optional<scenario::Scenario> flown = flown_by(data);
+        if (flown) {
             require_known_motion(flown->airframe, "the vehicle that flew");
             data.strides = strides_of(*flown);
         }
-        require_known_motion(scenario.airframe, options.vehicle);
-        fit = identify_vehicle(data, scenario.airframe);
+        known = known_of(options, data, flown);
+        require_known_motion(known.airframe, known.vehicle);
+        fit = identify_vehicle(data, known.airframe);
+    });
+    if (data.origin_s > 0.0) {
+        known.notes.push_back(
+            fmt::format("times are from the first sample, at {:.3f} s", data.origin_s));
         fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
-    } catch (const InputError& error) {
-        const std::string why = error.what();
-        throw InputError(why.find(options.log) == std::string::npos ? options.log + ": " + why
-                                                                    : why);
     }
-    const std::vector<Calibrated> rows = rows_of(fit, scenario.airframe);
+    const std::vector<Calibrated> rows = rows_of(fit, known);
     if (std::none_of(rows.begin(), rows.end(),
                      [](const Calibrated& row) { return row.fitted.has_value(); })) {
         throw InputError(fmt::format("{}: tells none of the numbers: {}", options.log,
                                      fmt::join(fit.notes, "; ")));
     }
+    const std::vector<std::string> notes = notes_of(fit, rows, known);
     fmt::print("{}", options.json
-                         ? json_of(fit, rows, data.kind)
+                         ? json_of(fit, rows, notes, known, data.kind)
                                    .dump(2, ' ', false, CalibrateJson::error_handler_t::replace) +
                                "\n"
-                         : text_of(fit, rows));
+                         : text_of(fit, rows, notes));
     if (!options.json) {
-        std::string sets = options.vehicle == CalibrateOptions().vehicle
-                               ? ""
-                               : fmt::format(" \\\n  --set vehicle={}", for_shell(options.vehicle));
-        const std::size_t vehicle = sets.size();
-        for (const Calibrated& row : rows) {
-            if (row.fitted && std::isfinite(row.there) && row.fitted->value > 0.0) {
-                sets += fmt::format(" \\\n  --set {}={:.5g}", row.key, row.fitted->value);
-            }
-        }
-        if (sets.size() > vehicle) {
-            fmt::print("\nfly with it: limpet fly perch_concrete{}\n", sets);
-        }
+        print_command(rows, known);
     }
     if (!data.damage.empty()) {
         std::fflush(stdout);
@@ -203,7 +371,8 @@ OptionList options_of(CalibrateOptions& options) {
     return {{"log LOG", &options.log,
              "a recording (.mcap), a PX4 log (.ulg), or CSV (docs/own_vehicle.md)"},
             {"--vehicle VEHICLE", &options.vehicle,
-             "whose rotors and mass are taken as known (default: perching_uav)"},
+             "name or file, whose rotors, mass and cup are taken as known (default: the\n"
+             "recording's)"},
             {"--from S", &options.span.from_s, "leave out what is before"},
             {"--to S", &options.span.to_s, "leave out what is after"},
             {"--json", &options.json, "one JSON object"}};

@@ -194,6 +194,10 @@ ExitCode fly_missing(Place& place, const CampaignOptions& options, int jobs,
                               campaign.seed,
                               crew_text(options, jobs, link != nullptr ? link->ranks() : 1),
                               there > 0 ? fmt::format("; {} are there already", there) : ""));
+    if (const std::string uneven = campaign::uneven_runs(campaign.keys, campaign.runs);
+        !uneven.empty()) {
+        terminal.line("note: " + uneven);
+    }
     const campaign::CampaignWatch watch = campaign_watch(terminal);
     const campaign::Progress progress =
         link != nullptr    ? run_among_ranks(place.results, jobs, watch, *link)

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <string>
@@ -18,12 +19,14 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/propeller_file.hpp"
+#include "limpet/identification/suspicion.hpp"
 #include "limpet/record/recording.hpp"
+#include "limpet/remarks/remarks.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/suggestion.hpp"
-#include "limpet/simulation/makers.hpp"
+#include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
 
@@ -84,32 +87,86 @@ struct Checked {
     fs::path file;
 };
 
+/// For the end of a verdict.
+std::string counted(std::size_t remarks) {
+    return remarks == 0 ? "" : fmt::format("; {} remark{}", remarks, remarks == 1 ? "" : "s");
+}
+
+void print_remarks(const std::vector<std::string>& remarks) {
+    for (const std::string& remark : remarks) {
+        fmt::print("  remark: {}\n", remark);
+    }
+}
+
 void check_scenario(const Checked& it) {
     const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
-    fmt::print("{}: a good scenario: {}\n", it.name, scenario.description);
-    for (const std::string& note : simulation::makers_notes(scenario)) {
-        fmt::print("  {}\n", note);
+    const std::vector<std::string> warnings = remarks::warnings(scenario);
+    fmt::print("{}: a good scenario: {}{}\n", it.name, scenario.description,
+               counted(warnings.size()));
+    for (const remarks::Note& note : remarks::notes_of(scenario)) {
+        if (!note.warns) {
+            fmt::print("  {}\n", note.text);
+        }
     }
+    print_remarks(warnings);
+}
+
+/// Why a vehicle does not hover in still air for some seconds; empty: it does.
+std::string why_it_does_not_hover(const scenario::Scenario& hover) {
+    constexpr double kDrift_m = 0.5, kTilt_deg = 20.0;
+    simulation::Flight flight(simulation::build_model(hover));
+    const Vector3 from_W_m = flight.state().truth.base.p_WF_m;
+    double most_m = 0.0, most_rad = 0.0;
+    while (!flight.ended()) {
+        flight.tick();
+        const Kinematics& base = flight.state().truth.base;
+        most_m = std::max(most_m, (base.p_WF_m - from_W_m).norm());
+        const Vector3 down_B = base.q_WF.conjugate() * Vector3::UnitZ();
+        most_rad = std::max(most_rad, std::acos(std::clamp(down_B.z(), -1.0, 1.0)));
+    }
+    const guidance::Ending& ending = *flight.state().ending;
+    if (ending.outcome != Outcome::released) {
+        return fmt::format("ends {}: {}", to_string(ending.outcome), ending.reason);
+    }
+    if (most_m > kDrift_m || degrees(most_rad) > kTilt_deg) {
+        return fmt::format("goes up to {:.2g} m astray and tilts up to {:.2g} deg", most_m,
+                           degrees(most_rad));
+    }
+    return {};
 }
 
 void check_vehicle(const Checked& it) {
     const std::string file = it.file.string();
     const double mass_kg = scenario::load_vehicle(file, scenario::data_root()).mass_kg;
     const std::string path = in_yaml(fs::absolute(file).string());
+    scenario::Scenario hover;
     try {
-        (void)scenario::load_scenario_text("vehicle: " + path + "\nmission: hover\n", file);
+        hover = scenario::load_scenario_text(
+            "vehicle: " + path + "\nmission: hover\nsimulation: {hover_s: 4}\n", file);
     } catch (const InputError& error) {  // of which who asked has written no line
         const std::string why = error.what(), where = file + ":1: vehicle";
         throw InputError(why.starts_with(where) ? file + why.substr(where.size()) : why);
     }
-    fmt::print("{}: a good vehicle of {:.2f} kg\n", it.name, mass_kg);
+    const std::vector<std::string> warnings = remarks::warnings(hover);
+    if (const std::string why = why_it_does_not_hover(hover); !why.empty()) {
+        throw InputError(
+            fmt::format("{}: does not hover: flown by mission hover in still air it {}{}{}",
+                        it.name, why, warnings.empty() ? "" : "; ", fmt::join(warnings, "; ")));
+    }
+    fmt::print("{}: a good vehicle of {:.2f} kg{}\n", it.name, mass_kg, counted(warnings.size()));
+    print_remarks(warnings);
 }
 
 void check_campaign(const Checked& it) {
     const campaign::Campaign campaign = campaign::load_campaign(it.file.string());
-    fmt::print("{}: a good campaign: {} runs of {}\n", it.name, campaign.runs,
-               campaign.scenario_name);
+    std::vector<std::string> remarks;
+    if (std::string uneven = campaign::uneven_runs(campaign.keys, campaign.runs); !uneven.empty()) {
+        remarks.push_back(std::move(uneven));
+    }
+    fmt::print("{}: a good campaign: {} runs of {}{}\n", it.name, campaign.runs,
+               campaign.scenario_name, counted(remarks.size()));
+    print_remarks(remarks);
 }
 
 void check_companion(const Checked& it) {
@@ -133,6 +190,15 @@ void check_propeller(const Checked& it) {
                identification::read_propeller_file(it.file).size());
 }
 
+/// Units that are not what a header says.
+std::vector<std::string> log_remarks(const identification::FlightData& log) {
+    std::vector<std::string> remarks = {
+        identification::suspected_pressure_unit(log.pressure.pressure_Pa, kAtmosphere_Pa),
+        identification::suspected_time_unit(log.pressure.t_s)};
+    std::erase(remarks, "");
+    return remarks;
+}
+
 void check_log(const Checked& it) {
     const identification::FlightData log = identification::read_flight(it.file);
     if (!log.damage.empty()) {
@@ -147,7 +213,10 @@ void check_log(const Checked& it) {
             parts.push_back(fmt::format("{} {}", what, count));
         }
     }
-    fmt::print("{}: a good log ({}), samples: {}\n", it.name, log.kind, fmt::join(parts, ", "));
+    const std::vector<std::string> remarks = log_remarks(log);
+    fmt::print("{}: a good log ({}), samples: {}{}\n", it.name, log.kind, fmt::join(parts, ", "),
+               counted(remarks.size()));
+    print_remarks(remarks);
     for (const std::string& remark : log.remarks) {
         fmt::print("  {}\n", remark);
     }
@@ -175,10 +244,11 @@ void check_file(const Checked& it) {
     const std::string ending = it.file.extension().string();
     if (is_recording_name(it.file)) {
         check_recording(it.file.string());
+    } else if (ending == ".txt" ||
+               (ending == ".csv" && identification::is_propeller_file(it.file))) {
+        check_propeller(it);
     } else if (ending == ".csv" || ending == ".ulg") {
         check_log(it);
-    } else if (ending == ".txt") {
-        check_propeller(it);
     } else if (it.file.filename() == "surfaces.yaml") {
         check_surfaces(it.file);
     } else {

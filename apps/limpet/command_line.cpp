@@ -5,14 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <filesystem>
 #include <sstream>
 #include <string_view>
 #include <thread>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "manual.hpp"
 #include "terminal.hpp"
@@ -207,19 +205,6 @@ std::vector<char*> without_help_verb(int argc, char** argv) {
     return words;
 }
 
-/// A vehicle's path counts from where the command is given, not from the scenario's file.
-std::string from_here(std::string text) {
-    constexpr std::string_view kVehicle = "vehicle=";
-    if (text.starts_with(kVehicle)) {
-        const std::string wanted = text.substr(kVehicle.size());
-        std::error_code ignored;
-        if (scenario::is_path(wanted) && std::filesystem::exists(wanted, ignored)) {
-            return std::string(kVehicle) + std::filesystem::absolute(wanted).string();
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 OptionRule required() {
@@ -263,10 +248,8 @@ OptionRule not_with(const char* other) {
 }
 
 Option overrides_option(std::vector<std::string>& overrides, const char* about) {
-    return {"--set KEY=VALUE", &overrides, about, [](CLI::App&, CLI::Option& option) {
-                option.expected(1)->take_all();
-                option.transform(from_here, "");
-            }};
+    return {"--set KEY=VALUE", &overrides, about,
+            [](CLI::App&, CLI::Option& option) { option.expected(1)->take_all(); }};
 }
 
 Option jobs_option(int& jobs) {

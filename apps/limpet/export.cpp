@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line.hpp"
@@ -12,6 +13,7 @@
 #include "limpet/models/model_writer.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
+#include "limpet/scenario/overrides.hpp"
 #include "limpet/scenario/worlds.hpp"
 #include "output.hpp"
 
@@ -95,6 +97,10 @@ std::string lasting(const std::string& wanted) {
 std::vector<std::string> lasting(std::vector<std::string> overrides,
                                  const scenario::Scenario& scenario) {
     for (std::string& text : overrides) {
+        if (std::string here = scenario::with_files_of(text, {}); here != text) {
+            text = std::move(here);
+            continue;
+        }
         const std::size_t equals = text.find('=');
         const std::string key = text.substr(0, equals);
         const std::string value = text.substr(equals + 1);

@@ -6,9 +6,9 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
+#include "limpet/remarks/remarks.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/data_folder.hpp"
-#include "limpet/simulation/makers.hpp"
 #include "limpet/simulation/result_json.hpp"
 #include "output.hpp"
 
@@ -78,7 +78,7 @@ ExitCode judged(std::optional<Outcome> expected, const char* what, Outcome outco
 void introduce(const scenario::Scenario& scenario, Terminal& terminal) {
     terminal.line(terminal.bold(scenario.name) +
                   fmt::format(", seed {}: {}", scenario.seed, scenario.description));
-    for (const std::string& warning : simulation::makers_warnings(scenario)) {
+    for (const std::string& warning : remarks::warnings(scenario)) {
         terminal.line("note", warning);
     }
 }

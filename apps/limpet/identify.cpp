@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/identification/identification.hpp"
@@ -130,7 +131,7 @@ std::string text_of(const identification::PressureFit& fit, const std::vector<Ro
 }
 
 ordered_json json_of(const identification::PressureFit& fit, const std::vector<Row>& rows,
-                     const std::optional<scenario::Surface>& surface) {
+                     const std::optional<scenario::Surface>& surface, double origin_s) {
     ordered_json json;
     for (const Row& row : rows) {
         json[row.key] = nullptr;
@@ -145,6 +146,7 @@ ordered_json json_of(const identification::PressureFit& fit, const std::vector<R
     json["residual_Pa"] = fit.residual_Pa;
     json["residual_memory_s"] = fit.memory_s;
     json["samples"] = fit.samples;
+    json["time_origin_s"] = origin_s;
     json["nearest_surface"] = surface ? ordered_json(surface->name) : ordered_json(nullptr);
     json["notes"] = fit.notes;
     return json;
@@ -222,12 +224,22 @@ void identify(IdentifyOptions options) {
     };
     const fs::path log = scenario::find_sample(options.log, ".csv");
     const identification::PressureTrace trace = identification::read_pressure_log(log);
+    for (std::optional<double>* time_s : {&options.of_log.pump_on_s, &options.of_log.pump_off_s,
+                                          &options.of_log.from_s, &options.of_log.to_s}) {
+        if (*time_s) {
+            *time_s = since_origin_s(**time_s, trace.origin_s);
+        }
+    }
     go_on("nothing");
     identification::PressureFit fit;
     try {
         fit = identify_pressure(trace, options.of_log);
     } catch (const InputError& error) {
         throw InputError(log.string() + ": " + error.what());
+    }
+    if (trace.origin_s > 0.0) {
+        fit.notes.push_back(
+            fmt::format("times are from the first sample, at {:.3f} s", trace.origin_s));
     }
     go_on("nothing");
     const std::optional<scenario::Surface> surface = nearest_surface(fit);
@@ -238,7 +250,7 @@ void identify(IdentifyOptions options) {
         (void)make_folder(folder);
     }
     fmt::print("{}", options.json
-                         ? json_of(fit, rows, surface)
+                         ? json_of(fit, rows, surface, trace.origin_s)
                                    .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                                "\n"
                          : text_of(fit, rows, surface));
@@ -274,7 +286,8 @@ Verb identify_verb() {
     return verb<IdentifyOptions>(
         "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure", options_of,
         identify,
-        "Columns t_s and pressure_Pa [Pa], parted by commas, in any order; or those of a "
+        "Columns t_s and pressure_Pa [Pa], in any order, between commas, semicolons or tabs; or "
+        "those of a "
         "recording:\n"
         "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
         "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "

@@ -49,6 +49,7 @@ Json json_of(const mavlink::Link& link) {
             {"lost", count.lost},
             {"damaged", count.damaged},
             {"refused_unsigned", count.refusals.total()},
+            {"mavlink1", count.mavlink1},
             {"discarded_bytes", count.discarded_bytes}};
 }
 
@@ -97,6 +98,9 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
         const mavlink::LinkCount count = link->count();
         terminal.line(name, fmt::format("{} messages sent, {} received, {} lost, {} damaged",
                                         count.sent, count.received, count.lost, count.damaged));
+        if (count.mavlink1 > 0) {
+            terminal.line("", fmt::format("{} frames of MAVLink 1 were not read", count.mavlink1));
+        }
     }
     if (hil.round_trip.count() > 0) {
         terminal.line("round trip", quantiles(hil.round_trip));

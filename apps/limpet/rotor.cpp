@@ -11,6 +11,7 @@
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/identification/propeller_file.hpp"
 #include "limpet/scenario/samples.hpp"
 
@@ -33,6 +34,16 @@ struct Finding {
     std::vector<identification::RotorConstants> constants;  ///< of each row
     identification::RotorConstants chosen;
 };
+
+/// @throws InputError that names the diameter and the file
+void check(const RotorOptions& options, const Finding& found) {
+    try {
+        require_usable(found.chosen);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--diameter {}: with {} {}", in_quotes(options.diameter),
+                                     options.file, error.what()));
+    }
+}
 
 Finding find(const RotorOptions& options) {
     if (!(options.density_kg_m3 >= 0.01 && options.density_kg_m3 <= 10.0)) {
@@ -133,6 +144,7 @@ OptionList options_of(RotorOptions& options) {
 
 void work_out(const RotorOptions& options) {
     const Finding found = find(options);
+    check(options, found);
     options.json ? print_json(options, found) : print_text(options, found);
 }
 

@@ -73,8 +73,10 @@ void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
     campaign.scenario_name = fs::path(path).stem().string();
     const std::size_t count = variants(file);
     for (std::size_t variant = 0; variant < count; ++variant) {
-        scenario::LoadOptions options{
-            .overrides = file.overrides, .seed = campaign.seed, .data_root = data};
+        scenario::LoadOptions options{.overrides = file.overrides,
+                                      .seed = campaign.seed,
+                                      .data_root = data,
+                                      .folder = folder};
         std::size_t stride = count;  // variant_of() the other way round
         for (const VariedKey& key : campaign.keys) {
             if (is_named(key)) {
@@ -190,8 +192,10 @@ Campaign load_campaign(const std::string& wanted, const fs::path& data) {
         require_apart(file);
         resolve(file, path.parent_path(), root);
         check_extremes(file.campaign, [&](const std::vector<std::string>& overrides) {
-            scenario::LoadOptions options{
-                .overrides = file.overrides, .seed = file.campaign.seed, .data_root = root};
+            scenario::LoadOptions options{.overrides = file.overrides,
+                                          .seed = file.campaign.seed,
+                                          .data_root = root,
+                                          .folder = path.parent_path()};
             options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
             (void)load_scenario(scenario_file(file, path.parent_path(), root), options);
         });

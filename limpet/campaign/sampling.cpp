@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/campaign/sampling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -70,6 +72,23 @@ std::uint64_t grid_points(const std::vector<VariedKey>& keys) {
         points *= key.spread == Spread::grid ? key.values.size() : 1;
     }
     return points;
+}
+
+std::string uneven_runs(const std::vector<VariedKey>& keys, std::uint64_t runs) {
+    const std::uint64_t points = grid_points(keys);
+    if (runs % points == 0) {
+        return {};
+    }
+    constexpr const char* kInstead = "`repeats: N` in the place of `runs` flies each N times";
+    if (runs < points) {
+        return fmt::format(
+            "runs: {} is fewer than the grids' {} points: {} of them are not flown; {}", runs,
+            points, points - runs, kInstead);
+    }
+    return fmt::format(
+        "runs: {} is no multiple of the grids' {} points: the first {} are flown once "
+        "more than the others; {}",
+        runs, points, runs % points, kInstead);
 }
 
 double share_within(const VariedKey& key) {

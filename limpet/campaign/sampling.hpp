@@ -40,6 +40,10 @@ struct VariedKey {
 /// @return number of points of the grids together; 1 without any
 [[nodiscard]] std::uint64_t grid_points(const std::vector<VariedKey>& keys);
 
+/// @return which points of the grids so many runs leave out, or fly less often than others, in one
+///         sentence; empty: all are flown alike
+[[nodiscard]] std::string uneven_runs(const std::vector<VariedKey>& keys, std::uint64_t runs);
+
 /// @return probability that a draw falls within from..to, 1 for other spreads than normal and
 ///         lognormal
 [[nodiscard]] double share_within(const VariedKey& key);

@@ -175,6 +175,10 @@ bool settled(const Scene& s) {
 bool hover_over(const Scene& s) {
     return s.elapsed_s() >= s.task.hover_s;
 }
+bool waited_for_wall(const Scene& s) {
+    return waited_too_long(s) && !s.memory.wall.ever;
+}
+
 bool waited_too_long(const Scene& s) {
     return s.elapsed_s() > s.parameters.wait_limit_s;
 }

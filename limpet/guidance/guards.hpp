@@ -48,6 +48,7 @@ struct Scene {
 [[nodiscard]] bool settled(const Scene& s);
 [[nodiscard]] bool hover_over(const Scene& s);
 [[nodiscard]] bool waited_too_long(const Scene& s);
+[[nodiscard]] bool waited_for_wall(const Scene& s);
 [[nodiscard]] bool battery_low(const Scene& s);
 [[nodiscard]] bool wall_lost(const Scene& s);
 /// Leans farther against the wind than the wall can be left with.

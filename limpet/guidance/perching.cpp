@@ -46,6 +46,10 @@ constexpr std::array kTable = {
 
     ends(S::pre_positioning, estimate_lost, "position estimate lost", Outcome::aborted),
     ends(S::pre_positioning, battery_low, "battery low", Outcome::aborted),
+    ends(S::pre_positioning, waited_for_wall,
+         "no pre-position in time: the LiDARs never saw a wall within "
+         "guidance.wall_near_limit_m",
+         Outcome::aborted),
     ends(S::pre_positioning, waited_too_long, "no pre-position before the wall in time",
          Outcome::aborted),
     Transition{S::pre_positioning, settled, S::aligning, "stands at the pre-position",

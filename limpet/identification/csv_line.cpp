@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/csv_line.hpp"
 
+#include <algorithm>
+
+#include "limpet/core/user_text.hpp"
+
 namespace limpet::identification {
 namespace {
 
@@ -22,7 +26,7 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::vector<std::string_view> csv_fields(std::string_view line) {
+std::vector<std::string_view> csv_fields(std::string_view line, char separator) {
     std::vector<std::string_view> fields;
     std::size_t begin = 0;
     bool quoted = false;
@@ -30,12 +34,29 @@ std::vector<std::string_view> csv_fields(std::string_view line) {
         if (i < line.size() && line[i] == '"') {
             quoted = !quoted;
         }
-        if (i == line.size() || (line[i] == ',' && !quoted)) {
+        if (i == line.size() || (line[i] == separator && !quoted)) {
             fields.push_back(trimmed(line.substr(begin, i - begin)));
             begin = i + 1;
         }
     }
     return fields;
+}
+
+char separator_of(std::string_view header) {
+    for (const char separator : {',', ';', '\t'}) {
+        if (header.find(separator) != std::string_view::npos) {
+            return separator;
+        }
+    }
+    return ',';
+}
+
+std::optional<double> number_in(std::string_view field, char separator) {
+    std::string text(field);
+    if (separator == ';' && std::count(text.begin(), text.end(), ',') == 1) {
+        std::replace(text.begin(), text.end(), ',', '.');
+    }
+    return decimal(text);
 }
 
 void for_each_csv_line(std::istream& text, const std::string& name,
@@ -47,7 +68,7 @@ void for_each_csv_line(std::istream& text, const std::string& name,
         }
         const CsvLine line{row, name, number};
         if (row.find('\0') != std::string::npos || row.size() > kLongestLine) {
-            line.refuse("not a text file of comma-separated values");
+            line.refuse("not a text file of rows and columns");
         }
         const std::string_view content = trimmed(row);
         if (!content.empty() && content.front() != '#') {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +26,17 @@ struct CsvLine {
     }
 };
 
-/// Fields between commas, without blanks and quotes around them; commas inside quotes belong to
-/// their field.
-[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line);
+/// Fields between separators, without blanks and quotes around them; separators inside quotes
+/// belong to their field.
+[[nodiscard]] std::vector<std::string_view> csv_fields(std::string_view line, char separator = ',');
+
+/// What parts the columns of a log: a comma, else a semicolon, else a tab, whichever its header
+/// has; a comma where it has none.
+[[nodiscard]] char separator_of(std::string_view header);
+
+/// A number in a field; between semicolons its point may be a comma.
+/// @return nothing where it is none, or not finite
+[[nodiscard]] std::optional<double> number_in(std::string_view field, char separator);
 
 /// Every line with something in it, in turn; blank ones and those that begin with '#' are passed
 /// over, a byte order mark too.

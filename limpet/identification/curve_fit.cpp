@@ -2,10 +2,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include "limpet/identification/pressure_curve.hpp"
+#include "limpet/identification/suspicion.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -76,14 +76,6 @@ struct Residuals {
     }
 };
 
-double median_step_s(const PressureTrace& trace) {
-    std::vector<double> steps_s(trace.t_s.size());
-    std::adjacent_difference(trace.t_s.begin(), trace.t_s.end(), steps_s.begin());
-    const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(1 + (steps_s.size() - 1) / 2);
-    std::nth_element(steps_s.begin() + 1, middle, steps_s.end());
-    return *middle;
-}
-
 /// Time after which residuals forget: where their autocorrelation has fallen into its noise, twice
 /// over for the kernel's slope; by samples, gaps count as none.
 double memory_of(const PressureTrace& trace, const VectorXd& residuals_Pa) {
@@ -94,7 +86,7 @@ double memory_of(const PressureTrace& trace, const VectorXd& residuals_Pa) {
     while (lag < most && residuals_Pa.head(n - lag).dot(residuals_Pa.tail(n - lag)) >= noise) {
         ++lag;
     }
-    return median_step_s(trace) * static_cast<double>(std::max<Eigen::Index>(4, 2 * lag));
+    return median_step_s(trace.t_s) * static_cast<double>(std::max<Eigen::Index>(4, 2 * lag));
 }
 
 /// Sum over pairs of Bartlett's weight times the product of their scores.
@@ -157,7 +149,7 @@ void add_covariance(const PressureTrace& trace, CurveFit& fit) {
     const MatrixXd scores = long_run(trace, gradients * freed_Pa.asDiagonal(), fit.memory_s);
     fit.covariance = scale.cwiseInverse().asDiagonal() * inverse * scores * inverse *
                      scale.cwiseInverse().asDiagonal();
-    fit.freedom = freedom_of(inverse * gradients, fit.memory_s / median_step_s(trace));
+    fit.freedom = freedom_of(inverse * gradients, fit.memory_s / median_step_s(trace.t_s));
     fit.regular = fit.covariance.allFinite() && fit.covariance.diagonal().minCoeff() >= 0.0;
 }
 

@@ -21,6 +21,7 @@ namespace {
 /// Where columns are; what is not there is past the end.
 struct CsvColumns {
     std::vector<std::string> names;
+    char separator = ',';
     [[nodiscard]] std::size_t of(const std::string& name) const {
         return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
                                         names.begin());
@@ -35,7 +36,7 @@ std::optional<double> cell(const CsvLine& line, const CsvColumns& columns,
     if (at >= fields.size() || fields[at].empty()) {
         return std::nullopt;
     }
-    const auto value = decimal(std::string(fields[at]));
+    const auto value = number_in(fields[at], columns.separator);
     if (!value) {
         line.refuse("{} is {}, not a finite number", name, in_quotes(fields[at]));
     }
@@ -61,7 +62,7 @@ std::optional<Vector3> three(const CsvLine& line, const CsvColumns& columns,
 }
 
 void add_row(const CsvLine& line, const CsvColumns& columns, FlightData& data, double& last_s) {
-    const auto fields = csv_fields(line.text);
+    const auto fields = csv_fields(line.text, columns.separator);
     if (fields.size() != columns.names.size()) {
         line.refuse("{} fields, the header has {}", fields.size(), columns.names.size());
     }
@@ -115,7 +116,8 @@ FlightData read_flight_csv(const std::filesystem::path& path) {
             add_row(line, columns, data, last_s);
             return;
         }
-        for (const std::string_view field : csv_fields(line.text)) {
+        columns.separator = separator_of(line.text);
+        for (const std::string_view field : csv_fields(line.text, columns.separator)) {
             columns.names.emplace_back(field);
         }
         if (!columns.has("t_s")) {

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
 
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
@@ -284,6 +287,25 @@ record::Recording in_order(record::Recording recording) {
     return recording;
 }
 
+/// Times of a clock count from the first sample of all: fits keep their digits.
+void count_from_first_sample(FlightData& data) {
+    double first_s = std::numeric_limits<double>::infinity();
+    const std::array lists = {&data.imu_s, &data.command_s, &data.velocity_s, &data.force_s,
+                              &data.pressure.t_s};
+    for (const std::vector<double>* list : lists) {
+        first_s = list->empty() ? first_s : std::min(first_s, list->front());
+    }
+    if (!std::isfinite(first_s)) {
+        return;
+    }
+    data.origin_s = clock_origin_s(first_s);
+    for (std::vector<double>* list : lists) {
+        for (double& time_s : *list) {
+            time_s -= data.origin_s;
+        }
+    }
+}
+
 /// The fits walk from sample to sample: times rise, and not by more than an hour.
 void require_in_order(const std::filesystem::path& path, const char* what,
                       const std::vector<double>& time_s) {
@@ -301,7 +323,7 @@ void require_in_order(const std::filesystem::path& path, const char* what,
 
 }  // namespace
 
-FlightData read_flight(const std::filesystem::path& path, const FlightSpan& span) {
+FlightData read_flight(const std::filesystem::path& path, const FlightSpan& asked) {
     std::string head(8, '\0');
     std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(8));
     const auto is = [&](std::string_view beginning, std::string_view extension) {
@@ -317,6 +339,13 @@ FlightData read_flight(const std::filesystem::path& path, const FlightSpan& span
     require_in_order(path, "a velocity", data.velocity_s);
     require_in_order(path, "a force", data.force_s);
     require_in_order(path, "a pressure", data.pressure.t_s);
+    count_from_first_sample(data);
+    FlightSpan span = asked;
+    for (std::optional<double>* end_s : {&span.from_s, &span.to_s}) {
+        if (*end_s) {
+            *end_s = since_origin_s(**end_s, data.origin_s);
+        }
+    }
     cut(span, data.imu_s, data.rate_B_rad_s, data.specific_force_B_m_s2);
     cut(span, data.command_s, data.command);
     cut(span, data.velocity_s, data.velocity_B_m_s);

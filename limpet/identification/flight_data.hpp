@@ -30,6 +30,7 @@ struct FlightData {
     /// (simulation/stride.hpp), which says when a command acts. Empty: nothing went in steps.
     std::vector<int> strides = {};
     std::string scenario_yaml = {};  ///< that a flight of ours was flown by
+    double origin_s = 0.0;           ///< of all times, in the log's clock (core/clock_origin.hpp)
     std::string kind = {};           ///< "recording", "PX4 log", "CSV"
 };
 
@@ -44,6 +45,8 @@ struct FlightSpan {
 /// sample. Motors of PX4 up to v1.13 are told by actuator_outputs: PWM, by the log's own limits
 /// made 0..1, and thrust by its THR_MDL_FAC. Samples of a recording or a PX4 log that stand up to a
 /// second too late are put in their places (FlightData::remarks).
+/// Times of a clock (Unix, GPS) count from the first sample.
+/// @param span  in the log's clock or from its first sample
 /// @throws InputError one line: file:line in CSV, what is missing or cannot be read
 [[nodiscard]] FlightData read_flight(const std::filesystem::path& path,
                                      const FlightSpan& span = {});

@@ -11,6 +11,8 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/identification/stages.hpp"
+#include "limpet/identification/suspicion.hpp"
+#include "limpet/identification/time_shift.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -212,6 +214,15 @@ void check_options(const IdentificationOptions& options) {
 }
 
 void check(const PressureTrace& trace, const IdentificationOptions& options) {
+    if (const std::string suspected =
+            suspected_pressure_unit(trace.pressure_Pa, options.atmosphere_Pa);
+        !suspected.empty()) {
+        throw InputError(suspected);
+    }
+    constexpr double kLongestStep_s = 3600.0;
+    if (median_step_s(trace.t_s) > kLongestStep_s) {
+        throw InputError(suspected_time_unit(trace.t_s));
+    }
     if (trace.t_s.size() < kFewestSamples) {
         throw InputError(fmt::format("{} samples are too few to fit, at least {} are needed",
                                      trace.t_s.size(), kFewestSamples));
@@ -346,19 +357,27 @@ PressureFit identify_pressure(const PressureTrace& trace, const IdentificationOp
     const std::size_t end = options.to_s ? sample_at(trace, *options.to_s) : trace.t_s.size();
     const PressureTrace asked = samples_of(trace, first, std::max(first, end) - first);
     check(asked, options);
-    Stages stages = stages_of(asked, options);
+    const double first_s = asked.t_s.front();
+    const PressureTrace moved = from_first_sample(asked);
+    const IdentificationOptions moved_options = earlier(options, first_s);
+    Stages stages = stages_of(moved, moved_options);
     if (options.pump_off_s && stages.used > 0 && *options.pump_off_s > asked.t_s[stages.used - 1]) {
         stages.used = asked.t_s.size();  // the user knows better where it ends
     }
-    const PressureTrace used = samples_of(asked, 0, stages.used);
+    const PressureTrace used = samples_of(moved, 0, stages.used);
     drop_short_stages(used, stages);
 
-    PressureFit result = result_of(fitted_curve(used, stages, options), options);
+    PressureFit result = result_of(fitted_curve(used, stages, moved_options), moved_options);
+    go_later(result, first_s);
     result.first_sample = first;
     result.samples = used.t_s.size();
     if (used.t_s.size() < asked.t_s.size()) {
-        result.notes.push_back(fmt::format(
-            "the log seals again at {:g} s: only what is before was used", used.t_s.back()));
+        result.notes.push_back(
+            fmt::format("the log seals again at {:g} s: only what is before was used",
+                        asked.t_s[used.t_s.size() - 1]));
+    }
+    if (const std::string suspected = suspected_time_unit(asked.t_s); !suspected.empty()) {
+        result.notes.push_back(suspected);
     }
     return result;
 }

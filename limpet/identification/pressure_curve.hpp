@@ -12,6 +12,7 @@ namespace limpet::identification {
 struct PressureTrace {
     std::vector<double> t_s;  ///< rising
     std::vector<double> pressure_Pa;
+    double origin_s = 0.0;  ///< of t_s in the log's clock (core/clock_origin.hpp)
 };
 
 /// Eqs. (5) and (6) one after the other, with the ripple of the pump:

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
@@ -19,10 +20,11 @@ namespace {
 
 using std::size_t;
 
-/// Columns are found by the name of a bench's log, or by that of a recording written as CSV.
+/// Columns are found by the name of a bench's log, by that of a recording written as CSV, or by
+/// that of `rostopic echo -p`.
 size_t column_of(const std::vector<std::string_view>& header, std::string_view column,
-                 std::string_view recorded, const CsvLine& line) {
-    for (const std::string_view wanted : {column, recorded}) {
+                 std::string_view recorded, std::string_view echoed, const CsvLine& line) {
+    for (const std::string_view wanted : {column, recorded, echoed}) {
         const auto count = std::count(header.begin(), header.end(), wanted);
         if (count > 1) {
             line.refuse("two columns \"{}\"", wanted);
@@ -43,8 +45,6 @@ size_t column_of(const std::vector<std::string_view>& header, std::string_view c
     const char* hint = "";
     if (there.find("MCAP") != std::string::npos) {
         hint = " (a recording? `limpet csv` makes CSV of it)";
-    } else if (header.size() == 1 && header[0].find_first_of(";\t") != std::string_view::npos) {
-        hint = " (columns are parted by commas)";
     }
     line.refuse("no column \"{}\" or \"{}\"; there are {}{}", column, recorded, there, hint);
 }
@@ -52,29 +52,39 @@ size_t column_of(const std::vector<std::string_view>& header, std::string_view c
 /// The columns that are read, once the header is known.
 struct Columns {
     explicit Columns(const CsvLine& line) {
-        const std::vector<std::string_view> header = csv_fields(line.text);
-        time = column_of(header, "t_s", "time_s", line);
-        pressure = column_of(header, "pressure_Pa", "fluid_pressure_Pa", line);
+        separator = separator_of(line.text);
+        const std::vector<std::string_view> header = csv_fields(line.text, separator);
+        time = column_of(header, "t_s", "time_s", kEchoedTime, line);
+        pressure =
+            column_of(header, "pressure_Pa", "fluid_pressure_Pa", "field.fluid_pressure", line);
         count = header.size();
+        seconds = header[time] == kEchoedTime ? 1e-9 : 1.0;
     }
+    static constexpr std::string_view kEchoedTime = "%time";  ///< in nanoseconds
+    char separator = ',';
+    double seconds = 1.0;  ///< of the column's unit
     size_t time = 0;
     size_t pressure = 0;
     size_t count = 0;
 };
 
 void add_sample(const CsvLine& line, const Columns& columns, PressureTrace& trace) {
-    const std::vector<std::string_view> fields = csv_fields(line.text);
+    const std::vector<std::string_view> fields = csv_fields(line.text, columns.separator);
     if (fields.size() != columns.count) {
         line.refuse("{} fields, the header has {}", fields.size(), columns.count);
     }
     const auto number = [&](const char* column, size_t at) {
-        const auto value = decimal(std::string(fields[at]));
+        const auto value = number_in(fields[at], columns.separator);
         if (!value) {
             line.refuse("{} is {}, not a finite number", column, in_quotes(fields[at]));
         }
         return *value;
     };
-    const double t_s = number("t_s", columns.time);
+    double t_s = columns.seconds * number("t_s", columns.time);
+    if (trace.t_s.empty()) {
+        trace.origin_s = clock_origin_s(t_s);
+    }
+    t_s -= trace.origin_s;
     const double pressure_Pa = number("pressure_Pa", columns.pressure);
     if (!trace.t_s.empty() && t_s <= trace.t_s.back()) {
         line.refuse(
@@ -82,8 +92,10 @@ void add_sample(const CsvLine& line, const Columns& columns, PressureTrace& trac
             t_s == trace.t_s.back() ? "as in the row before" : "earlier than the row before");
     }
     if (pressure_Pa < 0.0) {
-        line.refuse("pressure_Pa is {}, below zero: it must be absolute, in Pa",
-                    in_quotes(fields[columns.pressure]));
+        line.refuse(
+            "pressure_Pa is {}, below zero: gauge pressure? It must be absolute, in Pa: add "
+            "the atmosphere's, some 101325",
+            in_quotes(fields[columns.pressure]));
     }
     trace.t_s.push_back(t_s);
     trace.pressure_Pa.push_back(pressure_Pa);

@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/identification/csv_line.hpp"
+#include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::identification {
@@ -22,9 +26,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> words_of(const std::string& line) {
-    std::istringstream stream(line);
-    return {std::istream_iterator<std::string>(stream), {}};
+/// What parts the columns; the header tells.
+enum class Parted {
+    by_blanks,
+    by_commas,
+    by_semicolons
+};
+
+Parted parting_of(std::string_view header) {
+    return header.find(';') != std::string_view::npos   ? Parted::by_semicolons
+           : header.find(',') != std::string_view::npos ? Parted::by_commas
+                                                        : Parted::by_blanks;
+}
+
+std::vector<std::string> words_of(std::string_view line, Parted parted) {
+    if (parted == Parted::by_blanks) {
+        std::istringstream stream{std::string(line)};
+        return {std::istream_iterator<std::string>(stream), {}};
+    }
+    const auto fields = csv_fields(line, parted == Parted::by_commas ? ',' : ';');
+    return {fields.begin(), fields.end()};
 }
 
 struct Column {
@@ -39,7 +60,7 @@ constexpr std::array<Column, 3> kColumns = {{{"RPM", &PropellerRow::speed_rpm, 1
 /// Where in a line each of kColumns stands.
 using Places = std::array<std::size_t, kColumns.size()>;
 
-Places read_header(const std::vector<std::string>& words, const std::string& place) {
+Places read_header(const std::vector<std::string>& words, const CsvLine& line) {
     Places places{};
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
         const auto found = std::find_if(words.begin(), words.end(), [&](std::string word) {
@@ -48,9 +69,7 @@ Places read_header(const std::vector<std::string>& words, const std::string& pla
             return word == kColumns[k].name;
         });
         if (found == words.end()) {
-            throw InputError(
-                fmt::format("{}: the header has no column {}, must name RPM, CT and CP", place,
-                            kColumns[k].name));
+            line.refuse("the header has no column {}, must name RPM, CT and CP", kColumns[k].name);
         }
         places[k] = static_cast<std::size_t>(found - words.begin());
     }
@@ -58,19 +77,18 @@ Places read_header(const std::vector<std::string>& words, const std::string& pla
 }
 
 PropellerRow read_row(const std::vector<std::string>& words, const Places& places,
-                      const std::string& place) {
+                      const CsvLine& line) {
     PropellerRow row;
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
         const std::string_view name = kColumns[k].name;
         if (places[k] >= words.size()) {
-            throw InputError(fmt::format("{}: {} is missing, the row has {} of the columns", place,
-                                         name, words.size()));
+            line.refuse("{} is missing, the row has {} of the columns", name, words.size());
         }
         const std::string& word = words[places[k]];
         const auto value = decimal(word);
         if (!value || *value <= 0.0 || *value > kColumns[k].most) {
-            throw InputError(fmt::format("{}: {}: must be a number above 0, at most {:g}, is {}",
-                                         place, name, kColumns[k].most, in_quotes(word)));
+            line.refuse("{}: must be a number above 0, at most {:g}, is {}", name, kColumns[k].most,
+                        in_quotes(word));
         }
         row.*kColumns[k].field = *value;
     }
@@ -79,24 +97,42 @@ PropellerRow read_row(const std::vector<std::string>& words, const Places& place
 
 }  // namespace
 
+bool is_propeller_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    constexpr std::size_t kHead = 2000;
+    std::string head(kHead, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    std::istringstream text(head);
+    std::optional<bool> is;
+    try {
+        for_each_csv_line(text, path.string(), [&](const CsvLine& line) {
+            if (!is) {
+                is = false;
+                (void)read_header(words_of(line.text, parting_of(line.text)), line);
+                is = true;
+            }
+        });
+    } catch (const InputError&) {
+        return is.value_or(false);
+    }
+    return is.value_or(false);
+}
+
 std::vector<PropellerRow> read_propeller_file(const fs::path& path) {
     const std::string name = path.string();
     std::istringstream file(read_file(path, {"propeller file", 1}));
     std::vector<PropellerRow> rows;
     std::optional<Places> places;
-    std::string line;
-    for (int count = 1; std::getline(file, line); ++count) {
-        const auto words = words_of(line);
-        if (words.empty() || words[0][0] == '#') {
-            continue;
-        }
-        const std::string place = fmt::format("{}:{}", name, count);
+    Parted parted = Parted::by_blanks;
+    for_each_csv_line(file, name, [&](const CsvLine& line) {
         if (places) {
-            rows.push_back(read_row(words, *places, place));
+            rows.push_back(read_row(words_of(line.text, parted), *places, line));
         } else {
-            places = read_header(words, place);
+            parted = parting_of(line.text);
+            places = read_header(words_of(line.text, parted), line);
         }
-    }
+    });
     if (!places) {
         throw InputError(name + ": is empty, must begin with a header RPM CT CP");
     }
@@ -104,6 +140,21 @@ std::vector<PropellerRow> read_propeller_file(const fs::path& path) {
         throw InputError(name + ": has a header and no rows");
     }
     return rows;
+}
+
+void require_usable(const RotorConstants& constants) {
+    for (const auto& [name, value] :
+         {std::pair("motor_constant_kg_m", constants.motor_constant_kg_m),
+          std::pair("moment_constant_m", constants.moment_constant_m)}) {
+        vehicle::RotorParameters rotor;
+        const std::vector<BoundParameter> rows = bind(vehicle::rotor_table(), rotor);
+        const BoundParameter* row = find_named(rows, name);
+        require(row != nullptr, "a rotor has both constants");
+        if (!(row->allows(value) && value > 0.0)) {
+            throw InputError(fmt::format("{} comes out as {:.4g} {}, allowed {:g}..{:g}", name,
+                                         value, row->unit, row->minimum, row->maximum));
+        }
+    }
 }
 
 double length_m(std::string_view text, std::string_view what) {
@@ -129,10 +180,10 @@ double length_m(std::string_view text, std::string_view what) {
                                      in_quotes(unit)));
     }
     const double length = *value * known->second;
-    constexpr double kLongest_m = 10.0;
-    if (!(length > 0.0 && length <= kLongest_m)) {
+    constexpr double kShortest_m = 1e-3, kLongest_m = 10.0;
+    if (!(length >= kShortest_m && length <= kLongest_m)) {
         throw InputError(
-            fmt::format("{} {}: is out of range, above 0 up to 10 m", what, in_quotes(text)));
+            fmt::format("{} {}: is out of range, allowed 1mm..10m", what, in_quotes(text)));
     }
     return length;
 }

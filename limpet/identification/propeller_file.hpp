@@ -18,15 +18,18 @@ struct PropellerRow {
 };
 
 /// Reads a UIUC static file: a header with the names RPM, CT and CP, then rows of numbers, all
-/// separated by blanks or tabs. Other columns are passed over, empty lines and lines that begin
-/// with # too.
+/// separated by blanks or tabs, or as its header has it by commas or semicolons; a byte order mark
+/// may stand before it. Other columns are passed over, empty lines and lines that begin with # too.
 /// @return rows in the file's order, at least one; all numbers > 0
 /// @throws InputError one line that names file:line
 [[nodiscard]] std::vector<PropellerRow> read_propeller_file(const std::filesystem::path& path);
 
+/// @return whether its first line is such a header
+[[nodiscard]] bool is_propeller_file(const std::filesystem::path& path);
+
 /// @param text  a number and in, cm, mm or m: "12in", "30.5 cm"
 /// @param what  begins the complaint: "--diameter"
-/// @return [m], > 0
+/// @return [m], 1 mm to 10 m
 /// @throws InputError also for a bare number: 12 may be anything
 [[nodiscard]] double length_m(std::string_view text, std::string_view what);
 
@@ -37,6 +40,9 @@ struct RotorConstants {
 };
 [[nodiscard]] RotorConstants rotor_constants(const PropellerRow& row, double diameter_m,
                                              double density_kg_m3);
+
+/// @throws InputError for constants that no vehicle file takes, as of a propeller of 0.1 mm
+void require_usable(const RotorConstants& constants);
 
 /// The constants that fit all rows: T = k_mot w^2 and Q = k_mom T by least squares, so that a row
 /// counts with the fourth power of its speed. Slow rows, where small blades are worse and balances

@@ -96,7 +96,8 @@ PressureTrace samples_of(const PressureTrace& trace, size_t first, size_t count)
     const auto begin = static_cast<ptrdiff_t>(first);
     const auto end = static_cast<ptrdiff_t>(first + count);
     return {.t_s = {trace.t_s.begin() + begin, trace.t_s.begin() + end},
-            .pressure_Pa = {trace.pressure_Pa.begin() + begin, trace.pressure_Pa.begin() + end}};
+            .pressure_Pa = {trace.pressure_Pa.begin() + begin, trace.pressure_Pa.begin() + end},
+            .origin_s = trace.origin_s};
 }
 
 std::optional<Stages> find_stages(const PressureTrace& trace) {

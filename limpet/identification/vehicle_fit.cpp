@@ -404,6 +404,9 @@ VehicleFit identify_vehicle(const FlightData& data, const vehicle::Airframe& air
         }
     };
     trying("inertia, motors' lag and drag", [&] { fit_motion(data, airframe, fit); });
+    if (!airframe.has_cup) {
+        return fit;
+    }
     fit_slider(data, fit);
     if (data.pressure.t_s.empty()) {
         fit.notes.emplace_back("no cup pressure in the log: nothing tells the surface");

@@ -34,6 +34,7 @@ struct VehicleFit {
 /// 13.4). Drag: specific force across the rotors' axes over the hubs' velocity in still air, on a
 /// bias that wanders. Slider: the force in it over how far and how fast the body goes on after the
 /// touch, its acceleration integrated twice.
+/// Of a vehicle without a cup neither slider nor pressure are asked for.
 /// @param airframe  what is taken as known: rotors' places and thrust, the cup's hinges, mass; its
 ///                  inertia, lags and lambda_1 are where the search begins
 [[nodiscard]] VehicleFit identify_vehicle(const FlightData& data,

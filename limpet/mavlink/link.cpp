@@ -127,6 +127,7 @@ std::optional<Frame> Link::receive(std::chrono::nanoseconds timeout) {
         if (generation() != heard_generation_) {  // half a frame of the last peer is nobody's
             before_.lost += parser_.statistics().lost;
             before_.bad_checksum += parser_.statistics().bad_checksum;
+            before_.mavlink1 += parser_.statistics().mavlink1;
             before_.discarded_bytes += parser_.statistics().discarded_bytes;
             parser_ = Parser();
             heard_generation_ = generation();
@@ -142,6 +143,7 @@ LinkCount Link::count() const {
     const LinkStatistics& now = parser_.statistics();
     count.lost = before_.lost + now.lost;
     count.damaged = before_.bad_checksum + now.bad_checksum;
+    count.mavlink1 = before_.mavlink1 + now.mavlink1;
     count.discarded_bytes = before_.discarded_bytes + now.discarded_bytes;
     count.refusals = seal_->refusals;
     return count;

@@ -21,6 +21,10 @@ namespace {
 /// Room in the wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kRoom{5};
 
+constexpr std::string_view kVersion1 =
+    "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink "
+    "2";
+
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
                       version.flight_custom_version.begin());
@@ -111,6 +115,11 @@ bool Px4Autopilot::tracker_silent(double time_s) const {
            !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
 }
 
+/// A peer that is set to MAVLink 1 alone is there and seems silent.
+bool Px4Autopilot::speaks_version_1() const {
+    return hil_link_.count().mavlink1 > 0 && hil_.count().answers == 0;
+}
+
 /// Set-points and sensors out, motors back.
 void Px4Autopilot::exchange(const Setpoint& setpoint) {
     // Two wires of one autopilot: what goes in a step goes at once, and wakes it up once.
@@ -161,8 +170,9 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
         case mavlink::HilStatus::waiting:
         case mavlink::HilStatus::answered: break;
         case mavlink::HilStatus::silent:
-            failure_ = hil_.count().answers > 0
-                           ? "the autopilot answers no longer"
+            failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
+                       : speaks_version_1()
+                           ? kVersion1
                            : "the autopilot connected, and has not answered HIL_SENSOR in "
                              "the time that it is waited for";
             break;
@@ -217,7 +227,9 @@ std::string Px4Autopilot::obstacle() const {
         return std::string(*failure_);
     }
     if (status_ == mavlink::HilStatus::waiting) {
-        return "the autopilot boots: it has not answered HIL_SENSOR yet";
+        return std::string(speaks_version_1()
+                               ? kVersion1
+                               : "the autopilot boots: it has not answered HIL_SENSOR yet");
     }
     return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
 }

@@ -54,6 +54,7 @@ private:
     void look_who();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
+    [[nodiscard]] bool speaks_version_1() const;
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 
     mavlink::Link& hil_link_;

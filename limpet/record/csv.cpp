@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -47,8 +49,20 @@ std::string value_text(const Column& column, std::size_t row) {
     return fmt::format("{}", whole);
 }
 
+/// In the clock of the file, to its last digit.
+std::string clock_text(double time_s, std::uint64_t origin_ns) {
+    constexpr double kFarthest_s = 1e9;  // beyond it no log goes on
+    if (origin_ns == 0 || !(std::abs(time_s) < kFarthest_s)) {
+        return fmt::format("{}", 1e-9 * static_cast<double>(origin_ns) + time_s);
+    }
+    constexpr std::uint64_t kSecond_ns = 1'000'000'000;
+    const std::uint64_t time_ns =
+        origin_ns + static_cast<std::uint64_t>(std::llround(1e9 * time_s));
+    return fmt::format("{}.{:09}", time_ns / kSecond_ns, time_ns % kSecond_ns);
+}
+
 /// In pieces: the text of a table takes several times its memory.
-void write_table(const Table& table, std::ostream& file) {
+void write_table(const Table& table, std::uint64_t origin_ns, std::ostream& file) {
     constexpr std::size_t kPiece_bytes = 1 << 16;
     std::string out = "time_s";
     const auto append = [&out](const auto& field) {
@@ -62,7 +76,7 @@ void write_table(const Table& table, std::ostream& file) {
     }
     for (std::size_t row = 0; row < table.time_s.size(); ++row) {
         out += '\n';
-        out += table.time_ns.empty() ? fmt::format("{}", table.time_s[row])
+        out += table.time_ns.empty() ? clock_text(table.time_s[row], origin_ns)
                                      : seconds_of(table.time_ns[row]);
         for (const Column& column : table.columns) {
             append(value_text(column, row));
@@ -86,11 +100,12 @@ std::string values_as_text(const RecordedEvent& event) {
     return text;
 }
 
-std::string events_as_csv(const std::vector<RecordedEvent>& events) {
+std::string events_as_csv(const std::vector<RecordedEvent>& events, std::uint64_t origin_ns) {
     std::string out = "time_s,station,name,reason,values\n";
     for (const RecordedEvent& event : events) {
-        fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", event.time_s,
-                       csv_field(event.station), csv_field(event.name), csv_field(event.reason),
+        fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n",
+                       clock_text(event.time_s, origin_ns), csv_field(event.station),
+                       csv_field(event.name), csv_field(event.reason),
                        csv_field(values_as_text(event)));
     }
     return out;
@@ -190,12 +205,13 @@ std::vector<std::filesystem::path> write_csv(const Recording& recording,
         const Table& table = recording.tables[i];
         work.say("writing " + table.topic);
         if (!names[i].empty()) {
-            files.push_back(write_whole(folder / names[i],
-                                        [&](std::ostream& file) { write_table(table, file); }));
+            files.push_back(write_whole(folder / names[i], [&](std::ostream& file) {
+                write_table(table, recording.origin_ns, file);
+            }));
         }
     }
     files.push_back(write_whole(folder / kEventsFile, [&](std::ostream& file) {
-        file << events_as_csv(recording.events);
+        file << events_as_csv(recording.events, recording.origin_ns);
     }));
     return files;
 }

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
@@ -178,6 +180,7 @@ Recording read_recording(const std::filesystem::path& path) {
     Allowance allowance(mcap::unpacked_allowance_bytes(ignored ? 0 : file_bytes));
     std::map<std::uint16_t, TopicReader> topics;  // by channel; nodes stay where readers point
     LeftOut unread, not_taken;
+    std::optional<std::uint64_t> origin_ns;  // whole: a double of a clock's time ends at 0.2 us
     mcap::Contents contents =
         mcap::read(path, [&](const mcap::Contents& so_far, const mcap::Message& message) {
             const auto [at, is_new] = topics.try_emplace(message.channel_id);
@@ -188,7 +191,10 @@ Recording read_recording(const std::filesystem::path& path) {
                     open(so_far, channel, allowance, topic);
                 }
                 if (topic.reader) {
-                    topic.reader->append(message.log_time_ns, message.data);
+                    if (!origin_ns) {
+                        origin_ns = clock_origin_ns(message.log_time_ns);
+                    }
+                    topic.reader->append(message.log_time_ns, message.data, *origin_ns);
                 }
             } catch (const TooMuch& problem) {
                 throw InputError(fmt::format("{}: {}", path.string(), problem.what()));
@@ -205,6 +211,7 @@ Recording read_recording(const std::filesystem::path& path) {
 
     Recording recording;
     recording.path = path;
+    recording.origin_ns = origin_ns.value_or(0);
     for (auto& [id, topic] : topics) {
         if (topic.reader) {
             recording.tables.push_back(std::move(topic.table));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -39,6 +40,8 @@ struct Recording {
     std::vector<mcap::Attachment> attachments;
     std::vector<Table> tables;  ///< one a topic that has messages, in the order of their channels
     std::vector<RecordedEvent> events;
+    std::uint64_t origin_ns =
+        0;               ///< of all times, in the clock of the file (core/clock_origin.hpp)
     std::string damage;  ///< what is missing, in one sentence; empty when whole
     /// What is no damage: a line for each topic that does not become columns, "topic /x is not
     /// taken: why".
@@ -65,6 +68,7 @@ struct Recording {
 /// encoding, of arrays of messages, of services' events and of wide characters are named in
 /// `remarks`, those whose definition makes no sense in `damage`. A file that zstd or LZ4 has packed
 /// as a whole is read as it is.
+/// Times of a clock count from the first message.
 /// @throws InputError if path is no MCAP file, or asks for more memory than one of its size may
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 

@@ -16,6 +16,11 @@
 namespace limpet::record {
 namespace {
 
+double seconds_after(std::uint64_t origin_ns, std::uint64_t time_ns) {
+    return time_ns >= origin_ns ? 1e-9 * static_cast<double>(time_ns - origin_ns)
+                                : -1e-9 * static_cast<double>(origin_ns - time_ns);
+}
+
 constexpr std::size_t kMaxFields = 10'000;
 
 }  // namespace
@@ -211,10 +216,11 @@ std::size_t TableReader::add_column(Primitive primitive, const std::string& path
     return table_.columns.size() - 1;
 }
 
-void TableReader::append(std::uint64_t time_ns, std::span<const std::uint8_t> message) {
+void TableReader::append(std::uint64_t time_ns, std::span<const std::uint8_t> message,
+                         std::uint64_t origin_ns) {
     allowance_.take_bytes(sizeof(double) + sizeof time_ns + row_bytes_ +
                           sizeof(std::string) * table_.texts.size());
-    table_.time_s.push_back(static_cast<double>(time_ns) * 1e-9);
+    table_.time_s.push_back(seconds_after(origin_ns, time_ns));
     table_.time_ns.push_back(time_ns);
     for (Column& column : table_.columns) {
         column.values.push_back(kNaN);

@@ -79,10 +79,12 @@ public:
     TableReader(const std::vector<MessageType>& types, Table& table, Allowance& allowance);
 
     /// Adds a row, or nothing.
+    /// @param origin_ns  from which the row's time_s counts
     /// @param cdr  little-endian CDR with its encapsulation header
     /// @throws mcap::Malformed if it is not what the schema says
     /// @throws TooMuch
-    void append(std::uint64_t time_ns, std::span<const std::uint8_t> cdr);
+    void append(std::uint64_t time_ns, std::span<const std::uint8_t> cdr,
+                std::uint64_t origin_ns = 0);
 
 private:
     /// Reads one value or one dynamic array, or passes over a message without fields.

@@ -88,7 +88,14 @@ std::optional<double> derived(std::string_view section, std::string_view name,
     const auto found = std::find_if(
         std::begin(kDerived), std::end(kDerived),
         [&](const DerivedKey& key) { return key.section == section && key.name == name; });
-    return found == std::end(kDerived) ? std::nullopt : std::optional(found->value(scenario));
+    if (found != std::end(kDerived)) {
+        return found->value(scenario);
+    }
+    // The default's are the table's own, which a recording spells out.
+    if (section == "autopilot" && scenario.aiding != &autopilot::kMotionCaptureAiding) {
+        return setting_of(*scenario.aiding, name);
+    }
+    return std::nullopt;
 }
 
 RotorList<autopilot::RotorGeometry> rotor_geometry(const vehicle::AirframeNumbers& airframe) {

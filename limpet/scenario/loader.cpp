@@ -86,7 +86,8 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     if (vehicle == nullptr) {
         fail(root, "vehicle: is missing, as in `vehicle: perching_uav`");
     }
-    scenario.airframe = vehicle_from(*vehicle, data, scenario.path.parent_path());
+    scenario.airframe =
+        vehicle_from(*vehicle, data, scenario.path.parent_path(), &scenario.inherited);
     const std::vector<Section> sections = scenario_sections(scenario);
     const auto section = [&](std::string_view name) -> const Section& {
         return find_section(sections, name);
@@ -110,6 +111,9 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
     derive(section("suction"), scenario);
     read_suction(root.find("suction"), scenario.cup);
     for (const char* name : {"guidance", "autopilot"}) {
+        if (is_section(root.find(name))) {
+            read_choices(root.find(name), section(name));
+        }
         derive(section(name), scenario);
         read_section(root.find(name), section(name));
     }
@@ -122,7 +126,7 @@ fs::path data_of(const LoadOptions& options) {
 
 Scenario load(YamlNode root, Scenario scenario, const LoadOptions& options) {
     for (const std::string& override_text : options.overrides) {
-        set_override(root, override_text);
+        set_override(root, with_files_of(override_text, options.folder));
     }
     read_scenario(root, data_of(options), scenario);
     scenario.seed = options.seed.value_or(scenario.seed);

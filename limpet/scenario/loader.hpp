@@ -19,6 +19,9 @@ struct LoadOptions {
     std::vector<std::string> overrides{};
     std::optional<std::uint64_t> seed{};  ///< after the overrides
     std::filesystem::path data_root{};    ///< empty: scenario::data_root()
+    /// Where the overrides were written: their relative paths count from here first, then from the
+    /// scenario's folder. Empty: the working folder.
+    std::filesystem::path folder{};
 };
 
 /// Reads, overrides, derives and checks one experiment. A scenario's keys are described in

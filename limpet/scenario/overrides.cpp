@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
+#include <system_error>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/user_text.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 
 namespace limpet::scenario {
@@ -84,6 +88,28 @@ void set_override(YamlNode& root, std::string_view assignment) {
     adopt(value, path, place);
     value.key = node->key;
     *node = std::move(value);
+}
+
+std::string with_files_of(std::string assignment, const std::filesystem::path& folder) {
+    namespace fs = std::filesystem;
+    for (const std::string_view key : {"vehicle=", "vehicle.base=", "vehicle.model.urdf="}) {
+        if (!assignment.starts_with(key)) {
+            continue;
+        }
+        const std::string wanted = assignment.substr(key.size());
+        const bool file = is_path(wanted) || key == "vehicle.model.urdf=";
+        std::error_code problem;
+        const fs::path path = fs::absolute(folder / wanted, problem);
+        if (file && !wanted.empty() && !problem && fs::is_regular_file(path, problem)) {
+            const std::string found = path.lexically_normal().string();
+            const bool plain = std::all_of(found.begin(), found.end(), [](char c) {
+                return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' ||
+                       c == '_' || c == '-';
+            });
+            return std::string(key) + (plain ? found : in_yaml(found));
+        }
+    }
+    return assignment;
 }
 
 std::vector<std::string> split_settings(std::string_view text) {

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
@@ -110,12 +113,44 @@ void validate_at(const YamlNode& node, const vehicle::Airframe& airframe) {
     }
 }
 
-vehicle::Airframe load_vehicle_file(const fs::path& file) {
+/// Keys of a vehicle that a map does not give.
+std::vector<std::string> not_given_in(const YamlNode& map, const vehicle::Airframe& airframe) {
+    std::vector<std::string> keys;
+    vehicle::Airframe rows_of = airframe;
+    for (const Section& section : vehicle_sections(rows_of)) {
+        const YamlNode* node = section.name.empty() ? &map : map.find(section.name);
+        const bool list = node != nullptr && node->kind == YamlNode::Kind::list;
+        for (const BoundParameter& row : section.rows) {
+            const std::string key = section.name.empty()
+                                        ? std::string(row.name)
+                                        : fmt::format("{}.{}", section.name, row.name);
+            if (!list && (node == nullptr || node->find(row.name) == nullptr)) {
+                keys.push_back(key);
+            }
+        }
+    }
+    if (map.find("rotors") == nullptr) {
+        keys.emplace_back("rotors");
+    }
+    if (map.find("model") != nullptr) {
+        std::erase_if(keys, [](const std::string& key) {
+            return key.starts_with("inertia") || key == "cup.joint_x_m" || key == "cup.joint_z_m" ||
+                   key.find("mass_") != std::string::npos;  // a URDF's
+        });
+    }
+    return keys;
+}
+
+vehicle::Airframe load_vehicle_file(const fs::path& file,
+                                    std::vector<std::string>* inherited = nullptr) {
     const YamlNode root = parse_yaml_file(file);
     vehicle::Airframe airframe;
     airframe.name = file.stem().string();
     read_vehicle(root, false, file.parent_path(), airframe);
     validate_at(root, airframe);
+    if (inherited != nullptr) {
+        *inherited = not_given_in(root, airframe);
+    }
     return airframe;
 }
 
@@ -179,8 +214,10 @@ Surface load_surface(const std::string& name, const fs::path& root, const YamlNo
     throw InputError(what);
 }
 
-vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder) {
+vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const fs::path& folder,
+                               std::vector<std::string>* inherited) {
     vehicle::Airframe airframe;
+    std::optional<std::vector<std::string>> of_base;
     if (const std::string base = base_of(node); !base.empty()) {
         fs::path file;
         try {
@@ -188,11 +225,21 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
         } catch (const InputError& error) {
             fail(node, error.what());
         }
-        airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file);
+        airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file,
+                                     &of_base.emplace());
     }
+    std::vector<std::string> keys = of_base.value_or(std::vector<std::string>());
     if (node.kind == YamlNode::Kind::map) {
         read_vehicle(node, true, folder, airframe);
         validate_at(node, airframe);
+        std::vector<std::string> left_out = not_given_in(node, airframe);
+        std::erase_if(left_out, [&](const std::string& key) {
+            return of_base && std::find(keys.begin(), keys.end(), key) == keys.end();
+        });
+        keys = std::move(left_out);
+    }
+    if (inherited != nullptr) {
+        *inherited = std::move(keys);
     }
     return airframe;
 }

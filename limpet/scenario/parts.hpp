@@ -47,10 +47,12 @@ namespace limpet::scenario {
 void read_model(const YamlNode& vehicle, const std::filesystem::path& folder,
                 vehicle::Airframe& airframe);
 
-/// @param folder  of the scenario, from which a vehicle's relative path counts
+/// @param folder     of the scenario, from which a vehicle's relative path counts
+/// @param inherited  null, or what becomes the keys that nobody gives
 [[nodiscard]] vehicle::Airframe vehicle_from(const YamlNode& node,
                                              const std::filesystem::path& root,
-                                             const std::filesystem::path& folder);
+                                             const std::filesystem::path& folder,
+                                             std::vector<std::string>* inherited = nullptr);
 [[nodiscard]] Surface surface_from(const YamlNode& node, const std::filesystem::path& root);
 
 }  // namespace limpet::scenario

@@ -9,6 +9,7 @@
 
 #include "limpet/autopilot/autopilots.hpp"
 #include "limpet/autopilot/parameters.hpp"
+#include "limpet/autopilot/position_source.hpp"
 #include "limpet/core/atmosphere.hpp"
 #include "limpet/core/enum_names.hpp"
 #include "limpet/core/frames.hpp"
@@ -104,6 +105,9 @@ struct Scenario {
     NoiseBlend noise;  ///< in the seed's place; empty: the seed alone
     Mission mission = Mission::perch_and_take_off;
     vehicle::Airframe airframe;
+    /// Keys of the vehicle that its file leaves to the paper's: "rotors", "slider.damping_N_s_m",
+    /// ...
+    std::vector<std::string> inherited;
     WallSetup wall;
     Start start;
     vehicle::Mount mount = vehicle::Mount::free;  ///< on another one the mission does not matter
@@ -116,6 +120,8 @@ struct Scenario {
     autopilot::AutopilotParameters autopilot;
     const autopilot::AutopilotKind* autopilot_kind =
         &autopilot::kCascade;  ///< that flies with them
+    /// What tells it where it is; sets parameters of `autopilot` that no key sets.
+    const autopilot::PositionSource* aiding = &autopilot::kMotionCaptureAiding;
     guidance::PerchingParameters guidance;
     SimulationParameters simulation;
     const plant::Engine* engine = &plant::kReducedEngine;  ///< that moves the bodies

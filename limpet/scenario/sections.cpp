@@ -108,7 +108,8 @@ std::vector<Section> scenario_sections(Scenario& scenario) {
         {"guidance", bind(guidance::perching_table(), scenario.guidance)},
         {"autopilot",
          bind(autopilot::autopilot_table(), scenario.autopilot),
-         {choice("kind", "autopilot", autopilot::autopilots(), scenario.autopilot_kind)}},
+         {choice("kind", "autopilot", autopilot::autopilots(), scenario.autopilot_kind),
+          choice("aiding", "source of position", autopilot::position_sources(), scenario.aiding)}},
         {"sensors", sensor_rows(scenario.sensors)},
         {"simulation",
          bind(simulation_table(), scenario.simulation),
@@ -128,6 +129,10 @@ void read_section(const YamlNode* node, const Section& section,
         others.push_back(choice.key);
     }
     read_rows(node, section.rows, others);
+    read_choices(node, section);
+}
+
+void read_choices(const YamlNode* node, const Section& section) {
     for (const Choice& choice : section.choices) {
         if (const YamlNode* named = node == nullptr ? nullptr : node->find(choice.key)) {
             const std::string word = read_text(*named);

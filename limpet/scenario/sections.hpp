@@ -58,6 +58,9 @@ void read_suction(const YamlNode* section, suction::CupParameters& cup);
 void read_section(const YamlNode* node, const Section& section,
                   std::vector<std::string_view> others = {});
 
+/// Reads the choices alone: before derive(), where rows follow from one.
+void read_choices(const YamlNode* node, const Section& section);
+
 /// @return the section of that name @throws InternalError when there is none
 [[nodiscard]] const Section& find_section(const std::vector<Section>& sections,
                                           std::string_view name);

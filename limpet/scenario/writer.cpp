@@ -112,6 +112,12 @@ void write_wall(Writer& writer, const Section& section, const WallSetup& wall) {
     }
 }
 
+/// Those that are not as they are where nothing is said.
+std::vector<Choice> chosen_ones(std::vector<Choice> choices) {
+    std::erase_if(choices, [](const Choice& choice) { return choice.chosen == 0; });
+    return choices;
+}
+
 /// Rows of a section but for those that would be derived alike.
 void write_section(Writer& writer, const Section& section, const Scenario& scenario) {
     writer.line(0, section.name + ":");
@@ -158,8 +164,8 @@ std::string to_yaml(const Scenario& scenario) {
         write_section(writer, section, scenario);
         if (name == "suction") {
             writer.value(1, "pressure_model", suction::model_of(copy.cup).name);
-        } else if (name != "autopilot" || copy.autopilot_kind != autopilot::autopilots().front()) {
-            writer.choices(section.choices);
+        } else {
+            writer.choices(name == "autopilot" ? chosen_ones(section.choices) : section.choices);
         }
     }
     return writer.take();

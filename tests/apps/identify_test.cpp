@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -91,6 +93,74 @@ TEST(Calibrate, RefusesWhatItDoesNotKnow) {
     }
 }
 
+/// Another's numbers would come out, with intervals.
+TEST(Calibrate, TakesTheRecordingsVehicleAlsoWithoutACup) {
+    const Bench bench;
+    ASSERT_EQ(bench
+                  .run({"fly", "hover", "--set", "vehicle=iris", "--set",
+                        "simulation.record_rate_Hz=250", "--no-figures", "--quiet", "--out", "."})
+                  .exit_code,
+              0);
+    const Finished own = bench.run({"calibrate", "flight.mcap"});
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_THAT(own.out, Not(HasSubstr("slider")));
+    EXPECT_THAT(own.out, AllOf(HasSubstr("limpet fly hover \\\n  --set vehicle=iris"),
+                               HasSubstr("--set vehicle.inertia_kg_m2.xx=0.0")));
+    EXPECT_EQ(bench.run({"calibrate", "flight.mcap", "--vehicle", "iris"}).out, own.out);
+    const auto json = nlohmann::json::parse(bench.run({"calibrate", "flight.mcap", "--json"}).out);
+    EXPECT_EQ(json["vehicle"], "iris");
+    const auto& xx = json["numbers"]["vehicle.inertia_kg_m2.xx"];
+    EXPECT_LT(xx["low"].get<double>(), 0.029125);  // vehicles/iris.yaml
+    EXPECT_GT(xx["high"].get<double>(), 0.029125);
+    EXPECT_EQ(xx["plausible"], true);
+    const Finished other = bench.run({"calibrate", "flight.mcap", "--vehicle", "perching_uav"});
+    EXPECT_THAT(other.out, HasSubstr("the recording's vehicle is iris, taken as known is "
+                                     "perching_uav"));
+}
+
+TEST(Calibrate, AsksWhichVehicleWhereNothingSaysIt) {
+    const Bench bench;
+    std::string csv =
+        "t_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,command_0,command_1,command_2,"
+        "command_3\n";
+    for (int k = 0; k < 1000; ++k) {
+        csv += fmt::format("{},0,0,0,0.6,0.6,0.6,0.6\n", 0.004 * k);
+    }
+    (void)bench.write("log.csv", csv);
+    const Finished finished = bench.run({"calibrate", "log.csv"});
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_THAT(finished.err, HasSubstr("log.csv: the log does not say which vehicle flew: "
+                                        "--vehicle NAME|FILE"));
+    // A relative path counts from here.
+    (void)bench.write("mine.yaml", "mass_kg: 3.3\n");
+    const Finished named = bench.run({"calibrate", "log.csv", "--vehicle", "mine.yaml"});
+    EXPECT_THAT(named.err, Not(HasSubstr("mine.yaml"))) << named.err;
+}
+
+/// A log that tells nothing of the inertia: whatever comes out is not offered.
+TEST(Calibrate, OffersNoImplausibleInertia) {
+    const Bench bench;
+    std::string csv =
+        "t_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s,command_0,command_1,command_2,"
+        "command_3\n";
+    std::uint32_t noise = 1;
+    const auto next = [&noise] {
+        noise = 1664525U * noise + 1013904223U;
+        return static_cast<double>(noise >> 8U) / 16777216.0 - 0.5;
+    };
+    for (int k = 0; k < 2000; ++k) {
+        csv += fmt::format("{},{},{},{}", 0.004 * k, 1e-3 * next(), 1e-3 * next(), 1e-3 * next());
+        csv += fmt::format(",{},{},{},{}\n", 0.6 + 0.1 * next(), 0.6 + 0.1 * next(),
+                           0.6 + 0.1 * next(), 0.6 + 0.1 * next());
+    }
+    (void)bench.write("log.csv", csv);
+    const Finished finished = bench.run({"calibrate", "log.csv", "--vehicle", "perching_uav"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_THAT(finished.out, Not(HasSubstr("--set vehicle.inertia_kg_m2")));
+    EXPECT_THAT(finished.out, HasSubstr("note  vehicle.inertia_kg_m2.xx: "));
+}
+
 TEST(Calibrate, WhatItSaysToFlyHasItsVehicle) {
     const Bench bench;
     ASSERT_EQ(bench
@@ -153,6 +223,46 @@ void expect_refused(const std::string& log, const std::vector<std::string>& text
         EXPECT_THAT(finished.err, HasSubstr(text));
     }
     EXPECT_THAT(bench.files(), testing::ElementsAre("log.csv"));
+}
+
+std::string at_unix_time(const std::string& log) {
+    std::istringstream lines(log);
+    std::string out;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t comma = line.rfind(',');
+        out += line.starts_with("x,") ? fmt::format("{}{:.6f}", line.substr(0, comma + 1),
+                                                    1.71e9 + std::stod(line.substr(comma + 1)))
+                                      : line;
+        out += '\n';
+    }
+    return out;
+}
+
+TEST(Identify, ALogWithAClocksTimesGivesTheSameNumbers) {
+    const Bench bench;
+    (void)bench.write("rel.csv", concrete_log());
+    (void)bench.write("unix.csv", at_unix_time(concrete_log()));
+    const auto numbers = [&](const std::string& log, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"identify", log, "--json"});
+        const Finished finished = bench.run(more);
+        EXPECT_EQ(finished.exit_code, 0) << finished.err;
+        return nlohmann::json::parse(finished.out);
+    };
+    const auto rel = numbers("rel.csv"), unix_time = numbers("unix.csv");
+    for (const char* key :
+         {"sealing_time_constant_s", "unsealing_time_constant_s", "sealing_begins_s"}) {
+        for (const char* part : {"value", "low", "high"}) {
+            EXPECT_NEAR(unix_time[key][part].get<double>(), rel[key][part].get<double>(), 2e-6)
+                << key;
+        }
+    }
+    EXPECT_EQ(unix_time["time_origin_s"], 1.71e9);
+    EXPECT_EQ(rel["time_origin_s"], 0.0);
+    // Times are taken in the clock, too.
+    EXPECT_EQ(numbers("unix.csv", {"--to", "1710000005"})["samples"],
+              numbers("rel.csv", {"--to", "5"})["samples"]);
+    EXPECT_THAT(bench.run({"identify", "unix.csv"}).out,
+                HasSubstr("note            times are from the first sample, at 1710000000.000 s"));
 }
 
 TEST(Identify, RefusesBadInputInOneLine) {

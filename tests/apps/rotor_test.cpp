@@ -53,6 +53,8 @@ TEST(RotorVerb, RefusesInOneLine) {
           Case{{".", "--diameter", "12in"}, "directory"}, Case{{"p.txt"}, "--diameter"},
           Case{{"p.txt", "--diameter", "12"}, "needs its unit"},
           Case{{"p.txt", "--diameter", "0in"}, "--diameter"},
+          Case{{"p.txt", "--diameter", "1e-300in"}, "--diameter \"1e-300in\": is out of range"},
+          Case{{"p.txt", "--diameter", "2mm"}, "motor_constant_kg_m comes out as"},
           Case{{"p.txt", "--diameter=-3in"}, "--diameter"},
           Case{{"p.txt", "--diameter", "12 feet"}, "none of in, cm, mm, m"},
           Case{{"p.txt", "--diameter", "12in", "--density", "0"}, "--density"},

@@ -209,6 +209,44 @@ TEST(Verbs, CheckKnowsAFileByWhatIsInIt) {
     EXPECT_EQ(bench.run({"check", "a #b: c/iris.yaml"}).exit_code, 0);
 }
 
+/// The verdict counts what does not stop a flight, and a vehicle that does not hover is no good
+/// one.
+TEST(Verbs, CheckCountsItsRemarks) {
+    const Bench bench;
+    (void)bench.write("legs.yaml", "mass_kg: 3.2\nlegs: {tip_z_m: 0.9}\n");
+    const Finished legs = bench.run({"check", "legs.yaml"});
+    EXPECT_EQ(legs.exit_code, 0) << legs.err;
+    EXPECT_THAT(legs.out, testing::AllOf(HasSubstr("a good vehicle of 3.20 kg; 1 remark\n"),
+                                         HasSubstr("\n  remark: legs.tip_z_m: the legs reach")));
+    (void)bench.write("light.yaml", "mass_kg: 0.565\n");
+    const Finished light = bench.run({"check", "light.yaml"});
+    EXPECT_THAT(light.out + light.err, HasSubstr("it hovers at motor command 0.19"));
+    (void)bench.write("far.yaml",
+                      "vehicle: perching_uav\nwall: {surface: metal}\n"
+                      "simulation: {start_distance_m: 8}\n");
+    const Finished far = bench.run({"check", "far.yaml"});
+    EXPECT_EQ(far.exit_code, 0) << far.err;
+    EXPECT_THAT(far.out, testing::AllOf(HasSubstr("; 1 remark\n"),
+                                        HasSubstr("guidance.wall_near_limit_m 6")));
+    (void)bench.write("grid.yaml",
+                      "scenario: hover\nruns: 2\nparameters:\n"
+                      "  simulation.start_yaw_deg: {grid: [1, 2, 3]}\n");
+    EXPECT_THAT(bench.run({"check", "grid.yaml"}).out,
+                testing::AllOf(HasSubstr("2 runs of hover; 1 remark\n"),
+                               HasSubstr("runs: 2 is fewer than the grids' 3 points")));
+    EXPECT_THAT(bench.run({"campaign", "grid.yaml", "--jobs", "1"}).out,
+                HasSubstr("note: runs: 2 is fewer"));
+    (void)bench.write("p.csv", "\xEF\xBB\xBFRPM,CT,CP\n3000,0.1,0.04\n");
+    EXPECT_THAT(bench.run({"check", "p.csv"}).out, HasSubstr("a good propeller file of 1 rows"));
+    std::string log = "t_s,pressure_Pa\n";
+    for (int k = 0; k < 100; ++k) {
+        log += std::to_string(0.01 * k) + (k < 50 ? ",1010\n" : ",650\n");
+    }
+    (void)bench.write("log.csv", log);
+    EXPECT_THAT(bench.run({"check", "log.csv"}).out,
+                testing::AllOf(HasSubstr("; 1 remark\n"), HasSubstr("hPa? It must be in Pa")));
+}
+
 /// Of a flight on a real PX4 v1.15.1.
 TEST(Verbs, CheckCountsWhatWentOverAWire) {
     const Bench bench;

@@ -127,6 +127,19 @@ TEST(Sampling, GridsMultiplyAndTheLastChangesFastest) {
     EXPECT_EQ(visited, expected);
 }
 
+TEST(Sampling, SaysWhichPointsOfAGridRunsLeaveOut) {
+    std::vector<VariedKey> keys(2);
+    keys[0] = {.key = "a", .spread = Spread::grid, .values = {1.0, 2.0, 3.0}};
+    keys[1] = {.key = "b", .spread = Spread::grid, .values = {1.0, 2.0}};
+    EXPECT_EQ(uneven_runs(keys, 6), "");
+    EXPECT_EQ(uneven_runs(keys, 18), "");
+    EXPECT_EQ(uneven_runs({}, 7), "");
+    EXPECT_THAT(uneven_runs(keys, 2),
+                testing::HasSubstr("runs: 2 is fewer than the grids' 6 points: 4 of them are not "
+                                   "flown"));
+    EXPECT_THAT(uneven_runs(keys, 8), testing::HasSubstr("the first 2 are flown once more"));
+}
+
 TEST(Sampling, DependsOnSeedAndRunAlone) {
     const std::vector<VariedKey> keys = {key_of(Spread::normal, 0.0, 1.0),
                                          key_of(Spread::uniform, 0.0, 1.0)};

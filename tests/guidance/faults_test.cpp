@@ -27,7 +27,9 @@ TEST(Faults, NoWallInFrontEndsTheAttempt) {
     puppet.lidar_works = false;
     puppet.run(60.0);
     EXPECT_EQ(puppet.memory.ending->outcome, Outcome::aborted);
-    EXPECT_EQ(reason_of_abort(puppet), "no pre-position before the wall in time");
+    EXPECT_EQ(reason_of_abort(puppet),
+              "no pre-position in time: the LiDARs never saw a wall within "
+              "guidance.wall_near_limit_m");
 }
 
 TEST(Faults, LidarLostInTheDockingRunRetreats) {

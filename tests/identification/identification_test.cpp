@@ -77,6 +77,50 @@ bool covers(const std::optional<Fitted>& fitted, double truth) {
     return fitted && std::abs(fitted->value - truth) <= fitted->half_width;
 }
 
+/// Searches step by shares of a number: a time of 1.7e9 s swamped tau_1 of 50 ms.
+TEST(Identification, DoesNotDependOnWhereTimeBegins) {
+    const PressureTrace log = log_of({.tau_1_s = 0.05, .tau_2_s = 0.12, .step_s = 0.026}, 1);
+    const PressureFit here = identify_pressure(log);
+    for (const double begins_s : {5.0, -40.0, 3600.0, 1.71e9}) {
+        PressureTrace later = log;
+        for (double& t_s : later.t_s) {
+            t_s += begins_s;
+        }
+        const PressureFit there = identify_pressure(later);
+        const double grid_s = 1e-6;  // of a double at 1.71e9 s, a few steps
+        for (const auto member : {&PressureFit::sealing_time_s, &PressureFit::unsealing_time_s}) {
+            ASSERT_TRUE(here.*member && there.*member);
+            EXPECT_NEAR((there.*member)->value, (here.*member)->value, grid_s) << begins_s;
+            EXPECT_NEAR((there.*member)->half_width, (here.*member)->half_width, grid_s);
+        }
+        EXPECT_NEAR(there.vacuum_Pa->value, here.vacuum_Pa->value, 0.01);
+        EXPECT_NEAR(there.unsealing_begins_s->value - begins_s, here.unsealing_begins_s->value,
+                    grid_s);
+        EXPECT_NEAR(pressure_Pa(there.curve, begins_s + 2.0), pressure_Pa(here.curve, 2.0), 0.5);
+        EXPECT_THAT(there.notes, testing::Eq(here.notes));
+    }
+}
+
+TEST(Identification, UnitsThatAreNoneAreSaid) {
+    PressureTrace slow = log_of({}, 1);
+    for (double& t_s : slow.t_s) {
+        t_s *= 1e3;
+    }
+    slow.t_s.resize(400);
+    slow.pressure_Pa.resize(400);
+    EXPECT_THAT(identify_pressure(slow).notes, testing::Contains(HasSubstr("milliseconds?")));
+    PressureTrace hectopascals = log_of({}, 1);
+    for (double& pressure_Pa : hectopascals.pressure_Pa) {
+        pressure_Pa *= 0.01;
+    }
+    try {
+        (void)identify_pressure(hectopascals);
+        ADD_FAILURE() << "hPa went for Pa";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("hPa?"));
+    }
+}
+
 TEST(Identification, WithoutNoiseItIsExact) {
     Bench bench;
     bench.ripple_Pa = bench.noise_Pa = bench.quantum_Pa = 0.0;

@@ -45,6 +45,33 @@ TEST(PressureLog, TakesARecordingWrittenAsCsv) {
     EXPECT_THAT(trace.pressure_Pa, ElementsAre(101284.0));
 }
 
+TEST(PressureLog, TakesWhatOtherToolsWrite) {
+    for (const char* text :
+         {"t_s;pressure_Pa\n0,25;101001,5\n", "t_s\tpressure_Pa\n0.25\t101001.5\n",
+          "t_s;pressure_Pa\n0.25;101001.5\n", "t_s,pressure_Pa,\n0.25,101001.5,\n"}) {
+        const PressureTrace trace = read(text);
+        EXPECT_THAT(trace.t_s, ElementsAre(0.25)) << text;
+        EXPECT_THAT(trace.pressure_Pa, ElementsAre(101001.5)) << text;
+    }
+    const PressureTrace echoed = read(
+        "%time,field.header.seq,field.header.stamp,field.fluid_pressure\n"
+        "1710000000000000000,1,1710000000000000000,101001.63\n"
+        "1710000000025999872,1,1710000000025999872,101018.59\n");
+    EXPECT_EQ(echoed.origin_s, 1.71e9);
+    EXPECT_NEAR(echoed.t_s[1], 0.026, 3e-7);
+}
+
+TEST(PressureLog, AClocksTimesCountFromTheFirstSample) {
+    const PressureTrace unix_time =
+        read("t_s,pressure_Pa\n1710000000.000,101325\n1710000000.026,101000\n");
+    EXPECT_EQ(unix_time.origin_s, 1710000000.0);
+    EXPECT_EQ(unix_time.t_s[0], 0.0);
+    EXPECT_NEAR(unix_time.t_s[1], 0.026, 3e-7);
+    const PressureTrace of_its_own = read("t_s,pressure_Pa\n5.2,101325\n5.3,101000\n");
+    EXPECT_EQ(of_its_own.origin_s, 0.0);
+    EXPECT_THAT(of_its_own.t_s, ElementsAre(5.2, 5.3));
+}
+
 TEST(PressureLog, RefusesWithTheLineAndWhatIsThere) {
     EXPECT_THAT(refusal(""), HasSubstr("log.csv: is empty"));
     EXPECT_THAT(refusal("# only\n\n"), HasSubstr("is empty"));

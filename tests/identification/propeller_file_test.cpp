@@ -74,6 +74,10 @@ TEST(PropellerFile, TakesWhatUiucFilesHold) {
     EXPECT_EQ(complaint("RPM        CT          CP\n1500.000   0.0933   0.0366\n"), "");
     EXPECT_EQ(complaint("RPM\tCT\tCP\r\n1500\t0.0933\t0.0366\r\n\r\n"), "");
     EXPECT_EQ(complaint("rpm ct cp fom\n1500 0.0933 3.66e-2 -\n"), "");
+    EXPECT_EQ(complaint("\xEF\xBB\xBFRPM CT CP\n3000 0.10 0.04\n"), "");
+    EXPECT_EQ(complaint("RPM,CT,CP\n3000,0.10,0.04\n5000, 0.11 ,0.045\n"), "");
+    EXPECT_EQ(complaint("\"RPM\",\"CT\",\"CP\"\r\n\"3000\",\"0.10\",\"0.04\"\r\n"), "");
+    EXPECT_EQ(complaint("rpm;ct;cp\n3000;0.10;0.04\n"), "");
     EXPECT_EQ(complaint("# a remark\n\nCP RPM CT\n0.0366 1500 0.0933\n"), "");
 }
 
@@ -102,7 +106,21 @@ TEST(PropellerFile, SaysWhatIsWrongAndWhere) {
     EXPECT_THAT(complaint(std::string("\x7f"
                                       "ELF\0\1\2\n",
                                       8)),
-                HasSubstr(":1: the header"));
+                HasSubstr(":1: not a text file"));
+    EXPECT_EQ(complaint("RPM,CT,CP\n1500,0.09\n"),
+              ":2: CP is missing, the row has 2 of the columns");
+}
+
+TEST(PropellerFile, ConstantsThatNoVehicleTakesAreRefused) {
+    EXPECT_NO_THROW(require_usable(rotor_constants({6000.0, 0.1, 0.04}, 0.25, 1.2)));
+    EXPECT_THROW(require_usable({1e-12, 0.02}), InputError);
+    EXPECT_THROW(require_usable({2.5e-5, 0.0}), InputError);
+    try {
+        require_usable({3e-13, 0.02});
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "motor_constant_kg_m comes out as 3e-13 kg m, allowed 1e-08..0.01");
+    }
 }
 
 TEST(PropellerFile, RefusesFoldersAndNothing) {
@@ -116,8 +134,8 @@ TEST(Length, NeedsItsUnit) {
     EXPECT_NEAR(length_m("30.48 cm", "d"), 0.3048, 1e-15);
     EXPECT_NEAR(length_m("304.8mm", "d"), 0.3048, 1e-15);
     EXPECT_NEAR(length_m("0.3048m", "d"), 0.3048, 1e-15);
-    for (const char* bad :
-         {"12", "", "in", "0in", "-12in", "12 feet", "12inch", "nan m", "1e5m", "12in 3", "in12"}) {
+    for (const char* bad : {"12", "", "in", "0in", "-12in", "12 feet", "12inch", "nan m", "1e5m",
+                            "1e-300in", "0.5mm", "12in 3", "in12"}) {
         EXPECT_THROW((void)length_m(bad, "--diameter"), InputError) << bad;
     }
     try {

@@ -138,6 +138,15 @@ TEST(Csv, WholeNumbersAndTimesKeepTheirDigits) {
               "0.001,18446744073709551615,nan,1700000000.000000001\n");
 }
 
+TEST(Csv, TimesOfAClockKeepAllDigits) {
+    const TestFolder folder;
+    Recording recording = sample();
+    recording.origin_ns = 1'710'000'000'000'000'001;
+    const auto files = write_csv(recording, folder.path());
+    EXPECT_THAT(load_text(files[1]), HasSubstr("\n1710000000.500000001,101325"));
+    EXPECT_THAT(load_text(files[2]), HasSubstr("\n1710000001.000000001,guidance,impact"));
+}
+
 TEST(Csv, WritesAttachmentsUnderTheirNamesAlone) {
     const TestFolder folder;
     Recording recording = sample();

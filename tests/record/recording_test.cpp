@@ -181,6 +181,26 @@ TEST(Recording, EventsOfAllChannelsAreInOrder) {
     EXPECT_EQ(names, "abc");
 }
 
+TEST(Recording, AClocksTimesCountFromTheFirstMessage) {
+    const TestFolder folder;
+    constexpr std::int64_t kBegins_ns = 1'710'000'000'000'000'003;
+    {
+        mcap::Writer writer(folder / "a.mcap");
+        const auto point = writer.add_schema("p/msg/P", "ros2msg", "float64 height_pa\n");
+        const auto channel = writer.add_channel(point, "/good", "cdr");
+        const mcap::Bytes message = {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xF0, 0x3F};
+        for (const std::int64_t after_ns : {0, 26'000'001, -1'000'000}) {
+            writer.write(channel, kBegins_ns + after_ns, message);
+        }
+        writer.close();
+    }
+    const Recording recording = read_recording(folder / "a.mcap");
+    EXPECT_EQ(recording.origin_ns, std::uint64_t{kBegins_ns});
+    EXPECT_THAT(
+        recording.tables.at(0).time_s,
+        testing::ElementsAre(0.0, testing::DoubleEq(0.026000001), testing::DoubleEq(-0.001)));
+}
+
 TEST(Recording, ATopicWithoutEndCostsThatTopicAlone) {
     const TestFolder folder;
     {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/scenario/overrides.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/scenario/test_data.hpp"
@@ -41,6 +43,46 @@ TEST_F(Overrides, ReachEveryRoom) {
     EXPECT_EQ(s.airframe.inertia_kg_m2, Vector3(0.04, 0.09, 0.12));
     EXPECT_EQ(s.airframe.lidar_x_m, 0.3);
     EXPECT_EQ(s.description, "by hand");
+}
+
+/// Where the user stands, or the campaign's file lies, before the scenario's folder.
+TEST_F(Overrides, TakeARelativePathFromTheirOwnFolderFirst) {
+    data_.write("here/mine.yaml", "mass_kg: 1.5\n");
+    data_.write("scenarios/mine.yaml", "mass_kg: 2.5\n");
+    data_.write("scenarios/beside.yaml", "mass_kg: 2.6\n");
+    const auto mass_kg = [&](const std::string& assignment, const std::filesystem::path& folder) {
+        const LoadOptions options{
+            .overrides = {assignment}, .data_root = data_.root(), .folder = folder};
+        return load_scenario("first", options).airframe.mass_kg;
+    };
+    EXPECT_EQ(mass_kg("vehicle=mine.yaml", data_.root() / "here"), 1.5);
+    EXPECT_EQ(mass_kg("vehicle.base=mine.yaml", data_.root() / "here"), 1.5);
+    EXPECT_EQ(mass_kg("vehicle=../here/mine.yaml", data_.root() / "here"), 1.5);
+    EXPECT_EQ(mass_kg("vehicle=mine.yaml", {}), 2.5);  // the working folder has none
+    EXPECT_EQ(mass_kg("vehicle=beside.yaml", data_.root() / "here"), 2.6);
+    EXPECT_EQ(mass_kg("vehicle=small", data_.root() / "here"), 2.0);
+    EXPECT_EQ(with_files_of("guidance.hold_s=1", data_.root()), "guidance.hold_s=1");
+    EXPECT_EQ(with_files_of("vehicle=here/mine.yaml", data_.root()),
+              "vehicle=" + (data_.root() / "here/mine.yaml").string());
+}
+
+TEST_F(Overrides, OneKeySaysWhatTellsThePosition) {
+    const Scenario gps = data_.load("first", {"autopilot.aiding=gps"});
+    EXPECT_EQ(gps.autopilot.EKF2_EV_CTRL, 0);
+    EXPECT_EQ(gps.autopilot.EKF2_GPS_CTRL, 7);
+    EXPECT_EQ(gps.autopilot.EKF2_BARO_CTRL, 1);
+    EXPECT_EQ(gps.autopilot.EKF2_MAG_TYPE, 0);
+    EXPECT_EQ(data_.load("first", {"autopilot.aiding=gps", "autopilot.EKF2_BARO_CTRL=0"})
+                  .autopilot.EKF2_BARO_CTRL,
+              0);
+    const Scenario again = data_.load_text(to_yaml(gps));
+    EXPECT_EQ(again.aiding, &autopilot::kGpsAiding);
+    EXPECT_EQ(again.autopilot.EKF2_GPS_CTRL, 7);
+    EXPECT_EQ(to_yaml(again), to_yaml(gps));
+    EXPECT_EQ(data_.load("first").autopilot.EKF2_EV_CTRL, 15);
+    EXPECT_EQ(to_yaml(data_.load("first")).find("aiding"), std::string::npos);
+    EXPECT_NE(error("autopilot.aiding=glonass").find("there are motion_capture, gps"),
+              std::string::npos);
 }
 
 TEST_F(Overrides, KeepWhatTheyDoNotName) {

@@ -14,6 +14,7 @@ a mission: the start's heading and offset, the wall's lean, and all that the sur
 # %% What is asked
 import argparse
 import os
+import sys
 import time
 from pathlib import Path
 
@@ -97,6 +98,16 @@ def text_of(flown):
             f"{np.nanmedian(runs['impact_force_N']):3.0f} N, {np.median(runs['simulated_s']):4.1f} s in the median")
 
 
+def why_none(flown, want):
+    """Of guidance that releases nothing no settings are worth having: what the missions end with."""
+    ends = [str(outcome) for outcome in flown.runs["outcome"]]
+    most = max(sorted(set(ends)), key=ends.count)
+    vehicle = f" {want.vehicle}" if want.vehicle else ""
+    return (f"no settings: none of {len(ends)} missions ends released, {ends.count(most)} end {most}.\n"
+            f"It is not guidance's timing. What the vehicle lacks: limpet check{vehicle or ' perching_uav'}, and the rows of "
+            "docs/own_vehicle.md")
+
+
 def label(key):
     name = key.removeprefix("guidance.")
     for end, unit in (("_m_s", "m/s"), ("_s", "s"), ("_m", "m")):
@@ -147,15 +158,23 @@ def main():
     gain = worth(compared["tuned"]) - worth(compared["as it ships"])  # mission by mission
     half = 1.96 * float(np.std(gain, ddof=1)) / np.sqrt(len(gain))
     print(f"worth of a mission: {np.mean(gain):+.3f} +- {half:.3f}, pair by pair")
-    for key, value in best.items():
-        print(f"  --set {key}={value}")
+    released = float(np.sum(compared["tuned"].success)) > 0
+    if released:
+        for key, value in best.items():
+            print(f"  --set {key}={value}")
+    else:
+        print(why_none(compared["tuned"], want))
     flights = {name: limpet.fly("perch_concrete", {**fixed, **settings})
                for name, settings in (("as it ships", {}), ("tuned", best))}
     draw(want.out / "tune_my_vehicle.png", log, compared, flights)
+    if not released:
+        print(f"written      {want.out}/tune_my_vehicle.png")
+        return 1
     tuned = limpet.load("perch_concrete", {**fixed, **best})
     (want.out / "tuned.yaml").write_text(tuned.yaml, encoding="utf-8")  # limpet fly tuned.yaml
     print(f"written      {want.out}/tune_my_vehicle.png, tuned.yaml")
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

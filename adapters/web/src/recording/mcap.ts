@@ -46,6 +46,8 @@ const wide = (view: DataView, at: number): number =>
   view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
 /** @returns nanoseconds there in seconds */
 export const secondsAt = (view: DataView, at: number): number => 1e-9 * wide(view, at);
+/** First times from here on are a clock's and count from the first message (limpet/core/clock_origin.hpp). */
+const kClockBegins_s = 1e5;
 
 /** The fields of a record, in their order. */
 class Fields {
@@ -92,6 +94,7 @@ class Fields {
 
 class Reader {
   private readonly schemas = new Map<number, { encoding: string; text: string }>();
+  private origin_s: number | undefined;
 
   constructor(
     private readonly taker: McapTaker,
@@ -113,7 +116,9 @@ class Reader {
           this.record(kind, bytes.subarray(begin, end));
         } else if (end - begin >= kMessageHead) {
           const body = bytes.subarray(begin + kMessageHead, end);
-          this.taker.message(view.getUint16(begin, true), secondsAt(view, begin + 6), body);
+          const time_s = secondsAt(view, begin + 6);
+          this.origin_s ??= time_s >= kClockBegins_s ? time_s : 0;
+          this.taker.message(view.getUint16(begin, true), time_s - this.origin_s, body);
         }
       } catch (problem) {
         this.taker.damaged(problem instanceof Error ? problem.message : String(problem));

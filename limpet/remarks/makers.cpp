@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/simulation/makers.hpp"
+#include "limpet/remarks/makers.hpp"
 
 #include <fmt/format.h>
 
 #include "limpet/scenario/derived.hpp"
 
-namespace limpet::simulation {
+namespace limpet::remarks {
 namespace {
 
-struct Note {
+struct MakersNote {
     bool warns = false;
     std::string text;
 };
 
 /// On the surface on which it is to rest.
-Note lateral(const scenario::Scenario& scenario) {
+MakersNote lateral(const scenario::Scenario& scenario) {
     const suction::Surface surface = surfaces_met(scenario).back();
     const double ambient_Pa = scenario.cup.ambient_Pa;
     const double has = lateral_safety(surface, scenario.cup.lip.radius_m,
@@ -27,11 +27,11 @@ Note lateral(const scenario::Scenario& scenario) {
                         hectopascals(ambient_Pa - surface.vacuum_pressure_Pa), asked)};
 }
 
-std::vector<Note> notes(const scenario::Scenario& scenario) {
+std::vector<MakersNote> notes(const scenario::Scenario& scenario) {
     if (!scenario.wall.present || !scenario.airframe.has_cup) {
         return {};
     }
-    std::vector<Note> all = {lateral(scenario)};
+    std::vector<MakersNote> all = {lateral(scenario)};
     const suction::LipParameters& lip = scenario.cup.lip;
     if (!follows(lip, scenario.wall.geometry)) {
         all.push_back(
@@ -45,7 +45,7 @@ std::vector<Note> notes(const scenario::Scenario& scenario) {
 
 std::vector<std::string> texts(const scenario::Scenario& scenario, bool warnings_alone) {
     std::vector<std::string> said;
-    for (const Note& note : notes(scenario)) {
+    for (const MakersNote& note : notes(scenario)) {
         if (note.warns || !warnings_alone) {
             said.push_back(note.text);
         }
@@ -63,4 +63,4 @@ std::vector<std::string> makers_warnings(const scenario::Scenario& scenario) {
     return texts(scenario, true);
 }
 
-}  // namespace limpet::simulation
+}  // namespace limpet::remarks

@@ -6,7 +6,7 @@
 
 #include "limpet/scenario/scenario.hpp"
 
-namespace limpet::simulation {
+namespace limpet::remarks {
 
 // What makers of suction cups would say of a scenario, a line each. None of it stops a flight.
 
@@ -17,4 +17,4 @@ namespace limpet::simulation {
 /// Those alone that are not as makers ask.
 [[nodiscard]] std::vector<std::string> makers_warnings(const scenario::Scenario& scenario);
 
-}  // namespace limpet::simulation
+}  // namespace limpet::remarks

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/simulation/makers.hpp"
+#include "limpet/remarks/makers.hpp"
 
 #include <gmock/gmock.h>
 
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/loader.hpp"
 
-namespace limpet::simulation {
+namespace limpet::remarks {
 namespace {
 
 using testing::ElementsAre;
@@ -54,4 +54,4 @@ TEST(Makers, AConditionIsOfEveryTouch) {
 }
 
 }  // namespace
-}  // namespace limpet::simulation
+}  // namespace limpet::remarks
