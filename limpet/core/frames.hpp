@@ -7,11 +7,11 @@
 
 /// Vectors, rotations and the few frame conversions that every room shares.
 ///
-/// Alphabet (drawn in CONVENTIONS.md): W world, north-east-down; B body, forward-right-down, origin
-/// at the centre of mass; C cup, forward-right-down when the joint is centred, origin at the centre
-/// of the lip; T wall, x into the wall; S sensor. `p_WB` is the position of B's origin in W, `R_WB`
-/// and `q_WB` turn a vector of B into W, `v_WB` is the velocity of B's origin in W, `w_WB_B` the
-/// angular velocity of B relative to W, in B.
+/// Alphabet (drawn in docs/conventions.md): W world, north-east-down; B body, forward-right-down,
+/// origin at the centre of mass; C cup, forward-right-down when the joint is centred, origin at the
+/// centre of the lip; T wall, x into the wall; S sensor. `p_WB` is the position of B's origin in W,
+/// `R_WB` and `q_WB` turn a vector of B into W, `v_WB` is the velocity of B's origin in W, `w_WB_B`
+/// the angular velocity of B relative to W, in B.
 namespace limpet {
 
 using Vector3 = Eigen::Vector3d;

@@ -25,8 +25,8 @@
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/suction/cup.hpp"
 
-/// Our signals as ROS messages and back: the one place in adapters/ros/ where axes turn (REP 103, REP 105).
-/// Ours are north-east-down and forward-right-down, ROS's east-north-up ("map") and
+/// Our signals as ROS messages and back: the one place in adapters/ros/ where axes turn (REP 103,
+/// REP 105). Ours are north-east-down and forward-right-down, ROS's east-north-up ("map") and
 /// forward-left-up ("base_link"); the turns themselves are those of limpet/record/ros_frames.hpp.
 ///
 /// What comes in is checked: a message with a number that is none, or a quaternion that is no
