@@ -311,8 +311,7 @@ std::string page_html(const Page& page, const std::filesystem::path& folder) {
 }
 
 void require_ours(const std::filesystem::path& folder) {
-    if (is_there(folder / "index.html") &&
-        !is_there(folder / "results.json")) {
+    if (is_there(folder / "index.html") && !is_there(folder / "results.json")) {
         throw InputError(fmt::format(
             "--out {}: holds an index.html that is no page of ours; give another folder",
             folder.string()));
