@@ -14,7 +14,8 @@ std::atomic<bool> ends = false;
 /// At the interpreter's exit, which runs this with the GIL and all that Python has still there.
 void wait_until_all_are_down() {
     constexpr auto kLookAgain = std::chrono::milliseconds(1);
-    constexpr auto kLongest = std::chrono::seconds(5);  // a station of somebody's may wait for ever
+    constexpr auto kLongest =
+        std::chrono::seconds(60);  // a station of somebody's may wait for ever
     ends = true;
     const auto until = std::chrono::steady_clock::now() + kLongest;
     const py::gil_scoped_release land;

@@ -9,8 +9,8 @@ namespace limpet::python {
 struct InterpreterEnds {};
 
 /// This thread will let go of the GIL and take it again. While the interpreter is torn down it ends
-/// whoever takes it, through frames that may not be left so; so it waits at its exit, 5 s at most,
-/// until nobody is in the air (add_air), and nobody takes off any more.
+/// whoever takes it, through frames that may not be left so; so it waits at its exit, a minute at
+/// most, until nobody is in the air (add_air), and nobody takes off any more.
 class InTheAir {
 public:
     /// With the GIL.
