@@ -45,10 +45,13 @@ TEST(Px4Wires, WhoConnectsAndIsSilentIsWaitedForNoLonger) {
     addresses.hil = here;
     const auto begin = std::chrono::steady_clock::now();
     std::unique_ptr<wire::Transport> silent;
-    const px4::Px4WireWatch watch{.on_open = [&](const std::string&) {
-        silent = open_transport(here, wire::Role::connect);
-        EXPECT_TRUE(silent->wait_for_peer(std::chrono::seconds(5)));
-    }};
+    const px4::Px4WireWatch watch{
+        .on_open =
+            [&](const std::string&) {
+                silent = open_transport(here, wire::Role::connect);
+                EXPECT_TRUE(silent->wait_for_peer(std::chrono::seconds(5)));
+            },
+        .wait_key = {}};
     px4::Px4Wires wires(addresses, 250.0, true, watch);
     Readings readings;
     double time_s = 0.0;
