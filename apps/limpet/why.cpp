@@ -116,7 +116,7 @@ Verb why_verb() {
         "why", "Ask why a flight failed: what let go, which settings would mend it", options_of,
         tell_why,
         "Examples:\n"
-        "  limpet why failed_perch\n"
+        "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"
         "Flies it again, says what the cup bore until it let go and by which moment, then turns "
         "every setting\n(a third, three times), alone and beside those that help most. Writes "

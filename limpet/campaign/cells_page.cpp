@@ -83,10 +83,6 @@ bool ended_as_told(const RunRow& row) {
     return !outcome || ended_as(row, *outcome);
 }
 
-std::string text_of(const SampledValue& value) {
-    return value_text(value);
-}
-
 class Page {
 public:
     Page(const Campaign& campaign, std::vector<std::size_t> keys, fs::path database)
@@ -95,7 +91,7 @@ public:
     void add(const RunRow& row) {
         std::vector<std::string> at;
         for (const std::size_t key : keys_) {
-            at.push_back(text_of(row.sample[key]));
+            at.push_back(value_text(row.sample[key]));
         }
         Cell& cell = cells_[at];
         const int badness = badness_of(row, campaign_);
@@ -150,7 +146,7 @@ private:
             return;
         }
         for (const SampledValue& value : key(depth).values) {
-            outer.push_back(text_of(value));
+            outer.push_back(value_text(value));
             add_tables(outer);
             outer.pop_back();
         }
@@ -168,15 +164,15 @@ private:
             escaped(name), escaped(name.empty() ? "cells" : name),
             escaped(key(depth).key + " \\ " + key(depth + 1).key));
         for (const SampledValue& column : key(depth + 1).values) {
-            add_text("<th scope=\"col\"><span>{}</span></th>", escaped(text_of(column)));
+            add_text("<th scope=\"col\"><span>{}</span></th>", escaped(value_text(column)));
         }
         add_text("</tr></thead>\n");
         for (const SampledValue& row : key(depth).values) {
-            add_text("<tr><th scope=\"row\">{}</th>", escaped(text_of(row)));
+            add_text("<tr><th scope=\"row\">{}</th>", escaped(value_text(row)));
             for (const SampledValue& column : key(depth + 1).values) {
                 std::vector<std::string> at = outer;
-                at.push_back(text_of(row));
-                at.push_back(text_of(column));
+                at.push_back(value_text(row));
+                at.push_back(value_text(column));
                 const auto found = cells_.find(at);
                 add_cell(found == cells_.end() ? nullptr : &found->second);
             }

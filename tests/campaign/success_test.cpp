@@ -34,7 +34,7 @@ TEST(Success, NeedsTheTruthInRowsDatabaseSummaryAndPage) {
     const Bench bench;
     const auto file = bench.write("unsafe.yaml", kUnsafe);
     const Campaign campaign = load_campaign(file.string());
-    Results results = begin_results(campaign, bench.folder() / "o", false);
+    Results results = begin_results(campaign, bench.folder(), false);
     (void)run_campaign(results, 2);
     std::uint32_t successes = 0;
     for (std::uint32_t run = 0; run < campaign.runs; ++run) {

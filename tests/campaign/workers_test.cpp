@@ -165,6 +165,7 @@ TEST(Summary, CountsWhatTheRowsSay) {
         const bool success = run / 4 < successes[run % 4];
         row.outcome = success ? "released" : run % 8 == 0 ? "crashed" : "failed_to_seal";
         row.reason = success ? "done" : "why";
+        row.true_end = "hovering";
         row.metrics.impact_speed_m_s = run;
     }
     results.add(rows);
