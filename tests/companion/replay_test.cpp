@@ -79,7 +79,8 @@ public:
         mavlink::Heartbeat beat;
         beat.type = 2;
         beat.autopilot = 12;
-        beat.base_mode = armed_ ? mavlink::MavModeFlag::safety_armed : std::uint8_t{0};
+        beat.base_mode =
+            armed_ ? std::uint8_t{mavlink::MavModeFlag::safety_armed} : std::uint8_t{0};
         beat.custom_mode = 6U << 16U;
         (void)autopilot_.send(beat);
         mavlink::ExtendedSysState state;

@@ -181,7 +181,8 @@ private:
             mavlink::Heartbeat beat;
             beat.type = 2;
             beat.autopilot = 12;
-            beat.base_mode = armed ? mavlink::MavModeFlag::safety_armed : std::uint8_t{0};
+            beat.base_mode =
+                armed ? std::uint8_t{mavlink::MavModeFlag::safety_armed} : std::uint8_t{0};
             beat.custom_mode = mode;
             (void)autopilot_.send(beat);
             mavlink::ExtendedSysState state;

@@ -65,7 +65,7 @@ void AutopilotCalls::call(const std::string& mode, std::optional<bool> armed) {
     }
     if (armed) {
         limpet_ros::CommandLong call;
-        call.request.command = mavlink::kCommandArm;
+        call.request.command = mavlink::MavCmd::component_arm_disarm;
         call.request.param1 = *armed ? 1.0F : 0.0F;
         call.request.param2 = *armed ? 0.0F : mavlink::kForce;  // PX4 asks for it off the ground
         ask(command_call_, call, "mavros/cmd/command");

@@ -115,7 +115,7 @@ bool RosVehicle::command(limpet_ros::CommandLong::Request& request,
                          limpet_ros::CommandLong::Response& response) {
     constexpr std::uint8_t kAccepted = 0;  // MAV_RESULT
     constexpr std::uint8_t kUnsupported = 3;
-    response.success = request.command == mavlink::kCommandArm ? 1 : 0;
+    response.success = request.command == mavlink::MavCmd::component_arm_disarm ? 1 : 0;
     response.result = response.success != 0 ? kAccepted : kUnsupported;
     if (response.success != 0) {
         const std::lock_guard lock(mutex_);
