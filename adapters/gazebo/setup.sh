@@ -177,7 +177,7 @@ enter() {
 build_gazebo() {
     cd "$limpet_root" || exit 1
     configure_if_new bullseye "$(package_names "$gazebo_packages" | enter xargs dpkg-query -W)" \
-        enter cmake -S gazebo -B build/bullseye -G Ninja
+        enter cmake -S adapters/gazebo -B build/bullseye -G Ninja
     if ! enter ninja -C build/bullseye -n "$@" 2>/dev/null | grep -q 'no work to do'; then
         step "building (Gazebo), a few minutes the first time ..." enter ninja -C build/bullseye "$@"
     fi

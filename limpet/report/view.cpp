@@ -13,7 +13,7 @@
 #include "limpet/mcap/reader.hpp"
 #include "limpet/record/scene.hpp"
 
-// The page, as web/ has made it, stands in the program.
+// The page, as adapters/web/ has made it, stands in the program.
 asm(R"(
     .pushsection .rodata
     .global limpet_view_page

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-// Flights in three dimensions, in a browser: one page that has all it needs in it (web/).
+// Flights in three dimensions, in a browser: one page that has all it needs in it (adapters/web/).
 namespace limpet::report {
 
 /// Whether the program was built where Node was, which makes the page.

@@ -1,4 +1,4 @@
-# The pages in web/, bundled by Node into one file each; empty where there is no npm, and the program
+# The pages in adapters/web/, bundled by Node into one file each; empty where there is no npm, and the program
 # says so when it is asked for one.
 set(LIMPET_PAGES "" CACHE PATH "a folder with pages that adapters/web/build has made, for a machine without Node")
 if(LIMPET_PAGES)

@@ -63,7 +63,10 @@ def below(module, seen=None):
 
 class Architecture(unittest.TestCase):
     def test_every_module_opens_with_a_page(self):
-        for folder in [*MODULES.values(), ROOT / "adapters/cli", ROOT / "adapters/gazebo", ROOT / "adapters/ros", ROOT / "adapters/ros2"]:
+        adapters = sorted(folder for folder in (ROOT / "adapters").iterdir() if folder.is_dir())
+        listed = re.findall(r"^\| \[(\w+)\]", (ROOT / "adapters/README.md").read_text(), re.M)
+        self.assertEqual(sorted(listed), [folder.name for folder in adapters], "adapters/README.md: each once")
+        for folder in [*MODULES.values(), *adapters]:
             with self.subTest(folder.name):
                 page = (folder / "README.md").read_text()
                 if folder.parent == ROOT / "limpet":
@@ -95,7 +98,7 @@ class Architecture(unittest.TestCase):
     def test_every_page_is_in_the_index(self):
         index = (ROOT / "docs/README.md").read_text()
         linked = {(ROOT / "docs" / link).resolve() for link in re.findall(r"\]\(([^)#\s]+)\)", index)}
-        pages = {*(ROOT / "docs").glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "data").glob("*/README.md"),
+        pages = {*(ROOT / "docs").glob("*.md"), *(ROOT / "docs/reference").glob("*.md"), *(ROOT / "data").rglob("README.md"), ROOT / "limpet/README.md", ROOT / "adapters/README.md",
                  *(ROOT / "docs").glob("*/README.md")} - {ROOT / "docs/README.md"}
         self.assertEqual([str(page.relative_to(ROOT)) for page in sorted(pages - linked)], [], "not in docs/README.md")
 

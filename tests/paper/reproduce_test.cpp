@@ -95,7 +95,7 @@ TEST(ReproduceOnly, FlightsThatWereRecordedElsewhere) {
     for (const Json& claim : json["claims"]) {
         EXPECT_EQ(claim["verdict"], "reproduced") << claim;
     }
-    const fs::path source = LIMPET_SOURCE_DIR;
+    const fs::path source = LIMPET_SOURCE_DIR "/data";
     for (const char* name : {"px4", "companion"}) {
         const Json kept =
             Json::parse(text_of(source / "paper/recorded" / (std::string(name) + ".json")));
@@ -107,7 +107,7 @@ TEST(ReproduceOnly, FlightsThatWereRecordedElsewhere) {
 /// Data of one's own, but for one file.
 TEST(ReproduceBadInput, ARecordedFlightThatIsNoneIsNamed) {
     const Bench bench;
-    const fs::path source = LIMPET_SOURCE_DIR, data = bench.folder() / "data";
+    const fs::path source = LIMPET_SOURCE_DIR "/data", data = bench.folder() / "data";
     fs::create_directories(data / "paper/recorded");
     for (const char* name : {"scenarios", "vehicles", "campaigns", "surfaces.yaml",
                              "paper/page.yaml", "paper/statements.yaml"}) {

@@ -25,7 +25,7 @@
 #include "limpet/core/signals/setpoint.hpp"
 #include "limpet/suction/cup.hpp"
 
-/// Our signals as ROS messages and back: the one place in ros/ where axes turn (REP 103, REP 105).
+/// Our signals as ROS messages and back: the one place in adapters/ros/ where axes turn (REP 103, REP 105).
 /// Ours are north-east-down and forward-right-down, ROS's east-north-up ("map") and
 /// forward-left-up ("base_link"); the turns themselves are those of limpet/record/ros_frames.hpp.
 ///
