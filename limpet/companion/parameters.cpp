@@ -13,8 +13,7 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
         {"poll_rate_Hz", "Hz", 50.0, 1000.0, &P::poll_rate_Hz, "how often the wires are looked at",
          "assumed: stamps readings to 2 ms"},
         {"pose_rate_Hz", "Hz", 10.0, 200.0, &P::pose_rate_Hz,
-         "at most so often a pose goes on to the autopilot",
-         "px4.md \"Motion capture\": 50 Hz was enough"},
+         "maximum rate of poses to the autopilot", "px4.md \"Motion capture\": 50 Hz was enough"},
         {"pose_limit_s", "s", 0.05, 5.0, &P::pose_limit_s,
          "a motion-capture pose older than this is stale", "assumed: 0.28 m at docking speed"},
         {"estimate_limit_s", "s", 0.05, 5.0, &P::estimate_limit_s, "the autopilot's pose likewise",
@@ -48,7 +47,8 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
          "assumed"},
         {"operator_limit_s", "s", 1.0, 7200.0, &P::operator_limit_s,
          "longest wait for OFFBOARD, armed, in the air", "assumed: a battery's flight"},
-        {"rise_m", "m", 0.0, 5.0, &P::rise_m, "with asks_for_mode: so high off its stand it begins",
+        {"rise_m", "m", 0.0, 5.0, &P::rise_m,
+         "with asks_for_mode: height above its stand at which the mission begins",
          "assumed: the simulator's stand"},
         {"begin_tolerance_m", "m", 0.01, 2.0, &P::begin_tolerance_m,
          "with asks_for_mode: as near to that", "assumed: as the simulator's bring-up"},
@@ -57,7 +57,7 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
         {"begin_steady_s", "s", 0.0, 30.0, &P::begin_steady_s, "with asks_for_mode: for so long",
          "assumed: as the simulator's bring-up"},
         {"hand_back_s", "s", 0.5, 30.0, &P::hand_back_s,
-         "how long the end is reported and hold asked for", "assumed: two heartbeats of PX4"},
+         "how long the end is reported and hold requested", "assumed: two heartbeats of PX4"},
         {"mechanism_rate_Hz", "Hz", 1.0, 100.0, &P::mechanism_rate_Hz,
          "pump and valve are said so often", "mechanism_line.hpp"},
         {"hover_s", "s", 1.0, 3600.0, &P::hover_s, "of mission hover", "as simulation.hover_s"},
@@ -104,7 +104,7 @@ const ParameterTable<CompanionConfig>& autopilot_wire_table() {
 const ParameterTable<CompanionConfig>& loop_table() {
     static const ParameterTable<CompanionConfig> table = {
         {"real_time_priority", "-", 0.0, 49.0, &CompanionConfig::real_time_priority,
-         "SCHED_FIFO and locked memory for the loop; 0 asks for neither",
+         "SCHED_FIFO and locked memory for the loop; 0 requests neither",
          "assumed: above all ordinary work, below the kernel's interrupt threads (50)"},
     };
     return table;

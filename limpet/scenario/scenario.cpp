@@ -67,7 +67,7 @@ const ParameterTable<WallSetup>& wall_table() {
         {"radius_m", "m", 0.1, 1e4, [](W& w) -> double& { return w.radius_m; },
          "of a wall whose shape bends; a plane has none", "assumed: a tank of 10 m"},
         {"compliance_m_N", "m/N", 0.0, 1e-3, &W::compliance_m_N,
-         "by how much a spot yields to a push, as cladding, glass and doors do; 0: rigid",
+         "local compliance of the wall, as of cladding, glass and doors; 0: rigid",
          "paper: rigid walls; a plate's: Timoshenko and Woinowsky-Krieger, table 23"},
     };
     return table;

@@ -19,7 +19,7 @@ const ParameterTable<GpsSensor::Parameters>& GpsSensor::table() {
     static const ParameterTable<P> table = {
         {"gps_rate_Hz", "Hz", 0.0, 20.0, &P::gps_rate_Hz, "samples a second, whole; 0: not fitted", "PX4 HIL, facts.md section 2"},
         {"gps_latency_s", "s", 0.0, 0.5, &P::gps_latency_s, "from measurement to arrival", "EKF2_GPS_DELAY 110 ms"},
-        {"gps_noise_horizontal_m", "m", 0.0, 100.0, &P::gps_noise_horizontal_m, "white noise of north and east", "assumed: small beside the drift"},
+        {"gps_noise_horizontal_m", "m", 0.0, 100.0, &P::gps_noise_horizontal_m, "white noise of north and east", "assumed: small compared with the drift"},
         {"gps_noise_vertical_m", "m", 0.0, 100.0, &P::gps_noise_vertical_m, "white noise of height", "assumed: twice the horizontal one"},
         {"gps_drift_horizontal_m", "m", 0.0, 100.0, &P::gps_drift_horizontal_m, "slow wander of north and east", "assumed: EKF2_GPS_P_NOISE 0.5 m"},
         {"gps_drift_vertical_m", "m", 0.0, 100.0, &P::gps_drift_vertical_m, "slow wander of height", "assumed: 1.5 times the horizontal one"},

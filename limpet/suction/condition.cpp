@@ -8,14 +8,16 @@
 namespace limpet::suction {
 namespace {
 
-constexpr SurfaceCondition kDry = {"dry", "friction 0.5, makers' for wood, metal, glass and stone",
-                                   0.5, 0.0};
-constexpr SurfaceCondition kRough = {"rough", "friction 0.6, makers' for rough surfaces", 0.6, 2.0};
-constexpr SurfaceCondition kWet = {"wet", "friction 0.25, makers tell 0.2 to 0.3", 0.25, 2.0};
+constexpr SurfaceCondition kDry = {
+    "dry", "friction 0.5, manufacturers' value for wood, metal, glass and stone", 0.5, 0.0};
+constexpr SurfaceCondition kRough = {
+    "rough", "friction 0.6, manufacturers' value for rough surfaces", 0.6, 2.0};
+constexpr SurfaceCondition kWet = {"wet", "friction 0.25, manufacturers give 0.2 to 0.3", 0.25,
+                                   2.0};
 constexpr SurfaceCondition kDusty = {
-    "dusty", "friction 0.2, assumed: as the lower wet, makers ask for trials and tell none", 0.2,
-    2.0};
-constexpr SurfaceCondition kOiled = {"oiled", "friction 0.1, makers tell 0.1 to 0.3", 0.1, 2.0};
+    "dusty", "friction 0.2, assumed: as the lower wet, manufacturers recommend trials", 0.2, 2.0};
+constexpr SurfaceCondition kOiled = {"oiled", "friction 0.1, manufacturers give 0.1 to 0.3", 0.1,
+                                     2.0};
 
 }  // namespace
 

@@ -205,7 +205,7 @@ const ParameterTable<LipParameters>& lip_table() {
          "of the lip about the cup's axis",
          "assumed: a loss factor of rubber of 0.2 at the 3 Hz at which the vehicle rolls on it"},
         {"least_radius_m", "m", 0.0, 1e3, &L::least_radius_m,
-         "least radius of a round wall that the lip seals on, as makers tell it for each cup; 0: "
+         "least radius of a round wall on which the lip seals, from the cup's manufacturer; 0: "
          "where radius_m^2 / 2R is hard_depth_m",
          "assumed: by geometry; Schmalz: \"minimum radius of curvature of the workpiece\""},
     };

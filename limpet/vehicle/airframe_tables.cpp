@@ -25,17 +25,17 @@ const ParameterTable<RotorParameters>& rotor_table() {
          "what command 1 adds to the offset", "assumed: hover at command 0.657"},
         {"speed_offset_rad_s", "rad/s", 0.0, 1000.0, &P::speed_offset_rad_s,
          "speed at command 0 while armed", "Gazebo motor model, Iris"},
-        {"speed_max_rad_s", "rad/s", 1.0, 5000.0, &P::speed_max_rad_s, "no command asks for more",
-         "assumed: 380 KV on a loaded 6S pack gives 768..830"},
+        {"speed_max_rad_s", "rad/s", 1.0, 5000.0, &P::speed_max_rad_s,
+         "upper limit of all commands", "assumed: 380 KV on a loaded 6S pack gives 768..830"},
         {"radius_m", "m", 0.01, 1.0, &P::radius_m, "radius of the propeller", "paper: 12x5.5 in"},
         {"height_m", "m", -0.5, 0.5, &P::height_m, "propeller planes above the centre of mass",
          "assumed: baseline.md"},
         {"axial_loss_speed_m_s", "m/s", 1.0, 1000.0, &P::axial_loss_speed_m_s,
          "axial wind at which the thrust is gone", "Gazebo motor model"},
         {"speed_follows_voltage", "switch", 0.0, 1.0, &P::speed_follows_voltage,
-         "a speed controller without feedback: every command's speed goes with the battery's "
-         "voltage "
-         "under load, as told at 3.7 V a cell; off: the highest speed alone, below that voltage",
+         "a speed controller without feedback: every command's speed is proportional to the "
+         "battery's voltage under load, and holds at 3.7 V a cell; off: only the highest speed, "
+         "below that voltage",
          "brushless motor: speed = KV x duty x voltage; Gazebo motor model: none"},
         {"motor_kv_rpm_V", "rpm/V", 0.0, 1e5, &P::motor_kv_rpm_V,
          "speed over voltage of the motor; 0: both time constants instead; else they are not used, "
@@ -156,8 +156,8 @@ const ParameterTable<BatteryParameters>& battery_table() {
 const ParameterTable<PayloadParameters>& payload_table() {
     using P = PayloadParameters;
     static const ParameterTable<P> table = {
-        {"mass_kg", "kg", 0.0, 100.0, &P::mass_kg, "that hangs on a cable; 0: nothing does",
-         "paper: nothing hangs there"},
+        {"mass_kg", "kg", 0.0, 100.0, &P::mass_kg, "of the load on the cable; 0: none",
+         "paper: none"},
         {"cable_length_m", "m", 0.05, 50.0, &P::cable_length_m, "under the payload's weight",
          "assumed"},
         {"cable_stretch_m", "m", 1e-4, 0.02, &P::cable_stretch_m,

@@ -9,8 +9,7 @@ const ParameterTable<SwellParameters>& swell_table() {
     using S = SwellParameters;
     static const ParameterTable<S> table = {
         {"swell_into_wall_m", "m", 0.0, 5.0, &S::swell_into_wall_m,
-         "amplitude with which the wall and all that stands there sway along the heading",
-         "paper: indoors, none"},
+         "amplitude of the motion of wall and start along the heading", "paper: indoors, none"},
         {"swell_along_wall_m", "m", 0.0, 5.0, &S::swell_along_wall_m,
          "likewise to the right, seen along that", "paper: indoors, none"},
         {"swell_up_m", "m", 0.0, 5.0, &S::swell_up_m, "likewise up", "paper: indoors, none"},
