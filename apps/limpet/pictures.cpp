@@ -12,9 +12,9 @@
 #include "limpet/draw/gnuplot.hpp"
 #include "limpet/record/csv.hpp"
 #include "limpet/record/recording.hpp"
-#include "limpet/record/ulog.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
+#include "limpet/ulog/ulog_writer.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 
@@ -93,7 +93,7 @@ draw::Pictures write_tables(const record::Recording& recording, const std::files
 draw::Pictures write_px4_log(const record::Recording& recording,
                              const std::filesystem::path& folder, const Work&) {
     const std::filesystem::path file = folder / (recording.path.stem().string() + ".ulg");
-    record::write_ulog(recording, file);
+    ulog::write_ulog(recording, file);
     return {.files = {file}, .missing = {}};
 }
 

@@ -17,7 +17,7 @@
 #include "limpet/identification/flight_csv.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/ros_frames.hpp"
-#include "limpet/record/ulog_reader.hpp"
+#include "limpet/ulog/ulog_reader.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -130,7 +130,7 @@ void add_velocities(const Rows& position, const Rows& attitude, FlightData& data
 
 /// A parameter of the log; nothing where it has none, or -1, "as all".
 std::optional<double> parameter(const record::Recording& log, const std::string& name) {
-    const auto all = log.metadata.find(std::string(record::kPx4Parameters));
+    const auto all = log.metadata.find(std::string(ulog::kPx4Parameters));
     if (all == log.metadata.end()) {
         return std::nullopt;
     }
@@ -332,7 +332,7 @@ FlightData read_flight(const std::filesystem::path& path, const FlightSpan& aske
     const bool ulog = is("ULog", ".ulg");
     const bool recorded = record::begins_as_recording(head) || path.extension() == ".mcap";
     FlightData data = recorded ? of_recording(in_order(record::read_recording(path)))
-                      : ulog   ? of_px4(in_order(record::read_ulog(path)))
+                      : ulog   ? of_px4(in_order(ulog::read_ulog(path)))
                                : read_flight_csv(path);
     require_in_order(path, "a sample of the IMU", data.imu_s);
     require_in_order(path, "a motor command", data.command_s);

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 #include "limpet/vehicle/airframe.hpp"
 
 namespace limpet::models {
@@ -59,7 +59,7 @@ struct Part {
     std::optional<std::array<double, 4>> rgba{};  ///< instead of the paint's
     std::string mesh_file{};                      ///< absolute path
     std::string mesh_name{};                      ///< NAME.stl, as a recording carries it
-    std::shared_ptr<const Mesh> mesh{};           ///< its triangles; every mesh has them
+    std::shared_ptr<const meshes::Mesh> mesh{};   ///< its triangles; every mesh has them
     bool own_colours = false;                     ///< the mesh's file has some, and nobody else
 };
 /// The part's own colour or its paint's.

@@ -133,7 +133,7 @@ void write_meshes(pugi::xml_node root, const std::vector<Part>& parts) {
         if (part.shape != Shape::mesh) {
             continue;
         }
-        Mesh mesh = scaled(*part.mesh, part.size_m);
+        meshes::Mesh mesh = meshes::scaled(*part.mesh, part.size_m);
         while (mesh.points.size() < kLeastPoints) {
             mesh.points.push_back(mesh.points.front());
         }

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostParts = 500;
-constexpr std::size_t kMostOfAll = 2 * kMostTriangles;  // of all visuals
-constexpr double kLargest_m = 100.0;                    // shape
-constexpr double kFarthest_m = 1000.0;                  // of a part from what it hangs on
+constexpr std::size_t kMostOfAll = 2 * meshes::kMostTriangles;  // of all visuals
+constexpr double kLargest_m = 100.0;                            // shape
+constexpr double kFarthest_m = 1000.0;                          // of a part from what it hangs on
 
 /// A file being read, which knows on which line a node stands.
 class Reader {
@@ -250,13 +250,14 @@ private:
         return found->lexically_normal();
     }
     /// Each file once, however many links wear it.
-    [[nodiscard]] std::shared_ptr<const Mesh> mesh_of(const fs::path& path, pugi::xml_node mesh,
-                                                      const Vector3& scale) {
+    [[nodiscard]] std::shared_ptr<const meshes::Mesh> mesh_of(const fs::path& path,
+                                                              pugi::xml_node mesh,
+                                                              const Vector3& scale) {
         const auto [at, added] = meshes_.try_emplace(path.string());
         const char* uri = mesh.attribute("filename").value();
         try {
             if (added) {
-                at->second = std::make_shared<const Mesh>(read_mesh(path));
+                at->second = std::make_shared<const meshes::Mesh>(meshes::read_mesh(path));
             }
         } catch (const InputError& error) {
             fail(mesh, fmt::format("mesh {}: {}", in_quotes(uri), error.what()));
@@ -265,15 +266,16 @@ private:
             fail(mesh,
                  fmt::format("mesh scale=\"{}\": must not be 0", mesh.attribute("scale").value()));
         }
-        if (const std::string problem = mesh_problem(*at->second, scale); !problem.empty()) {
+        if (const std::string problem = meshes::mesh_problem(*at->second, scale);
+            !problem.empty()) {
             fail(mesh, fmt::format("mesh {}: {} {}", in_quotes(uri), path.string(), problem));
         }
         triangles_ += at->second->triangles.size();
         points_ += at->second->points.size();
-        if (triangles_ > kMostOfAll || points_ > kMostPoints) {
+        if (triangles_ > kMostOfAll || points_ > meshes::kMostPoints) {
             fail(mesh, fmt::format("mesh {}: more than {} triangles or {} points in all: simplify "
                                    "what is only looked at",
-                                   in_quotes(uri), kMostOfAll, kMostPoints));
+                                   in_quotes(uri), kMostOfAll, meshes::kMostPoints));
         }
         return at->second;
     }
@@ -370,7 +372,7 @@ private:
     fs::path file_;
     std::string text_;
     std::map<std::string, std::array<double, 4>> colours_;
-    std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+    std::map<std::string, std::shared_ptr<const meshes::Mesh>> meshes_;
     UrdfRobot robot_;
     int visuals_ = 0;            ///< of all links
     std::size_t triangles_ = 0;  ///< of all visuals

@@ -164,7 +164,7 @@ Summary summary(const Recording& recording) {
     if (json.is_object()) {
         summary.outcome = text_of(json, "outcome");
         summary.reason = text_of(json, "reason");
-            summary.true_end = text_of(json, "true_end");
+        summary.true_end = text_of(json, "true_end");
     }
     return summary;
 }

@@ -8,10 +8,10 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/version.hpp"
+#include "limpet/meshes/stl_reader.hpp"
 #include "limpet/models/drawing.hpp"
 #include "limpet/models/finish.hpp"
 #include "limpet/models/model_writer.hpp"
-#include "limpet/models/stl_reader.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -26,7 +26,7 @@ void attach_meshes(const vehicle::Airframe& airframe, std::vector<mcap::Attachme
         if (find_named(all, part.mesh_name) == nullptr) {
             all.push_back({.name = part.mesh_name,
                            .media_type = std::string(record::kMeshMediaType),
-                           .text = models::stl_of(*part.mesh)});
+                           .text = meshes::stl_of(*part.mesh)});
         }
     }
 }

@@ -10,7 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MODULES = {folder.name: folder for folder in sorted((ROOT / "limpet").iterdir()) if folder.is_dir()}
-MOST_LINES = 3500
+MOST_LINES = 3600
 PAGE_LINES = 20
 MOST_ENTRIES = 16  # of the repository's top, as `ls` shows it
 # A header of core's kind that lies with the bodies it speaks of: plant.hpp needs core alone.
@@ -32,7 +32,7 @@ def cited_pages(name, origin):
     """A path from the root or, on a page, from there; a bare name is a page of docs/reference, else of docs."""
     near = [origin.parent / name] if origin.suffix == ".md" else []
     bare = [ROOT / "docs/reference" / name, ROOT / "docs" / name] if "/" not in name else []
-    return [page for page in (*bare, ROOT / name, *near) if page.is_file()]
+    return [page for page in (*bare, ROOT / name, ROOT / "data" / name, *near) if page.is_file()]
 
 
 def headings(page):
@@ -132,7 +132,7 @@ class Architecture(unittest.TestCase):
 
     def test_a_fault_of_ours_is_no_answer(self):
         """InternalError is caught where it becomes a run's outcome, or another error, and nowhere else."""
-        may = {"limpet/campaign/workers.cpp", "limpet/campaign/px4_crew.cpp", "limpet/lab/learn.cpp",  # outcome `fault`
+        may = {"limpet/why/trial.cpp", "limpet/campaign/workers.cpp", "limpet/campaign/px4_crew.cpp", "limpet/lab/learn.cpp",  # outcome `fault`
                "limpet/draw/stage.cpp"}  # MuJoCo's: what to install
         catching = {str(path.relative_to(ROOT)) for path in files(".cpp", ".hpp")
                     if path.parts[len(ROOT.parts)] in ("limpet", "apps", "adapters")

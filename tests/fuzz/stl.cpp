@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "as_file.hpp"
-#include "limpet/models/stl_reader.hpp"
+#include "limpet/meshes/stl_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return limpet::fuzz::read_or_refuse([&] {
         const limpet::fuzz::AsFile file(data, size);
-        (void)limpet::models::read_stl(file.path());
+        (void)limpet::meshes::read_stl(file.path());
     });
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "as_file.hpp"
-#include "limpet/record/ulog_reader.hpp"
+#include "limpet/ulog/ulog_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     return limpet::fuzz::read_or_refuse([&] {
         const limpet::fuzz::AsFile file(data, size);
-        (void)limpet::record::read_ulog(file.path());
+        (void)limpet::ulog::read_ulog(file.path());
     });
 }

@@ -14,9 +14,9 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/random.hpp"
 #include "limpet/record/recording.hpp"
-#include "limpet/record/ulog.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/flight.hpp"
+#include "limpet/ulog/ulog_writer.hpp"
 
 namespace limpet::identification {
 namespace {
@@ -165,7 +165,7 @@ TEST(VehicleFit, APx4LogTellsTheMotorsThatThereAre) {
     const TestFolder folder;
     const auto mcap = folder.path() / "flight.mcap", ulog = folder.path() / "flight.ulg";
     (void)simulation::fly(simulation::build_model(scenario), mcap);
-    record::write_ulog(record::read_recording(mcap), ulog);
+    ulog::write_ulog(record::read_recording(mcap), ulog);
     const FlightData recorded = read_flight(mcap), logged = read_flight(ulog);
     ASSERT_FALSE(logged.command.empty());
     EXPECT_EQ(logged.command.back().size(), scenario.airframe.rotors.size());

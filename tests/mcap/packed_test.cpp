@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 // libraries.
 
 /// A frame of LZ4 with one block, stored as it is where it is not packed
-/// (lz4_Frame_format.md 1.6.4).
+/// (the frame format of LZ4 1.6.4).
 Bytes lz4_frame(ByteView block, bool packed) {
     Expected e;
     e.raw({0x04, 0x22, 0x4D, 0x18, 0x60, 0x40, 0x82});
@@ -26,7 +26,7 @@ Bytes lz4_frame(ByteView block, bool packed) {
     return e.u32(0).bytes;
 }
 
-/// A block of one sequence, literals without a match (lz4_Block_format.md).
+/// A block of one sequence, literals without a match (the block format of LZ4).
 Bytes lz4_literals(ByteView bytes) {
     Bytes block = {0xF0};
     std::size_t left = bytes.size() - 15;

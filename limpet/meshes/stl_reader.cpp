@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/stl_reader.hpp"
+#include "limpet/meshes/stl_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 namespace {
 
@@ -157,4 +157,4 @@ std::string stl_of(const Mesh& mesh) {
     return bytes;
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

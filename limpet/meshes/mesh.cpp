@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <cctype>
 
 #include "limpet/core/errors.hpp"
-#include "limpet/models/dae_reader.hpp"
-#include "limpet/models/obj_reader.hpp"
-#include "limpet/models/ply_reader.hpp"
-#include "limpet/models/stl_reader.hpp"
+#include "limpet/meshes/dae_reader.hpp"
+#include "limpet/meshes/obj_reader.hpp"
+#include "limpet/meshes/ply_reader.hpp"
+#include "limpet/meshes/stl_reader.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 namespace {
 
@@ -133,4 +133,4 @@ Mesh read_mesh(const std::filesystem::path& file) {
     throw InputError(file.string() + ": must be a mesh in a .stl, .dae, .obj or .ply");
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// Reads `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) of a PLY, as text or binary
 /// of either order of bytes; polygons become fans. Other elements and properties are passed over.
@@ -13,4 +13,4 @@ namespace limpet::models {
 ///         100 MB, a header that is none, cut short, a number, a point that is not there, no face
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& file);
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <string>
 
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// Reads STL, binary or ASCII, and joins points that are the same.
 /// @throws InputError naming the file: not there, not STL, cut short, not finite, no triangle, more
@@ -16,4 +16,4 @@ namespace limpet::models {
 /// The same as the bytes of a binary STL.
 [[nodiscard]] std::string stl_of(const Mesh& mesh);
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -10,7 +10,7 @@
 
 #include "limpet/core/frames.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// Triangles of a shape. Axes and unit are those of the file; of a DAE, which says its own, z up
 /// and metres.
@@ -68,4 +68,4 @@ private:
 ///         of these
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& file);
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

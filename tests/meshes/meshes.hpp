@@ -5,9 +5,9 @@
 
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// By the divergence theorem: above 0 where the triangles look outwards.
 inline double volume(const Mesh& mesh) {
@@ -51,4 +51,4 @@ inline std::string replaced(std::string text, const std::string& what, const std
     return at == text.npos ? "nothing to replace: " + what : text.replace(at, what.size(), with);
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

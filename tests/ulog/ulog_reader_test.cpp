@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/record/ulog_reader.hpp"
+#include "limpet/ulog/ulog_reader.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,10 +11,12 @@
 #include "../support/allocations.hpp"
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/record/ulog.hpp"
+#include "limpet/ulog/ulog_writer.hpp"
 
-namespace limpet::record {
+namespace limpet::ulog {
 namespace {
+
+using namespace record;  // of whose columns a log is made
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -193,4 +195,4 @@ TEST(UlogReader, WhatIsNotInAMessageIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace limpet::record
+}  // namespace limpet::ulog

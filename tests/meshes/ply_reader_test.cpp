@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/ply_reader.hpp"
+#include "limpet/meshes/ply_reader.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 #include "meshes.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 namespace {
 
 using testing::HasSubstr;
@@ -102,4 +102,4 @@ TEST(PlyReader, RefusesEveryBeginningOfAFile) {
 }
 
 }  // namespace
-}  // namespace limpet::models
+}  // namespace limpet::meshes

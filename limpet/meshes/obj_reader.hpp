@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// Reads points and faces of a Wavefront OBJ, all groups together; polygons become fans. Normals,
 /// textures and materials are passed over.
@@ -13,4 +13,4 @@ namespace limpet::models {
 ///         not there, a free-form surface, a word that no OBJ has, no face
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& file);
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

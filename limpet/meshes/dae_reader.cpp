@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/dae_reader.hpp"
+#include "limpet/meshes/dae_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "limpet/core/words.hpp"
 #include "limpet/core/xml_marks.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 namespace {
 
@@ -440,4 +440,4 @@ Mesh read_dae(const std::filesystem::path& file) {
     return DaeFile(file.string(), read_file(file, {"mesh of a DAE", kMostMesh_MB})).read();
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

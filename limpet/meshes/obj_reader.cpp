@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/obj_reader.hpp"
+#include "limpet/meshes/obj_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 namespace {
 
@@ -89,4 +89,4 @@ Mesh read_obj(const std::filesystem::path& file) {
     return mesh.take();
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/record/ulog.hpp"
+#include "limpet/ulog/ulog_writer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 #include "limpet/record/recorder.hpp"
 
 // Read by another's reader in adapters/web/test/ulog.test.ts; here, byte by byte.
-namespace limpet::record {
+namespace limpet::ulog {
 namespace {
+
+using namespace record;  // of whose columns a log is made
 
 std::string text_of(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -53,4 +55,4 @@ TEST(ULog, RefusesARecordingWithNothingForIt) {
 }
 
 }  // namespace
-}  // namespace limpet::record
+}  // namespace limpet::ulog

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/record/ulog.hpp"
+#include "limpet/ulog/ulog_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +19,10 @@
 #include "limpet/core/write_file.hpp"
 #include "limpet/record/ros_frames.hpp"
 
-namespace limpet::record {
+namespace limpet::ulog {
 namespace {
+
+using namespace record;  // of whose columns a log is made
 
 /// Columns of a table by name; NaN where there is none, or no table.
 class Rows {
@@ -304,4 +306,4 @@ void write_ulog(const Recording& recording, const std::filesystem::path& file) {
     }
 }
 
-}  // namespace limpet::record
+}  // namespace limpet::ulog

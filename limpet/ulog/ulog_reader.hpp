@@ -6,7 +6,7 @@
 
 #include "limpet/record/recording.hpp"
 
-namespace limpet::record {
+namespace limpet::ulog {
 
 /// What a log's parameters stand under in Recording::metadata: name to number, as it was last.
 inline constexpr std::string_view kPx4Parameters = "px4_parameters";
@@ -20,6 +20,6 @@ inline constexpr std::string_view kPx4Parameters = "px4_parameters";
 /// @throws InputError one line: no such file, no log of PX4's, a definition that makes no sense,
 /// one that takes more memory or time than a log of its size may (core/allowance.hpp) Format:
 /// https://docs.px4.io/main/en/dev_log/ulog_file_format.html
-[[nodiscard]] Recording read_ulog(const std::filesystem::path& path);
+[[nodiscard]] record::Recording read_ulog(const std::filesystem::path& path);
 
-}  // namespace limpet::record
+}  // namespace limpet::ulog

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
 #include <gmock/gmock.h>
 
 #include "meshes.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 namespace {
 
 using testing::HasSubstr;
@@ -50,4 +50,4 @@ TEST(Mesh, AFileOfAnotherKindIsRefused) {
 }
 
 }  // namespace
-}  // namespace limpet::models
+}  // namespace limpet::meshes

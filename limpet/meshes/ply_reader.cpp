@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/ply_reader.hpp"
+#include "limpet/meshes/ply_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 namespace {
 
@@ -285,4 +285,4 @@ Mesh read_ply(const std::filesystem::path& file) {
     return PlyFile(file.string(), bytes).read();
 }
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/obj_reader.hpp"
+#include "limpet/meshes/obj_reader.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "meshes.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 namespace {
 
 using testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(ObjReader, ReadsNoMoreThanAMillionTriangles) {
 }
 
 }  // namespace
-}  // namespace limpet::models
+}  // namespace limpet::meshes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/record/ulog_reader.hpp"
+#include "limpet/ulog/ulog_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -19,8 +19,10 @@
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 
-namespace limpet::record {
+namespace limpet::ulog {
 namespace {
+
+using namespace record;  // of whose columns a log is made
 
 constexpr std::size_t kHeaderBytes = 16;
 constexpr std::size_t kMostElements = 10'000;  ///< of a message, all arrays and parts spelled out
@@ -366,4 +368,4 @@ Recording read_ulog(const std::filesystem::path& path) {
     return UlogFile(path, bytes).read();
 }
 
-}  // namespace limpet::record
+}  // namespace limpet::ulog

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/dae_reader.hpp"
+#include "limpet/meshes/dae_reader.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "meshes.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 namespace {
 
 using testing::HasSubstr;
@@ -182,4 +182,4 @@ TEST(DaeReader, EndsWhereNodesCallThemselvesOrGrowWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace limpet::models
+}  // namespace limpet::meshes

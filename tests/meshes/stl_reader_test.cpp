@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/models/stl_reader.hpp"
+#include "limpet/meshes/stl_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include "limpet/core/errors.hpp"
 #include "meshes.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST_F(StlReader, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace limpet::models
+}  // namespace limpet::meshes

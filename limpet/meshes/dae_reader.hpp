@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "limpet/models/mesh.hpp"
+#include "limpet/meshes/mesh.hpp"
 
-namespace limpet::models {
+namespace limpet::meshes {
 
 /// Reads the triangles of a COLLADA file's scene: triangles, polygons, fans and strips of every
 /// geometry that a node of it places, by matrix, translate, rotate and scale, also by an
@@ -17,4 +17,4 @@ namespace limpet::models {
 ///         triangle
 [[nodiscard]] Mesh read_dae(const std::filesystem::path& file);
 
-}  // namespace limpet::models
+}  // namespace limpet::meshes
