@@ -82,7 +82,7 @@ scenario::YamlNode node_of(const sdf::ElementPtr& element, const std::string& pa
     }
     if (!node.children.empty()) {
         if (!node.text.empty()) {
-            fail(node, fmt::format("has text \"{}\" beside elements or attributes, allowed either",
+            fail(node, fmt::format("has text \"{}\" with elements or attributes, allowed either",
                                    scenario::shown(node.text)));
         }
         node.kind = scenario::YamlNode::Kind::map;

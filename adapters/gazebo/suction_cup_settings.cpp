@@ -28,7 +28,7 @@ CupTarget target_of(const scenario::YamlNode& node, const suction::Surface& surf
     read_given(node, "plane", target.plane, read_pose);
     read_given(node, "collision", target.collision);
     if (!has_model && !target.collision.empty()) {
-        fail(*node.find("collision"), "stands beside plane, allowed beside model");
+        fail(*node.find("collision"), "is given with plane, allowed with model");
     }
     read_given(node, "surface", target.surface, read_surface);
     return target;

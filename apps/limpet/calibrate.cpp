@@ -387,7 +387,8 @@ Verb calibrate_verb() {
         "Examples:\n"
         "  limpet fly perch_concrete --set simulation.record_rate_Hz=250\n"
         "  limpet calibrate out/perch_concrete/flight.mcap\n\n"
-        "Intervals are for 95 %. What the log cannot tell is said and why: inertia and lag need "
+        "Intervals are for 95 %. Numbers that the log cannot determine are named, with the reason: "
+        "inertia and lag need "
         "the gyro and\nmotor commands at 200 Hz and more in free flight, drag a velocity, the "
         "slider its force sensor.\n");
 }

@@ -162,7 +162,8 @@ Verb compare_verb() {
         "compare", "Lay flights over each other and tell how they differ from the first",
         options_of, compare_flights,
         "Values are compared at the reference's samples, the other flight's read between its own;\n"
-        "never over a gap. What one flight has longer between two events is left out, and said.\n"
+        "never over a gap. The excess of a longer stretch between two events is left out and "
+        "reported.\n"
         "Exit codes: 0 within the limits, 1 beyond one, 2 a recording is missing or damaged.\n");
 }
 

@@ -214,7 +214,7 @@ OptionList options_of(ExportOptions& options) {
         {"--camera-rate HZ", &options.camera_rate_Hz, "frames a second (default: 10)",
          range(0.1, 1000.0, false)},
         {"--out FILE", &options.out,
-         "file (default: standard output); a world's textures go in\nmaterials/ beside "
+         "file (default: standard output); a world's textures go in\nmaterials/ next to "
          "it: its folder belongs on GAZEBO_RESOURCE_PATH"}};
 }
 

@@ -124,7 +124,7 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
         }
         terminal.written(files);
         terminal.line("layouts", (scenario::data_root() / "layouts/foxglove.json").string() +
-                                     " (Foxglove, Lichtblick), plotjuggler.xml beside it");
+                                     " (Foxglove, Lichtblick), plotjuggler.xml next to it");
     }
     if (options.json) {
         fmt::print("{}\n", result_json(result));

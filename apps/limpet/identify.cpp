@@ -290,7 +290,7 @@ Verb identify_verb() {
         "those of a "
         "recording:\n"
         "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
-        "A log may hold a sealing, an unsealing or both; what is missing is said. Intervals "
+        "A log may hold a sealing, an unsealing or both; what is missing is reported. Intervals "
         "are for\n"
         "95 % and hold for ripple and drift. Draws identify.png and identify.svg.\n");
 }

@@ -14,7 +14,7 @@ namespace limpet::app {
 namespace {
 
 struct ParamsOptions {
-    std::string room;
+    std::string section;
     std::string format = "text";
 };
 
@@ -25,7 +25,7 @@ struct Defaults {
 };
 
 /// Those of scenarios, and those of companions, whose names begin with "companion".
-std::vector<scenario::Section> sections_in(const std::string& room, Defaults& defaults) {
+std::vector<scenario::Section> sections_in(const std::string& section, Defaults& defaults) {
     std::vector<scenario::Section> all = scenario_sections(defaults.scenario);
     const auto rotor = std::find_if(all.begin(), all.end(), [](const scenario::Section& section) {
         return section.name == "vehicle.rotor";
@@ -35,7 +35,7 @@ std::vector<scenario::Section> sections_in(const std::string& room, Defaults& de
     for (scenario::Section& section : companion_sections(defaults.companion)) {
         all.push_back(std::move(section));
     }
-    return sections_of(room, std::move(all));
+    return sections_of(section, std::move(all));
 }
 
 std::string default_of(const BoundParameter& row) {
@@ -98,8 +98,8 @@ void print_markdown(const std::vector<scenario::Section>& sections) {
 }
 
 OptionList options_of(ParamsOptions& options) {
-    return {{"room ROOM", &options.room,
-             "one room or section only: guidance, autopilot, sensors, suction,\n"
+    return {{"section SECTION", &options.section,
+             "one section only: guidance, autopilot, sensors, suction,\n"
              "vehicle, companion, ...",
              optional()},
             {"--format FORMAT", &options.format, "text or markdown", one_of({"text", "markdown"})}};
@@ -107,7 +107,7 @@ OptionList options_of(ParamsOptions& options) {
 
 void print_params(const ParamsOptions& options) {
     Defaults defaults;
-    const auto sections = sections_in(options.room, defaults);
+    const auto sections = sections_in(options.section, defaults);
     const bool markdown = options.format == "markdown";
     markdown ? print_markdown(sections) : print_text(sections);
     for (const scenario::Section& section : sections) {

@@ -67,7 +67,7 @@ OptionList options_of(PictureOptions& options) {
 
 constexpr const char* kFooter =
     "Prints the files that it wrote. A damaged recording is used as far as it is whole;\n"
-    "what is missing is said on standard error and the exit code is 2.\n";
+    "missing parts are reported on standard error and the exit code is 2.\n";
 
 Verb picture_verb(const char* name, const char* about, const Draw& work) {
     return verb<PictureOptions>(
@@ -100,7 +100,7 @@ draw::Pictures write_px4_log(const record::Recording& recording,
 OptionList film_options_of(PictureOptions& options) {
     OptionList list = options_of(options);
     list.push_back({"--video KIND", &options.video,
-                    "a video beside each strip, by the same cameras", one_of({"mp4", "webm"})});
+                    "a video next to each strip, by the same cameras", one_of({"mp4", "webm"})});
     return list;
 }
 

@@ -68,7 +68,7 @@ OptionList options_of(ReplayOptions& options) {
     constexpr double kMostRuns = 999'999'999;
     return {{"database DB", &options.database, "results.sqlite, or the folder that holds it"},
             {"run RUN", &options.run, "number of the run, from 0", range(0, kMostRuns, false)},
-            {"--out DIR", &options.out, "folder (default: run_RUN beside the database)"}};
+            {"--out DIR", &options.out, "folder (default: run_RUN next to the database)"}};
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void view(const ViewOptions& options) {
 OptionList options_of(ViewOptions& options) {
     constexpr int kMost = 20;  // a page that a browser still opens
     return {{"recording RECORDING", &options.recordings,
-             "flight.mcap of a flight; further ones fly beside it as ghosts", values(1, kMost)},
+             "flight.mcap of a flight; further ones fly with it, translucent", values(1, kMost)},
             {"--out DIR", &options.out, "folder (default: that of the first recording)"},
             {"--open", &options.open, "open the page in a browser"}};
 }
@@ -55,7 +55,7 @@ Verb view_verb() {
         "Writes view.html, one file that needs no network and can be sent: time line, events,\n"
         "charts with one cursor, cameras. It also opens recordings that are dropped on it.\nWhat "
         "is "
-        "missing of a damaged recording is said on standard error, and the exit code is 2.\n");
+        "missing of a damaged recording is reported on standard error, and the exit code is 2.\n");
 }
 
 }  // namespace limpet::app

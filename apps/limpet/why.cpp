@@ -119,7 +119,8 @@ Verb why_verb() {
         "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"
         "Flies it again, says what the cup bore until it let go and by which moment, then turns "
-        "every setting\n(a third, three times), alone and beside those that help most. Writes "
+        "every setting\n(a third, three times), alone and together with those that help most. "
+        "Writes "
         "why.json, and why.png, why.svg:\nmargins over time, as it is and with the changes.\n");
 }
 

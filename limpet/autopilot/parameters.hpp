@@ -6,7 +6,7 @@
 namespace limpet::autopilot {
 
 /// Parameters of the built-in autopilot. Fields carry PX4's names, units and meaning (the one
-/// exception to snake_case in the house), so that a `.params` file exported from a vehicle loads as
+/// exception to snake_case in Limpet), so that a `.params` file exported from a vehicle loads as
 /// it is. Defaults are PX4's, except where the table's source column says "here".
 struct AutopilotParameters {
     // Position and velocity, multicopter position control.

@@ -171,7 +171,7 @@ void Reader::read_guidance() {
     }
     derive(scenario);
     if (const YamlNode* valve = find("guidance.valve_fitted")) {
-        fail(*valve, "is said by mechanism.valve");
+        fail(*valve, "is given by mechanism.valve");
     }
     const std::vector<BoundParameter> rows = bind(guidance::perching_table(), scenario.guidance);
     read_rows(find("guidance"), rows);

@@ -59,7 +59,7 @@ const ParameterTable<CompanionLimits>& companion_limits_table() {
         {"hand_back_s", "s", 0.5, 30.0, &P::hand_back_s,
          "how long the end is reported and hold requested", "assumed: two heartbeats of PX4"},
         {"mechanism_rate_Hz", "Hz", 1.0, 100.0, &P::mechanism_rate_Hz,
-         "pump and valve are said so often", "mechanism_line.hpp"},
+         "rate of commands to pump and valve", "mechanism_line.hpp"},
         {"hover_s", "s", 1.0, 3600.0, &P::hover_s, "of mission hover", "as simulation.hover_s"},
     };
     return table;

@@ -27,7 +27,7 @@ struct CompanionLimits {
     double begin_speed_m_s = 0.1;     ///< ... slower than this
     double begin_steady_s = 2.0;      ///< ... for so long
     double hand_back_s = 2.0;         ///< how long hold is asked for, and the end told
-    double mechanism_rate_Hz = 10.0;  ///< pump and valve are said so often
+    double mechanism_rate_Hz = 10.0;  ///< rate of commands to pump and valve
     double hover_s = 20.0;            ///< of mission hover
 };
 [[nodiscard]] const ParameterTable<CompanionLimits>& companion_limits_table();

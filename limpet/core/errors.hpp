@@ -20,7 +20,7 @@ public:
     using InputError::InputError;
 };
 
-/// A fault of ours: a broken promise between two rooms. The command line turns it into exit
+/// A fault of ours: a broken promise between two modules. The command line turns it into exit
 /// code 70.
 class InternalError : public std::logic_error {
 public:

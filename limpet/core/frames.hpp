@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-/// Vectors, rotations and the few frame conversions that every room shares.
+/// Vectors, rotations and the few frame conversions that every module shares.
 ///
 /// Alphabet (drawn in docs/conventions.md): W world, north-east-down; B body, forward-right-down,
 /// origin at the centre of mass; C cup, forward-right-down when the joint is centred, origin at the

@@ -40,7 +40,7 @@ private:
     std::variant<double*, int*, bool*> place_;
 };
 
-/// One row of a room's parameter table: everything that the loader checks and that
+/// One row of a module's parameter table: everything that the loader checks and that
 /// `limpet params` prints. The default is not in the row: it is the struct's in-class default.
 template <class Struct>
 struct Parameter {

@@ -7,9 +7,9 @@
 
 #include "limpet/core/frames.hpp"
 
-/// The wall as the rooms know it: what is under a point before it. Whoever seals on it, keeps away
-/// from it or draws it asks for the tangent frame, a distance or a solid, and does not know its
-/// shape. A shape is one file, wall_NAME.cpp, and a line in wall.cpp.
+/// The wall as the modules know it: what is under a point before it. Whoever seals on it, keeps
+/// away from it or draws it asks for the tangent frame, a distance or a solid, and does not know
+/// its shape. A shape is one file, wall_NAME.cpp, and a line in wall.cpp.
 namespace limpet {
 
 /// A wall at the spot under a point: the flat wall that touches it there, and how it bends away.

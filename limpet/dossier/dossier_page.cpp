@@ -190,9 +190,10 @@ PageTable factors(const DossierFile& file, const std::map<std::string, QuantityF
                     .columns = {"factor", "what was found"}};
     table.rows = {
         {"verification",
-         fmt::format("numerical error (finer steps and another engine, far ends) at most {:.2g} "
-                     "deviations of the inputs' spread{}; of {} of {} quantities it cannot be told",
-                     worst, of.empty() ? "" : ": " + of, untold, file.quantities.size())},
+         fmt::format(
+             "numerical error (finer steps and another engine, far ends) at most {:.2g} "
+             "deviations of the inputs' spread{}; of {} of {} quantities it cannot be determined",
+             worst, of.empty() ? "" : ": " + of, untold, file.quantities.size())},
         {"validation", fmt::format("{} of {} statements of the paper agree; {} of these are "
                                    "measured, the others fitted, recovered or by construction",
                                    agree, claims.size(), measured)},
@@ -204,11 +205,11 @@ PageTable factors(const DossierFile& file, const std::map<std::string, QuantityF
                      100.0 * kShareHeld, 100.0 * kHeldConfidence)},
         {"results robustness",
          "Sobol indices with intervals: `limpet summary` of each inputs' file"},
-        {"use history", "not told by flights"},
+        {"use history", "flights do not show it"},
         {"management", fmt::format("Limpet {}; every run names the scenario's text, its seed and "
                                    "its state's hash, and can be flown again",
                                    kVersion)},
-        {"people", "not told by flights"}};
+        {"people", "flights do not show it"}};
     return table;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The colours of all that the house draws: restrained, told apart by lightness as well as by hue
+/// The colours of every chart and map: restrained, told apart by lightness as well as by hue
 /// (Okabe and Ito's set, toned down).
 namespace limpet::draw::colours {
 

@@ -9,7 +9,7 @@
 #include "limpet/scenario/scenario.hpp"
 #include "limpet/simulation/flight.hpp"
 
-/// What the public face stands on: the house's own things that have the same names.
+/// What the public face stands on: Limpet's own types that have the same names.
 namespace limpet {
 
 using HouseScenario = scenario::Scenario;

@@ -17,7 +17,7 @@ constexpr std::array<KindRow, kKinds> kRows = {{
     {FaultKind::imu_biased, "the pitch gyro is off", 0, "rad/s", 0.05, -5.0, 5.0},
     {FaultKind::barometer_lost, "the barometer sends nothing"},
     {FaultKind::magnetometer_lost, "the magnetometer sends nothing"},
-    {FaultKind::magnetometer_turned, "the field turns about the vehicle's z, as beside steel", 0, "deg", 30.0, -180.0, 180.0},
+    {FaultKind::magnetometer_turned, "the field turns about the vehicle's z, as near steel", 0, "deg", 30.0, -180.0, 180.0},
     {FaultKind::gps_lost, "GPS sends nothing"},
     {FaultKind::mocap_lost, "motion capture sends nothing"},
     {FaultKind::mocap_frozen, "motion capture repeats its last pose with new time stamps"},
@@ -35,7 +35,7 @@ constexpr std::array<KindRow, kKinds> kRows = {{
     {FaultKind::pressure_drifts, "the pressure that is read drifts so fast", 0, "Pa/s", 2000.0, -1e5, 1e5},
     {FaultKind::battery_sensor_lost, "the battery's monitor sends nothing"},
     {FaultKind::estimate_drifts, "the estimated position drifts so fast along the way into the wall", 0, "m/s", 0.2, -10.0, 10.0},
-    {FaultKind::guidance_stalls, "the companion computes nothing: set-point, pump and valve stay as told"},
+    {FaultKind::guidance_stalls, "the companion computes nothing: set-point, pump and valve stay as commanded last"},
     {FaultKind::link_lost, "no set-point reaches the autopilot, which flies on with the last; pump and valve obey"},
     {FaultKind::motor_lost, "a motor stands still: itself, its propeller or its ESC", kRotors},
     {FaultKind::motor_weak, "a motor gives this share of its thrust", kRotors, "-", 0.7, 0.0, 1.0},
@@ -52,7 +52,7 @@ constexpr std::array<KindRow, kKinds> kRows = {{
     {FaultKind::payload_shifts_ahead, "likewise ahead", 0, "kg m", 0.01, -1.0, 1.0},
     {FaultKind::cable_breaks, "the payload's cable parts, for good"},
     {FaultKind::leg_broken, "a leg (0 left, 1 right) breaks off: it touches nothing more", 2},
-    {FaultKind::clock_jumps, "guidance's clock jumps so far ahead, for good: what was heard before looks so much older", 0, "s", 1.0, 0.0, 100.0},
+    {FaultKind::clock_jumps, "guidance's clock jumps so far ahead, for good: what was received before looks so much older", 0, "s", 1.0, 0.0, 100.0},
 }};
 // clang-format on
 

@@ -255,7 +255,7 @@ Stages stages_of(const PressureTrace& trace, const IdentificationOptions& option
         stages.off = {sample_at(trace, *options.pump_off_s)};
     }
     if (!stages.sealing && !stages.unsealing) {
-        throw InputError("neither a sealing nor an unsealing can be told in it");
+        throw InputError("it shows neither a sealing nor an unsealing");
     }
     return stages;
 }

@@ -288,7 +288,7 @@ void fit_slider(const FlightData& data, VehicleFit& fit) {
         fit.notes.emplace_back(data.force_s.empty()
                                    ? "no force sensor in the log: nothing tells the slider"
                                    : "the cup is never pressed, or there is no IMU or velocity "
-                                     "beside it: nothing tells the slider");
+                                     "without it the slider cannot be estimated");
         return;
     }
     const double touch_s = data.force_s[static_cast<std::size_t>(touch - data.force_N.begin())];

@@ -54,7 +54,7 @@ report::Quantity difference(const report::Quantity& said, double value, bool hol
         }
         return below < 0.0 ? rounded(below, range->low) : rounded(above, range->high);
     }
-    return holds ? "as said" : "not as said";
+    return holds ? "as stated" : "not as stated";
 }
 
 }  // namespace

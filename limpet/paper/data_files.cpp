@@ -95,7 +95,7 @@ void read_evidence(const scenario::YamlNode& map, const std::vector<std::string_
     }
     const scenario::YamlNode* least = map.find("at_least");
     if (least != nullptr && map.find("accepted") != nullptr) {
-        fail(*least, "stands beside accepted, one of the two");
+        fail(*least, "excludes accepted: give one of the two");
     }
     statement.accepted = least == nullptr
                              ? range(needed(map, "accepted"))

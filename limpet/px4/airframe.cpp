@@ -132,7 +132,7 @@ Px4Frame px4_frame(const Px4Airframe& airframe) {
 
 std::vector<Px4Setting> px4_settings(const Px4Airframe& airframe) {
     if (airframe.id < kFirstOwnId || airframe.id > kLastOwnId) {
-        throw InputError(fmt::format("airframe id {}: PX4 keeps {} .. {} for models of one's own",
+        throw InputError(fmt::format("airframe id {}: PX4 keeps {} .. {} for a user's own models",
                                      airframe.id, kFirstOwnId, kLastOwnId));
     }
     Settings settings;

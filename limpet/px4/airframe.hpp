@@ -25,7 +25,7 @@ enum class Px4Pose {
 
 struct Px4Airframe {
     std::string name;  ///< of the vehicle; other characters than a-z, A-Z, 0-9, _, - become _
-    int id = 22001;    ///< SYS_AUTOSTART, 22000..22999: PX4 keeps those for models of one's own
+    int id = 22001;    ///< SYS_AUTOSTART, 22000..22999: PX4 keeps those for a user's own models
     RotorList<autopilot::RotorGeometry> rotors;
     double battery_cells = 6.0;
     double battery_capacity_Ah = 4.0;

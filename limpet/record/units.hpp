@@ -6,7 +6,7 @@
 
 namespace limpet::record {
 
-/// Name of a column as the house writes it. ROS 2 allows lower-case field names only, so our
+/// Name of a column as Limpet writes it. ROS 2 allows lower-case field names only, so our
 /// messages say `pressure_pa`; the column is `pressure_Pa`. Names of other packages stay as they
 /// are.
 /// @param type   "limpet_msgs/msg/CupState"

@@ -22,7 +22,7 @@ MakersNote lateral(const scenario::Scenario& scenario) {
     const double asked = safety_factor_asked(surface, *scenario.wall.condition);
     return {has < asked,
             fmt::format("the cup carries {:.1f} times the weight along the wall (friction {:.3g}, "
-                        "vacuum {:.0f} hPa); makers of cups ask for {:.2g}",
+                        "vacuum {:.0f} hPa); cup manufacturers ask for {:.2g}",
                         has, surface.friction,
                         hectopascals(ambient_Pa - surface.vacuum_pressure_Pa), asked)};
 }

@@ -74,7 +74,7 @@ private:
         promise(!blank(figure.title) && !blank(figure.alt) && !figure.png.empty(),
                 "figure " + figure.id + " without title, alt text or file");
         promise(figure.png.is_relative() && figure.svg.is_relative() && figure.view.is_relative(),
-                "figure " + figure.id + " is not beside the page");
+                "figure " + figure.id + " is not next to the page");
     }
 
     void claim(const Claim& claim) {

@@ -59,7 +59,7 @@ fs::path data_root() {
         }
     }
     throw InputError(
-        fmt::format("scenarios, vehicles and surfaces are in no share/limpet beside {}: "
+        fmt::format("scenarios, vehicles and surfaces are in no share/limpet next to {}: "
                     "set LIMPET_DATA to their folder",
                     module.string()));
 }

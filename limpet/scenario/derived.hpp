@@ -15,7 +15,7 @@ namespace limpet::scenario {
 [[nodiscard]] RotorList<autopilot::RotorGeometry> rotor_geometry(
     const vehicle::AirframeNumbers& airframe);
 
-/// What other rooms have to know of the vehicle and of the earth's field, so that a scenario that
+/// What other modules have to know of the vehicle and of the earth's field, so that a scenario that
 /// changes the mass need not work out the hover thrust. The scenario's own keys come later and win.
 ///
 ///   guidance.lidar_separation_m, lidar_x_m    the vehicle's lidar

@@ -41,7 +41,7 @@ enum class Mission {
     return name_of(mission);
 }
 
-/// What the flight is set up with besides the rooms' own parameters.
+/// What the flight is set up with besides the modules' own parameters.
 struct SimulationParameters {
     double time_limit_s = 120.0;     ///< then the outcome is timed_out
     double hover_s = 20.0;           ///< of mission hover

@@ -152,14 +152,14 @@ const Section& find_section(const std::vector<Section>& sections, std::string_vi
     return *found;
 }
 
-std::vector<Section> sections_of(std::string_view room, std::vector<Section> all) {
+std::vector<Section> sections_of(std::string_view part, std::vector<Section> all) {
     const std::vector<std::string> names = names_of(all);
-    const std::string within = std::string(room) + ".";
+    const std::string within = std::string(part) + ".";
     std::erase_if(all, [&](const Section& section) {
-        return !room.empty() && section.name != room && section.name.rfind(within, 0) != 0;
+        return !part.empty() && section.name != part && section.name.rfind(within, 0) != 0;
     });
     if (all.empty()) {
-        throw InputError(unknown_name(std::string(room), "room", names));
+        throw InputError(unknown_name(std::string(part), "section", names));
     }
     return all;
 }

@@ -65,8 +65,8 @@ void read_choices(const YamlNode* node, const Section& section);
 [[nodiscard]] const Section& find_section(const std::vector<Section>& sections,
                                           std::string_view name);
 
-/// Those of one room: "guidance", "vehicle" (with all its sections), "vehicle.slider"; of "" all.
+/// Those of one part: "guidance", "vehicle" (with all its sections), "vehicle.slider"; of "" all.
 /// @throws InputError naming what there is
-[[nodiscard]] std::vector<Section> sections_of(std::string_view room, std::vector<Section> all);
+[[nodiscard]] std::vector<Section> sections_of(std::string_view part, std::vector<Section> all);
 
 }  // namespace limpet::scenario

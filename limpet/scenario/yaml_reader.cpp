@@ -175,9 +175,9 @@ void read_rows(const YamlNode* section, const std::vector<BoundParameter>& rows,
     for (const BoundParameter& row : rows) {
         allowed.push_back(row.name);
     }
-    const std::string room = section->path.substr(0, section->path.find('.'));
+    const std::string part = section->path.substr(0, section->path.find('.'));
     check_keys(*section, allowed,
-               room.empty() ? "" : fmt::format("`limpet params {}` lists what there is", room));
+               part.empty() ? "" : fmt::format("`limpet params {}` lists what there is", part));
     read_given(*section, rows);
 }
 

@@ -5,7 +5,7 @@
 
 namespace limpet::simulation {
 
-/// Simulated time held back to wall time; the one clock of the simulation room.
+/// Simulated time held back to wall time; the one clock of the simulation module.
 class Pace {
 public:
     /// @param speed  simulated seconds a real second; 0: holds nothing back

@@ -5,7 +5,7 @@
 #include "limpet/px4/wires.hpp"
 #include "limpet/scenario/scenario.hpp"
 
-// A scenario as PX4's room knows it.
+// A scenario as the module px4 knows it.
 namespace limpet::simulation {
 
 /// What a PX4 is to be told to fly it in simulation.

@@ -32,7 +32,7 @@ struct RigState {
 };
 
 /// All that changes during a flight except the plant's own state, which lives in the plant. Numbers
-/// alone, walked by visit_leaves() (core/visit.hpp): a member that is added here or in a room's
+/// alone, walked by visit_leaves() (core/visit.hpp): a member that is added here or in a module's
 /// state is saved, digested and linearised without another line (snapshot.hpp).
 struct FlightState {
     Tick tick = 0;

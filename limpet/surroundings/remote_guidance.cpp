@@ -240,7 +240,7 @@ void RemoteGuidance::exchange(const Readings& readings, const Estimate& /*estima
 
 std::string RemoteGuidance::obstacle() const {
     if (!companion_heard_) {
-        return "no companion is heard on " + wires_.sensors->transport().describe();
+        return "no companion sends on " + wires_.sensors->transport().describe();
     }
     return {};
 }

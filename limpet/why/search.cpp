@@ -174,7 +174,7 @@ void Search::seek_remedy(const std::vector<Trial>& singles) {
     std::vector<Trial> pairs;
     if (mending.empty()) {
         for (std::size_t i = 0; i < std::min(kSeeds, singles.size()); ++i) {
-            tell(fmt::format("beside {} ...", singles[i].changes.front().override_text()));
+            tell(fmt::format("together with {} ...", singles[i].changes.front().override_text()));
             const auto beside = screen(settings_, singles[i].changes, singles[i]);
             pairs.insert(pairs.end(), beside.begin(), beside.end());
         }
@@ -182,7 +182,7 @@ void Search::seek_remedy(const std::vector<Trial>& singles) {
         take(pairs);
     }
     if (mending.empty() && !pairs.empty()) {
-        tell("a third beside the best two ...");
+        tell("a third with the best two ...");
         take(screen(settings_, pairs.front().changes, pairs.front()));
     }
     for (std::size_t i = 0; i < mending.size(); ++i) {

@@ -11,7 +11,7 @@
 #include "limpet/wire/readiness.hpp"
 #include "limpet/wire/transport.hpp"
 
-// What the room's own sources share; heavy, by Asio.
+// What the module's own sources share; heavy, by Asio.
 namespace limpet::wire {
 
 /// Says in one line why an address cannot be used.

@@ -157,7 +157,7 @@ TEST(CompanionConfig, RefusesWhatItDoesNotKnowWithPlaceAndHint) {
                   "source: mavlink\n  readings: line"),
          "mechanism.readings: line is of use only with source: line"},
         {kGood + "guidance: {valve_fitted: true}\n",
-         "c.yaml:13: guidance.valve_fitted: is said by mechanism.valve"},
+         "c.yaml:13: guidance.valve_fitted: is given by mechanism.valve"},
         {kGood + "guidance: {land_pressure_Pa: 99000}\n",
          "guidance.land_pressure_Pa must be below detach_pressure_Pa, 98000"},
         {kGood + "lidars2: 1\n", "lidars2: unknown key"},

@@ -201,7 +201,7 @@ TEST_F(StatementsFile, StopsAtOnceAtWhatIsNotRight) {
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  accepted: [2, 1]\n  basis: as set\n"),
               "6: a.accepted: must begin with its lower end");
     EXPECT_EQ(error_of(good_ + "  evidence: x.first_s\n  at_least: 1\n" + rest),
-              "6: a.at_least: stands beside accepted, one of the two");
+              "6: a.at_least: excludes accepted: give one of the two");
     EXPECT_EQ(error_of(good_ + "  accepted: [0, 1]\n  note: none\n"),
               "5: a.accepted: stands without evidence");
     EXPECT_EQ(error_of(good_), "1: a: note: is missing");

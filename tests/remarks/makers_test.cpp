@@ -21,7 +21,8 @@ TEST(Makers, AreContentWithThePapersWalls) {
     for (const char* name : {"perch_concrete", "perch_cinder_block", "perch_turbine_blade",
                              "perch_metal", "perch_blade", "perch_wet_metal"}) {
         EXPECT_THAT(makers_warnings(with(name, {})), IsEmpty()) << name;
-        EXPECT_THAT(makers_notes(with(name, {})), ElementsAre(HasSubstr("makers of cups ask for")));
+        EXPECT_THAT(makers_notes(with(name, {})),
+                    ElementsAre(HasSubstr("cup manufacturers ask for")));
     }
     EXPECT_THAT(makers_notes(with("hover", {})), IsEmpty());
 }
@@ -30,7 +31,7 @@ TEST(Makers, AreContentWithThePapersWalls) {
 TEST(Makers, TellHowOftenTheWeightIsCarriedAlongTheWall) {
     EXPECT_THAT(makers_notes(with("perch_metal", {})),
                 ElementsAre(HasSubstr("carries 7.1 times the weight along the wall (friction 0.6, "
-                                      "vacuum 738 hPa); makers of cups ask for 1.5")));
+                                      "vacuum 738 hPa); cup manufacturers ask for 1.5")));
     EXPECT_THAT(makers_warnings(with("perch_metal", {"wall.condition=oiled"})),
                 ElementsAre(HasSubstr("carries 1.2 times")));
 }

@@ -8,8 +8,8 @@
 namespace limpet::simulation {
 namespace {
 
-/// A flight's digest as it was before the house was rebuilt around it. Who means to change a flight
-/// changes its line, and says why in CHANGELOG.md.
+/// A flight's digest as it was before the architecture was rebuilt around it. Who means to change a
+/// flight changes its line, and says why in CHANGELOG.md.
 struct Golden {
     const char* scenario;
     std::vector<std::string> overrides;

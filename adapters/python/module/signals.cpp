@@ -127,7 +127,7 @@ auto number_of(Sample<T> Readings::*sample, Of of) {
 void add_readings(py::module_& module) {
     const auto range = [](const RangeReading& r) { return r.valid ? r.distance_m : kNaN; };
     py::class_<Readings>(module, "Readings",
-                         "What the sensors said last; NaN: nothing yet, or no echo.")
+                         "The latest readings of the sensors; NaN: none yet, or no echo.")
         .def_property_readonly("lidar_left_m", number_of(&Readings::lidar_left, range), "[m]")
         .def_property_readonly("lidar_right_m", number_of(&Readings::lidar_right, range), "[m]")
         .def_property_readonly("force_N",
@@ -154,7 +154,7 @@ void add_readings(py::module_& module) {
 
 void add_setpoints(py::module_& module) {
     py::class_<Setpoint>(module, "Setpoint",
-                         "What guidance asks of autopilot and perching mechanism.")
+                         "The commands of guidance to autopilot and perching mechanism.")
         .def_static(
             "position",
             [](const py::object& p_W_m, double yaw_rad, const py::object& v_W_m_s, bool pump_on,

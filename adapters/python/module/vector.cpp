@@ -184,7 +184,7 @@ private:
 
 void add_vector(py::module_& module) {
     py::class_<Flights>(module, "Flights",
-                        "Many flights that are told their set-points and step together. Nothing "
+                        "Many flights that take set-points and step together. Nothing "
                         "of one depends on another.")
         .def(py::init<std::size_t, int, const std::vector<std::string>&>(), py::arg("count"),
              py::arg("jobs"), py::arg("channels"))

@@ -186,11 +186,11 @@ void RosVehicle::diagnose() {
                                     {"flight_s", fmt::format("{:.1f}", flight_s_)}}};
     if (!heard_.guidance_heard()) {
         simulation.level = Diagnosis::Level::warn;
-        simulation.message = "no perching_node is heard: holds";
+        simulation.message = "no perching_node sends: holds";
     } else if (!waits_) {
         simulation.level = Diagnosis::Level::error;
         simulation.message =
-            fmt::format("perching_node has said nothing for {:g} s of real time: flown on without",
+            fmt::format("perching_node has sent nothing for {:g} s of real time: flown on without",
                         options_.patience_s);
     }
     diagnostics_.tell({simulation}, ros_time(clock_s_));
@@ -280,7 +280,7 @@ void RosVehicle::keep_step() {
 
 std::string RosVehicle::obstacle() const {
     const std::lock_guard lock(mutex_);
-    return heard_.guidance_heard() ? "" : "no perching_node is heard";
+    return heard_.guidance_heard() ? "" : "no perching_node sends";
 }
 
 suction::CupOutput RosVehicle::step(const suction::CupModel& model, suction::CupState& state,

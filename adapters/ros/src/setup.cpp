@@ -77,7 +77,7 @@ SetupArguments flight_of_vehicle() {
         ROS_INFO_ONCE("waits for the vehicle to tell what it flies (%s)", kFlightParameter);
         ::ros::WallDuration(0.1).sleep();
     }
-    throw InputError(fmt::format("{}: no vehicle has told what it flies", kFlightParameter));
+    throw InputError(fmt::format("{}: no vehicle has published what it flies", kFlightParameter));
 }
 
 }  // namespace

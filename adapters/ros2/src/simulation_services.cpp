@@ -319,7 +319,7 @@ void SimulationServices::refuse_others() {
     refuse<SpawnEntities>("spawn_entities", one_vehicle);
     refuse<DeleteEntity>("delete_entity", one_vehicle);
     refuse<GetSpawnables>("get_spawnables", one_vehicle);
-    refuse<SetEntityInfo>("set_entity_info", "what entities are is told by their world");
+    refuse<SetEntityInfo>("set_entity_info", "entities are defined by their world");
     refuse<GetNamedPoses>("get_named_poses", "poses have no names here");
     refuse<GetNamedPoseBounds>("get_named_pose_bounds", "poses have no names here");
 }

@@ -42,7 +42,7 @@ Result look_for(const Resource& resource, const std::string& wanted) {
         return resource.resource_string.empty()
                    ? result(LoadWorldResponse::NO_RESOURCE, "neither a uri nor a text")
                    : result(Result::RESULT_FEATURE_UNSUPPORTED,
-                            "a world as a text: the nodes beside the vehicle could not read it; "
+                            "a world as a text: the other nodes could not read it; "
                             "give a scenario's name or file");
     }
     const std::filesystem::path path(wanted);
