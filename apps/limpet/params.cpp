@@ -25,7 +25,7 @@ struct Defaults {
 };
 
 /// Those of scenarios, and those of companions, whose names begin with "companion".
-std::vector<scenario::Section> sections_in(const std::string& section, Defaults& defaults) {
+std::vector<scenario::Section> sections_in(const std::string& part, Defaults& defaults) {
     std::vector<scenario::Section> all = scenario_sections(defaults.scenario);
     const auto rotor = std::find_if(all.begin(), all.end(), [](const scenario::Section& section) {
         return section.name == "vehicle.rotor";
@@ -35,7 +35,7 @@ std::vector<scenario::Section> sections_in(const std::string& section, Defaults&
     for (scenario::Section& section : companion_sections(defaults.companion)) {
         all.push_back(std::move(section));
     }
-    return sections_of(section, std::move(all));
+    return sections_of(part, std::move(all));
 }
 
 std::string default_of(const BoundParameter& row) {

@@ -101,7 +101,7 @@ class Mentions(unittest.TestCase):
                                            page.read_text().replace("\\|", "|")):  # as a cell of a table has it
                 with self.subTest(f"{page.relative_to(ROOT)}: {quoted or bare}"):
                     for part in ([quoted] if "(" in quoted else quoted.split("|")) if quoted else [bare]:
-                        if part not in ("suction_cup", "X", "room", "MODULE"):  # of adapters/gazebo/test; patterns
+                        if part not in ("suction_cup", "X", "MODULE"):  # of adapters/gazebo/test; patterns
                             self.assertTrue(any(re.search(part, name) for name in there), "no such test")
 
     def test_cells_of_tables_hide_their_bars(self):
