@@ -128,9 +128,11 @@ TEST(Sampling, GridsMultiplyAndTheLastChangesFastest) {
 }
 
 TEST(Sampling, SaysWhichPointsOfAGridRunsLeaveOut) {
-    std::vector<VariedKey> keys(2);
-    keys[0] = {.key = "a", .spread = Spread::grid, .values = {1.0, 2.0, 3.0}};
-    keys[1] = {.key = "b", .spread = Spread::grid, .values = {1.0, 2.0}};
+    std::vector<VariedKey> keys(2);  // of grids
+    keys[0].key = "a";
+    keys[0].values = {1.0, 2.0, 3.0};
+    keys[1].key = "b";
+    keys[1].values = {1.0, 2.0};
     EXPECT_EQ(uneven_runs(keys, 6), "");
     EXPECT_EQ(uneven_runs(keys, 18), "");
     EXPECT_EQ(uneven_runs({}, 7), "");
