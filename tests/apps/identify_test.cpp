@@ -107,9 +107,9 @@ TEST(Calibrate, TakesTheRecordingsVehicleAlsoWithoutACup) {
     EXPECT_THAT(own.out, AllOf(HasSubstr("limpet fly hover \\\n  --set vehicle=iris"),
                                HasSubstr("--set vehicle.inertia_kg_m2.xx=0.0")));
     EXPECT_EQ(bench.run({"calibrate", "flight.mcap", "--vehicle", "iris"}).out, own.out);
-    const auto json = nlohmann::json::parse(bench.run({"calibrate", "flight.mcap", "--json"}).out);
-    EXPECT_EQ(json["vehicle"], "iris");
-    const auto& xx = json["numbers"]["vehicle.inertia_kg_m2.xx"];
+    const auto fit = nlohmann::json::parse(bench.run({"calibrate", "flight.mcap", "--json"}).out);
+    EXPECT_EQ(fit["vehicle"], "iris");
+    const auto& xx = fit["numbers"]["vehicle.inertia_kg_m2.xx"];
     EXPECT_LT(xx["low"].get<double>(), 0.029125);  // vehicles/iris.yaml
     EXPECT_GT(xx["high"].get<double>(), 0.029125);
     EXPECT_EQ(xx["plausible"], true);
