@@ -138,7 +138,7 @@ std::optional<Chapter> failed_attempt(const Recording& recording) {
     const double start_s = approach == nullptr ? retreat->time_s - 3.0 : approach->time_s;
     return chapter(recording, kFailedAttempt, "failed attempt", start_s - 0.5,
                    retreat->time_s + 3.0, first_event(recording, EventName::impact, start_s),
-                   retreat->reason + ", retreat");
+                   (retreat->reason.empty() ? "no seal" : retreat->reason) + ", retreat");
 }
 
 std::vector<Chapter> chapters(const Recording& recording) {

@@ -184,7 +184,7 @@ TEST(CellsPage, SaysHowEachCellOfTwoGridsEndedAndWhichRunItWas) {
     const std::string page = text_of(bench.folder() / "flown/cells.html");
     EXPECT_THAT(page, HasSubstr("<button class=\"released\" data-run=\"0\""));
     EXPECT_THAT(page, HasSubstr("<button class=\"crashed\" data-run=\"1\" "
-                                "title=\"run 1, crashed: hit the ground\""));
+                                "title=\"run 1, crashed: hit the ground; in truth fallen\""));
     EXPECT_THAT(page, HasSubstr("<button class=\"crashed\" data-run=\"3\""));
     EXPECT_THAT(page, HasSubstr("released: 2"));
 }

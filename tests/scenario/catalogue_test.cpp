@@ -55,7 +55,7 @@ TEST(Catalogue, TakesSurfacesByName) {
               "\"glas\": no such surface (did you mean glass?); there are stone, glass");
 }
 
-TEST(Catalogue, FindsTheSectionsOfARoom) {
+TEST(Catalogue, FindsTheSectionsOfAPart) {
     Scenario defaults;
     const auto all = scenario_sections(defaults);
     EXPECT_EQ(sections_of("", all).size(), all.size());
@@ -66,8 +66,8 @@ TEST(Catalogue, FindsTheSectionsOfARoom) {
     EXPECT_EQ(slider[0].rows[0].value.get(), 500.0);
     ASSERT_EQ(sections_of("guidance", all).size(), 1U);
     EXPECT_EQ(sections_of("guidance", all)[0].rows.size(), guidance::perching_table().size());
-    EXPECT_EQ(error_of([&] { return sections_of("guidence", all); }).substr(0, 50),
-              "\"guidence\": no such room (did you mean guidance?);");
+    EXPECT_EQ(error_of([&] { return sections_of("guidence", all); }).substr(0, 53),
+              "\"guidence\": no such section (did you mean guidance?);");
 }
 
 TEST(Catalogue, KnowsTheKeysThatTakeAName) {
@@ -81,7 +81,8 @@ TEST(Catalogue, KnowsTheKeysThatTakeAName) {
         }
     }
     EXPECT_THAT(choices, ElementsAre("wall.shape: plane", "wall.condition: as_given",
-                                     "autopilot.kind: cascade", "simulation.engine: reduced"));
+                                     "autopilot.kind: cascade", "autopilot.aiding: motion_capture",
+                                     "simulation.engine: reduced"));
 }
 
 TEST(DataRoot, IsWhereTheEnvironmentSays) {
