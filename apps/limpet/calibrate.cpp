@@ -387,10 +387,9 @@ Verb calibrate_verb() {
         "Examples:\n"
         "  limpet fly perch_concrete --set simulation.record_rate_Hz=250\n"
         "  limpet calibrate out/perch_concrete/flight.mcap\n\n"
-        "Intervals are for 95 %. Numbers that the log cannot determine are named, with the reason: "
-        "inertia and lag need "
-        "the gyro and\nmotor commands at 200 Hz and more in free flight, drag a velocity, the "
-        "slider its force sensor.\n");
+        "Intervals are for 95 %. Numbers that the log cannot determine are named, with the "
+        "reason:\ninertia and lag need the gyro and motor commands at 200 Hz and more in free "
+        "flight, drag a\nvelocity, the slider its force sensor.\n");
 }
 
 }  // namespace limpet::app

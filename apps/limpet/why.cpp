@@ -118,10 +118,11 @@ Verb why_verb() {
         "Examples:\n"
         "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"
-        "Flies it again, says what the cup bore until it let go and by which moment, then turns "
-        "every setting\n(a third, three times), alone and together with those that help most. "
-        "Writes "
-        "why.json, and why.png, why.svg:\nmargins over time, as it is and with the changes.\n");
+        "Flies it again, reports the loads on the cup until it let go and by which moment, then "
+        "turns "
+        "every\nsetting (a third, three times), alone and together with those that help most.\n"
+        "Writes why.json, why.png and why.svg: margins over time, as it is and with the "
+        "changes.\n");
 }
 
 }  // namespace limpet::app

@@ -323,6 +323,7 @@ TEST_F(ForeignVehicle, AStrangersModelIsFilmedAsFarAsItIsOneOfOurs) {
 
 TEST_F(ForeignVehicle, AStrangeSceneIsRefusedBeforeItIsDrawn) {
     for (const double x_m : {1e300, 1e6, std::nan(""), HUGE_VAL}) {
+        SCOPED_TRACE(x_m);
         write("odd.mcap", recording(model(""), x_m, 1'000'000'000));
         expect_line(bench_.run({"film", "odd.mcap"}), {"a pose must be finite numbers"});
     }

@@ -77,7 +77,8 @@ TEST(KickedSwing, AltitudeHoldKillsIt) {
 }
 
 TEST(KickedSwing, OfAFlightThatNeverWaitsIsNone) {
-    EXPECT_FALSE(kicked_swing("perch_metal", {"guidance.attempts_max=1", "suction.gap_max_m=0"}));
+    EXPECT_FALSE(
+        kicked_swing("perch_metal", {"guidance.attempts=1", "guidance.dock_speed_m_s=0.1"}));
 }
 
 TEST(PapersMap, GrowthRisesWithTheLagAndTheArm) {
