@@ -74,7 +74,9 @@ int base_address(const mjModel& model) {
 
 /// Whether a picture of it can be drawn.
 bool is_somewhere(const Pose& pose) {
-    const auto near = [](const Vector3& p_m) { return p_m.cwiseAbs().maxCoeff() <= kFarthest_m; };
+    const auto near = [](const Vector3& p_m) {
+        return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() <= kFarthest_m;
+    };
     return near(pose.position_m) && (!pose.payload_m || near(*pose.payload_m)) &&
            pose.attitude.coeffs().allFinite() && pose.attitude.norm() > 1e-6 &&
            near({pose.slider_m, pose.cup_pitch_rad, pose.cup_yaw_rad});
