@@ -15,7 +15,7 @@ from type_hashes import hashes  # noqa: E402
 packages, table = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 told = dict(re.findall(r'\{"(\S+)", "(RIHS01_[0-9a-f]{64})"\}', table.read_text()))
 ours = list(files(f"{package}={packages / package}" for package in ("limpet_msgs", "limpet_ros")))
-of_others = [(package, file) for package, file in files(map(str, (ROS2 / "interfaces", ROS2.parent / "limpet/record/msg")))
+of_others = [(package, file) for package, file in files(map(str, (ROS2 / "interfaces", ROS2.parents[1] / "limpet/record/msg")))
              if package != "limpet_msgs"]
 read = {wire: of for wire, of in hashes(ours + of_others, {}).items() if wire.startswith("limpet_")}
 wanted = {wire: of for wire, of in told.items() if wire.startswith("limpet_")}
