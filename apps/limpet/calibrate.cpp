@@ -371,8 +371,8 @@ OptionList options_of(CalibrateOptions& options) {
     return {{"log LOG", &options.log,
              "a recording (.mcap), a PX4 log (.ulg), or CSV (docs/own_vehicle.md)"},
             {"--vehicle VEHICLE", &options.vehicle,
-             "name or file, whose rotors, mass and cup are taken as known (default: the\n"
-             "recording's)"},
+             "name or file, whose rotors, mass and cup are taken as known\n"
+             "(default: the recording's)"},
             {"--from S", &options.span.from_s, "leave out what is before"},
             {"--to S", &options.span.to_s, "leave out what is after"},
             {"--json", &options.json, "one JSON object"}};

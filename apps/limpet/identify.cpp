@@ -286,9 +286,8 @@ Verb identify_verb() {
     return verb<IdentifyOptions>(
         "identify", "Fit P_vac, tau_1, tau_2 of eqs. (5), (6) to a log of cup pressure", options_of,
         identify,
-        "Columns t_s and pressure_Pa [Pa], in any order, between commas, semicolons or tabs; or "
-        "those of a "
-        "recording:\n"
+        "Columns t_s and pressure_Pa [Pa], in any order, between commas, semicolons or tabs; or\n"
+        "those of a recording:\n"
         "  limpet csv flight.mcap && limpet identify csv/sensors_cup_pressure.csv\n"
         "A log may hold a sealing, an unsealing or both; what is missing is reported. Intervals "
         "are for\n"
