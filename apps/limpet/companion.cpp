@@ -190,7 +190,7 @@ OptionList options_of(CompanionOptions& options) {
         {{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
           {"--check", &options.check, "say what it would do, open nothing"},
           {"--dry-run", &options.dry_run,
-           "read all inputs, command nothing, say what it would do: carry the vehicle\nby hand"},
+           "read all inputs, command nothing, report what it would do:\ncarry the vehicle by hand"},
           overrides_option(options.overrides,
                            "turn one key: guidance.dock_speed_m_s=0.8 (repeatable)"),
           {"--out DIR", &options.out, "folder for the recording (default out/companion)"},

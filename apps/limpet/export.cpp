@@ -205,7 +205,7 @@ OptionList options_of(ExportOptions& options) {
         {"--sensors", &options.sensors,
          "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
         {"--ros", &options.ros,
-         "world of a scenario only: flown over ROS topics (adapters/ros/README.md)"},
+         "world of a scenario only: flown over ROS topics\n(adapters/ros/README.md)"},
         {"--camera FOLDER", &options.camera,
          "world only: a camera saves its frames in this folder"},
         {"--view VIEW", &options.view,
