@@ -193,9 +193,9 @@ test("a flight is seen as it flies, and can be asked to stop", { skip }, async (
   const last = await live();
   assert.equal(last.told, "the flight is no longer there");
   // Where the vehicle is by then is the truth's to say: it is not waited for.
-  const ended = /^aborted(, in truth \w+)?: a viewer asked for it$/;
+  const how = /^aborted(, in truth \w+)?: a viewer asked for it$/;
   assert.ok(
-    last.said.some((line: string) => ended.test(line)),
+    last.said.some((line: string) => how.test(line)),
     JSON.stringify(last.said),
   );
 });
