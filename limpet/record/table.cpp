@@ -107,8 +107,8 @@ Whole whole_kind(Primitive primitive) {
 double rounded(Whole kind, std::int64_t whole) {
     constexpr std::int64_t kSecond_ns = 1'000'000'000;
     if (kind == Whole::nanoseconds) {
-        return static_cast<double>(whole / kSecond_ns) +
-               1e-9 * static_cast<double>(whole % kSecond_ns);
+        const std::int64_t whole_s = whole / kSecond_ns, rest_ns = whole % kSecond_ns;
+        return static_cast<double>(whole_s) + 1e-9 * static_cast<double>(rest_ns);
     }
     return kind == Whole::uint64 ? static_cast<double>(static_cast<std::uint64_t>(whole))
                                  : static_cast<double>(whole);
