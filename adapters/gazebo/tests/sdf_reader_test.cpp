@@ -54,7 +54,7 @@ TEST(SdfReader, ListsGatherWhatStandsMoreThanOnce) {
 
 TEST(SdfReader, TextBesideElementsIsRefused) {
     EXPECT_THAT(refusal_of("<target model='wall'>metal</target>", {.place = "m: P"}),
-                HasSubstr("m: P: target: has text \"metal\" beside"));
+                HasSubstr("m: P: target: has text \"metal\" with"));
 }
 
 TEST(SdfReader, TheEnvironmentOverridesWhatIsNamed) {
