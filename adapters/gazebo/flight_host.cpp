@@ -11,8 +11,9 @@
 namespace limpet::gazebo11 {
 namespace {
 
-/// fly() keeps its large things on the heap; the compressor of recordings wants some stack.
-constexpr std::size_t kStack_bytes = 1024 * 1024;
+/// fly() keeps its large things on the heap; the compressor of recordings wants some stack, and so
+/// does an error on its way out: with 1 MiB the one of a folder that cannot be made overran it.
+constexpr std::size_t kStack_bytes = 2 * 1024 * 1024;
 
 }  // namespace
 
