@@ -127,7 +127,7 @@ std::string why_it_does_not_hover(const scenario::Scenario& hover) {
     }
     const guidance::Ending& ending = *flight.state().ending;
     if (ending.outcome != Outcome::released) {
-        return fmt::format("ends {}: {}", to_string(ending.outcome), ending.reason);
+        return fmt::format("ends {}: {}", to_string(ending.outcome), ending.reason.view());
     }
     if (most_m > kDrift_m || degrees(most_rad) > kTilt_deg) {
         return fmt::format("goes up to {:.2g} m astray and tilts up to {:.2g} deg", most_m,
