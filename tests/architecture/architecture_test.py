@@ -244,6 +244,25 @@ class Architecture(unittest.TestCase):
             with self.subTest(f"{suite}.{name}"):
                 self.assertTrue((suite, name) in there if name != "*" else suite in suites, "no such test")
 
+    def test_scripts_name_files_that_are_there(self):
+        """The two commands, CI and the packages: what a script sources, installs from and fetches for, wherever it is called."""
+        listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+        scripts = [ROOT / name for name in listed if (ROOT / name).is_file()
+                   and re.match(r"#!.*\b(ba)?sh\b", (ROOT / name).read_bytes()[:40].decode(errors="replace").split("\n")[0])
+                   or name.endswith(".sh")]
+        self.assertGreater(len(scripts), 15)
+        for script in scripts:
+            text = re.sub(r"\\\n", " ", script.read_text())
+            named = {(script.parent / path) for path in re.findall(r'dirname "\$\{BASH_SOURCE\[0\]\}"\)/([\w./-]+)', text)}
+            named |= {ROOT / path for path in re.findall(r"\$\{?limpet_root\}?/([\w./-]+)", text)}
+            for call in re.findall(r"^\s*(?:install_packages|fetch_node_packages|\.) (.+)$", text, re.M):
+                named |= {ROOT / path for path in re.findall(r"(?:^|\s)([\w-]+(?:/[\w.-]+)+)", call)}
+            named |= {ROOT / path for path in re.findall(r"^\s*fetch_node_packages ([\w./-]+) ", text, re.M)}
+            made = (ROOT / "build", ROOT / "out")
+            for path in named:
+                with self.subTest(f"{script.relative_to(ROOT)}: {path}"):
+                    self.assertTrue(path.exists() or any(path.is_relative_to(folder) for folder in made), "not there")
+
     def test_the_readme_is_short(self):
         shown = re.sub(r"<!--.*?-->", "", (ROOT / "README.md").read_text())  # what a reader sees, bars of tables aside
         self.assertLessEqual(len([word for word in shown.split() if re.search(r"\w", word)]), 500, "words")
