@@ -22,7 +22,8 @@ std::optional<std::uint32_t> Ledger::next() {
     while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
         ++next_;
     }
-    const bool stop = failed_ || (watch_.stop != nullptr && *watch_.stop);
+    const auto asked = [](const std::atomic<bool>* flag) { return flag != nullptr && *flag; };
+    const bool stop = failed_ || asked(watch_.stop) || asked(watch_.break_off);
     return stop || next_ >= end_ ? std::nullopt : std::optional(next_++);
 }
 

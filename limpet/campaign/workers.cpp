@@ -100,8 +100,8 @@ void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise,
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch) {
     Ledger ledger(results, watch);
     {
-        const Fliers others(jobs - 1, results.campaign(), ledger, nullptr);
-        fly_assigned(results.campaign(), ledger, nullptr);
+        const Fliers others(jobs - 1, results.campaign(), ledger, watch.break_off);
+        fly_assigned(results.campaign(), ledger, watch.break_off);
     }
     return ledger.conclude();
 }
