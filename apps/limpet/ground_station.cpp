@@ -131,10 +131,9 @@ void GroundStation::tick(simulation::Flight& flight, const guidance::EventList& 
 }
 
 void GroundStation::tell_of_refusals() {
-    if (!refusals_told_ && link_.count().refusals.total() > 0) {
-        refusals_told_ = true;
-        terminal_.line(terminal_.dim(
-            "          ground station: refused what has no right signature of our key"));
+    if (std::string reasons = reasons_of(link_.count().refusals); reasons != told_) {
+        told_ = std::move(reasons);
+        terminal_.line(terminal_.dim(fmt::format("          ground station: refused: {}", told_)));
     }
 }
 
@@ -148,8 +147,9 @@ void GroundStation::end(const simulation::FlightResult& result) {
 
 std::string GroundStation::report() const {
     const mavlink::LinkCount count = link_.count();
-    return fmt::format("{} sent, {} received, {} refused for their signature, {} damaged",
-                       count.sent, count.received, count.refusals.total(), count.damaged);
+    const std::string refused = text_of(count.refusals);
+    return fmt::format("{} sent, {} received, {} damaged{}{}", count.sent, count.received,
+                       count.damaged, refused.empty() ? "" : ", ", refused);
 }
 
 }  // namespace limpet::app

@@ -45,7 +45,7 @@ private:
     Terminal& terminal_;
     autopilot::AutopilotParameters wanted_;
     bool changed_ = false;
-    bool refusals_told_ = false;
+    std::string told_;  ///< why something was refused
     mavlink::Link link_;
     ground_station::Telemetry telemetry_;
 };

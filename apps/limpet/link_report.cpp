@@ -48,8 +48,8 @@ Json json_of(const mavlink::Link& link) {
             {"received", count.received},
             {"lost", count.lost},
             {"damaged", count.damaged},
-            {"refused_unsigned", count.refusals.total()},
-            {"mavlink1", count.mavlink1},
+            {"refused_unsigned", count.refusals.total() - count.refusals.version_1},
+            {"mavlink1", count.refusals.version_1},
             {"discarded_bytes", count.discarded_bytes}};
 }
 
@@ -98,8 +98,8 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
         const mavlink::LinkCount count = link->count();
         terminal.line(name, fmt::format("{} messages sent, {} received, {} lost, {} damaged",
                                         count.sent, count.received, count.lost, count.damaged));
-        if (count.mavlink1 > 0) {
-            terminal.line("", fmt::format("{} frames of MAVLink 1 were not read", count.mavlink1));
+        if (const std::uint64_t frames = count.refusals.version_1; frames > 0) {
+            terminal.line("", fmt::format("{} frames of MAVLink 1 were not read", frames));
         }
     }
     if (hil.round_trip.count() > 0) {

@@ -111,6 +111,10 @@ ExitCode sim_io(SimIoOptions options) {
         live->say(live::StatusLevel::info, "ended: " + result.reason);
         terminal.line("live", live->report());
     }
+    const std::string refused = text_of(guidance.wires().sensors->count().refusals);
+    if (!refused.empty()) {
+        terminal.line("sensors", refused);
+    }
     return conclude(options, result, *stop, "companion", report_line(guidance.count()), &px4,
                     terminal);
 }

@@ -87,6 +87,10 @@ void serve(const StandInOptions& options) {
     }
     terminal.line(fmt::format("{} HIL_SENSOR, {} answers", autopilot.count().sensors,
                               autopilot.count().answers));
+    const std::string refused = text_of(autopilot.hil().count().refusals);
+    if (!refused.empty()) {
+        terminal.line(refused);
+    }
 }
 
 OptionList options_of(StandInOptions& options) {

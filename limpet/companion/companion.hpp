@@ -103,9 +103,9 @@ private:
     mavlink::Offboard offboard_;
     Inputs inputs_;
     PoseWatch pose_watch_;
-    Sample<PoseReading> pose_;                    ///< that the watch trusts
-    double watched_s_ = -1.0;                     ///< of the last pose that it saw
-    std::array<std::uint64_t, 5> withheld_ = {};  ///< poses by PoseDoubt
+    Sample<PoseReading> pose_;                              ///< that the watch trusts
+    double watched_s_ = -1.0;                               ///< of the last pose that it saw
+    std::array<std::uint64_t, kPoseDoubts> withheld_ = {};  ///< poses
     MechanismPace mechanism_;
     RefusalWatch autopilot_refusals_;
     RefusalWatch sensors_refusals_;

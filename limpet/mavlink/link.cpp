@@ -60,6 +60,7 @@ void Link::admit_by(std::optional<std::uint32_t> message) {
                 return true;
             }
         }
+        seal->refusals.version_1 += parser.statistics().mavlink1;  // of no peer
         return false;
     });
 }
@@ -143,9 +144,9 @@ LinkCount Link::count() const {
     const LinkStatistics& now = parser_.statistics();
     count.lost = before_.lost + now.lost;
     count.damaged = before_.bad_checksum + now.bad_checksum;
-    count.mavlink1 = before_.mavlink1 + now.mavlink1;
     count.discarded_bytes = before_.discarded_bytes + now.discarded_bytes;
     count.refusals = seal_->refusals;
+    count.refusals.version_1 += before_.mavlink1 + now.mavlink1;
     return count;
 }
 

@@ -44,9 +44,8 @@ struct LinkCount {
     std::uint64_t received = 0;  ///< frames handed out
     std::uint64_t lost = 0;      ///< left out by sequence number
     std::uint64_t damaged = 0;   ///< wrong checksum
-    std::uint64_t mavlink1 = 0;  ///< frames of MAVLink 1, which is not read
     std::uint64_t discarded_bytes = 0;
-    Refusals refusals;  ///< for their signature; of who wants to be a peer, too
+    Refusals refusals;  ///< of who wants to be a peer, too
 };
 
 /// Messages to and from one peer: a transport, a parser, a sequence number and, when asked for,

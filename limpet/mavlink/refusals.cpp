@@ -45,7 +45,7 @@ std::uint64_t seconds(std::uint64_t signing_time) {
 }  // namespace
 
 std::uint64_t Refusals::total() const {
-    return std::accumulate(by_verdict.begin(), by_verdict.end(), std::uint64_t{0});
+    return std::accumulate(by_verdict.begin(), by_verdict.end(), version_1);
 }
 
 void Refusals::count(Verdict verdict, const Frame& frame, std::uint64_t time, std::uint64_t now) {
@@ -68,6 +68,9 @@ std::string reasons_of(const Refusals& refusals) {
             text += fmt::format("{}{}{}", text.empty() ? "" : "; ", what, cause);
         }
     }
+    if (refusals.version_1 > 0) {
+        text += fmt::format("{}{}", text.empty() ? "" : "; ", kVersion1);
+    }
     return text;
 }
 
@@ -77,6 +80,9 @@ std::string text_of(const Refusals& refusals) {
         if (of(refusals, verdict) > 0) {
             parts.push_back(fmt::format("{} {}", of(refusals, verdict), words(verdict).what));
         }
+    }
+    if (refusals.version_1 > 0) {
+        parts.push_back(fmt::format("{} in MAVLink 1", refusals.version_1));
     }
     if (refusals.most_behind > 0) {
         parts.push_back(fmt::format("up to {} s behind our time", seconds(refusals.most_behind)));

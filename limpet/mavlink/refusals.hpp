@@ -4,14 +4,20 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "limpet/mavlink/signing.hpp"
 
 namespace limpet::mavlink {
 
-/// What a signed link has refused, and why.
+/// What a peer speaks that is there and seems silent.
+inline constexpr std::string_view kVersion1 =
+    "MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2";
+
+/// What a link has refused, and why: a signed one by signatures, each what is MAVLink 1.
 struct Refusals {
     std::array<std::uint64_t, 6> by_verdict = {};  ///< frames; of accepted none
+    std::uint64_t version_1 = 0;                   ///< frames of MAVLink 1, which is not read
     std::uint64_t most_behind = 0;  ///< the oldest that was too old, behind our time [10 us]
     std::uint64_t most_ahead = 0;   ///< of what was accepted, ahead of our clock [10 us]
 

@@ -21,9 +21,10 @@ namespace {
 /// Room in the wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kRoom{5};
 
-constexpr std::string_view kVersion1 =
-    "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink "
-    "2";
+std::string_view version_1() {
+    static const std::string text = fmt::format("the autopilot speaks {}", mavlink::kVersion1);
+    return text;
+}
 
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
@@ -115,9 +116,13 @@ bool Px4Autopilot::tracker_silent(double time_s) const {
            !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
 }
 
-/// A peer that is set to MAVLink 1 alone is there and seems silent.
+/// Set to MAVLink 1 alone, it is there and seems silent.
 bool Px4Autopilot::speaks_version_1() const {
-    return hil_link_.count().mavlink1 > 0 && hil_.count().answers == 0;
+    const bool on_hil = hil_.count().answers == 0 && hil_link_.count().refusals.version_1 > 0;
+    const bool on_offboard = options_.flies &&
+                             offboard_.state(clock_s()) == OffboardState::silent &&
+                             offboard_link_.count().refusals.version_1 > 0;
+    return on_hil || on_offboard;
 }
 
 /// Set-points and sensors out, motors back.
@@ -162,6 +167,7 @@ Estimate Px4Autopilot::heard_estimate(double time_s) const {
 RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& setpoint,
                                    double time_s) {
     readings_ = readings;
+    watch_.feel(readings.imu);
     readings_.motion_capture =
         watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
@@ -172,7 +178,7 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
         case mavlink::HilStatus::silent:
             failure_ = hil_.count().answers > 0 ? "the autopilot answers no longer"
                        : speaks_version_1()
-                           ? kVersion1
+                           ? version_1()
                            : "the autopilot connected, and has not answered HIL_SENSOR in "
                              "the time that it is waited for";
             break;
@@ -226,10 +232,11 @@ std::string Px4Autopilot::obstacle() const {
     if (failure_) {
         return std::string(*failure_);
     }
+    if (speaks_version_1()) {
+        return std::string(version_1());
+    }
     if (status_ == mavlink::HilStatus::waiting) {
-        return std::string(speaks_version_1()
-                               ? kVersion1
-                               : "the autopilot boots: it has not answered HIL_SENSOR yet");
+        return "the autopilot boots: it has not answered HIL_SENSOR yet";
     }
     return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
 }

@@ -13,6 +13,7 @@
 #include "limpet/mavlink/link.hpp"
 #include "limpet/record/recording.hpp"
 #include "program.hpp"
+#include "tests/mavlink/version_1.hpp"
 
 namespace limpet {
 namespace {
@@ -25,9 +26,7 @@ using Clock = std::chrono::steady_clock;
 /// What a ground station has gathered.
 class GroundView {
 public:
-    GroundView()
-        : link(open_transport({.medium = wire::Medium::udp}, wire::Role::listen),
-               {.system = 255, .component = mavlink::kGroundStationComponent}) {}
+    GroundView() : GroundView(open_transport({.medium = wire::Medium::udp}, wire::Role::listen)) {}
 
     [[nodiscard]] std::string address() const {
         return "udp:127.0.0.1:" + std::to_string(link.transport().address().port);
@@ -55,6 +54,7 @@ public:
         EXPECT_EQ(link.send(message), wire::TransferStatus::done);
     }
 
+    wire::Transport& transport;  ///< the link's
     mavlink::Link link;
     std::map<std::uint32_t, int> heard;
     std::map<std::string, float> parameters;
@@ -63,6 +63,9 @@ public:
     bool armed = false;
 
 private:
+    explicit GroundView(std::unique_ptr<wire::Transport> opened)
+        : transport(*opened),
+          link(std::move(opened), {.system = 255, .component = mavlink::kGroundStationComponent}) {}
     void take(const mavlink::Frame& frame) {
         ++heard[frame.id];
         if (const auto value = decode<mavlink::ParamValue>(frame)) {
@@ -144,9 +147,24 @@ TEST(GroundStation, WithAKeyServesOnlyWhoHasIt) {
     EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
     EXPECT_EQ(view.parameters.count("MC_PITCHRATE_P"), 0U);
     const Finished finished = flight.get();
-    EXPECT_THAT(finished.out, HasSubstr("refused what has no right signature"));
-    EXPECT_THAT(finished.out, HasSubstr("1 refused for their signature"));
+    EXPECT_THAT(finished.out, HasSubstr("ground station: refused: not signed\n"));
+    EXPECT_THAT(finished.out, HasSubstr("1 frames refused: 1 not signed"));
     EXPECT_THAT(finished.out, Not(HasSubstr("MC_PITCHRATE_P")));
+}
+
+TEST(GroundStation, ThatSpeaksMavlink1IsToldSo) {
+    const Bench bench;
+    GroundView view;
+    auto flight = start(bench, {"fly", "hover", "--set", "simulation.hover_s=10", "--speed", "4",
+                                "--no-record", "--ground-station", view.address()});
+    ASSERT_TRUE(view.until([&] { return view.heard[mavlink::Heartbeat::kId] > 0; }));
+    EXPECT_EQ(view.transport.send(heartbeat_of_version_1(), std::chrono::seconds(1)).status,
+              wire::TransferStatus::done);
+    EXPECT_TRUE(view.until([&] { return view.said("released: "); }));
+    const Finished finished = flight.get();
+    EXPECT_THAT(finished.out, HasSubstr("ground station: refused: MAVLink 1, which is not read: "
+                                        "MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2\n"));
+    EXPECT_THAT(finished.out, HasSubstr("1 frames refused: 1 in MAVLink 1"));
 }
 
 TEST(GroundStation, ThatIsNotThereChangesNothing) {

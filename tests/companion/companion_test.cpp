@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/companion/rehearsal.hpp"
+#include "tests/mavlink/version_1.hpp"
 
 namespace limpet::companion {
 namespace {
@@ -210,6 +211,22 @@ TEST(Companion, ThatWaitsForWhatItRefusesSaysWhy) {
         EXPECT_THAT(report[1], testing::MatchesRegex("sensors: ([0-9]+) frames refused: .* not "
                                                      "signed"));
     }
+}
+
+TEST(Companion, ThatHearsMavlink1SaysSo) {
+    Rehearsal r({"limits.wait_limit_s=2"});
+    r.stage.beats = false;
+    const auto autopilot =
+        wire::open_transport(r.wires.autopilot->transport().address(), wire::Role::connect);
+    for (int k = 0; k < 30 && r.result().reason.empty(); ++k) {
+        (void)autopilot->send(mavlink::heartbeat_of_version_1(), std::chrono::seconds(1));
+        r.run(0.1);
+    }
+    EXPECT_EQ(r.result().end, CompanionEnd::absent);
+    EXPECT_THAT(r.result().reason,
+                testing::HasSubstr("no heartbeat of the autopilot that is taken (refused: MAVLink "
+                                   "1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak"));
+    EXPECT_THAT(signing_report(r.wires), testing::Contains(testing::HasSubstr(" in MAVLink 1")));
 }
 
 TEST(Companion, ARefusalThatIsOverIsNoReasonAnyMore) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "scripted_wire.hpp"
+#include "version_1.hpp"
 
 namespace limpet::mavlink {
 namespace {
@@ -179,6 +180,23 @@ TEST(Link, WhoSendsNoHeartbeatsIsKnownByAnyWholeMessage) {
     ASSERT_TRUE(frame);
     EXPECT_EQ(decode<DistanceSensor>(*frame)->current_distance, 150);
     EXPECT_EQ(wire.here.transport().statistics().peers, 1U);
+}
+
+TEST(Link, CountsWhatIsMavlink1AlsoOfWhoIsNoPeerForIt) {
+    Overheard wire(false);
+    wire.say(heartbeat_of_version_1());
+    wire.say(heartbeat_of_version_1());
+    EXPECT_EQ(wire.here.count().refusals.version_1, 2U);
+    wire.expect_the_autopilot_is_heard();
+    EXPECT_EQ(wire.here.count().refusals.total(), 2U);
+
+    ScriptedLink peer;
+    peer.ends->to_receive = {heartbeat_of_version_1(), heartbeat_of_version_1()};
+    EXPECT_FALSE(peer.link.receive());
+    ++peer.ends->statistics.peers;  // another one
+    peer.ends->to_receive = {heartbeat_of_version_1()};
+    EXPECT_FALSE(peer.link.receive());
+    EXPECT_EQ(peer.link.count().refusals.version_1, 3U);
 }
 
 TEST(Link, ASignedOneIsTakenByNoUnsignedHeartbeat) {

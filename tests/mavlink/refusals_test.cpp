@@ -52,6 +52,18 @@ TEST(Refusals, AreToldApartWithWhatTheyTakeToHappen) {
               "one sender too many");
 }
 
+TEST(Refusals, SayWhatMakesAPeerSpeakMavlink2) {
+    Refusals refusals;
+    refusals.version_1 = 3;
+    EXPECT_EQ(refusals.total(), 3U);
+    EXPECT_EQ(text_of(refusals), "3 frames refused: 3 in MAVLink 1");
+    EXPECT_EQ(reasons_of(refusals),
+              "MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink 2");
+    refusals.count(Verdict::not_signed, SignedBeat(kBeatTime).frame, kBeatTime, kBeatTime);
+    EXPECT_THAT(text_of(refusals), testing::StartsWith("4 frames refused: 1 not signed, 3 in"));
+    EXPECT_THAT(reasons_of(refusals), testing::StartsWith("not signed; MAVLink 1, which is not"));
+}
+
 TEST(Refusals, SayHowFarAClockIsOff) {
     Refusals behind;
     behind.count(Verdict::too_old, SignedBeat(kBeatTime - 70 * kSigningSecond).frame, kBeatTime,

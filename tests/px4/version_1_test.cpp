@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gmock/gmock.h>
+#include "tests/mavlink/version_1.hpp"
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
+#include <gmock/gmock.h>
 
 #include "limpet/px4/autopilot.hpp"
 #include "tests/mavlink/scripted_wire.hpp"
@@ -14,14 +11,6 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Its checksum is CRC-16/MCRF4XX over all but the first byte, then 50, the extra of HEARTBEAT.
-std::vector<std::byte> heartbeat_of_version_1() {
-    constexpr std::array<std::uint8_t, 17> kFrame = {0xFE, 9,  0, 1, 1, 0, 0,    0,   0,
-                                                     0,    18, 8, 0, 4, 3, 0x8C, 0x11};
-    const auto bytes = std::as_bytes(std::span(kFrame));
-    return {bytes.begin(), bytes.end()};
-}
-
 /// Its frames are whole and skipped: without a word it would seem silent.
 TEST(MavlinkVersion1, OnTheSimulatorsLinkIsSaid) {
     mavlink::ScriptedLink wire;
@@ -29,11 +18,26 @@ TEST(MavlinkVersion1, OnTheSimulatorsLinkIsSaid) {
     (void)autopilot.control({}, {}, 0.0);
     EXPECT_THAT(autopilot.obstacle(), HasSubstr("has not answered HIL_SENSOR"));
     for (int k = 0; k < 3; ++k) {
-        wire.ends->to_receive.push_back(heartbeat_of_version_1());
+        wire.ends->to_receive.push_back(mavlink::heartbeat_of_version_1());
     }
     (void)autopilot.control({}, {}, 0.004);
     EXPECT_THAT(autopilot.obstacle(), HasSubstr("speaks MAVLink 1, which is not read"));
-    EXPECT_EQ(wire.link.count().mavlink1, 3U);
+    EXPECT_EQ(wire.link.count().refusals.version_1, 3U);
+}
+
+TEST(MavlinkVersion1, OnGuidancesLinkIsSaid) {
+    mavlink::ScriptedLink hil, offboard;
+    Px4Autopilot autopilot(hil.link, offboard.link, {});
+    for (int k = 0; k < 10; ++k) {
+        hil.say(mavlink::HilActuatorControls{.time_usec = 1});
+        offboard.ends->to_receive.push_back(mavlink::heartbeat_of_version_1());
+        (void)autopilot.control({}, {}, 0.004 * k);
+        (void)autopilot.estimate(0.004 * k);
+    }
+    EXPECT_EQ(hil.link.count().refusals.version_1, 0U);
+    EXPECT_EQ(autopilot.obstacle(),
+              "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 "
+              "speak MAVLink 2");
 }
 
 }  // namespace

@@ -90,6 +90,37 @@ TEST(Loopback, AFlightBeginsWhereAnOriginUnsettles) {
     EXPECT_THAT(loopback.texts, Contains(HasSubstr("Arming denied")));
 }
 
+/// It stands at one place, bit for bit, before the flight and at rest, and has not frozen.
+TEST(Loopback, FliesByATrackerWithoutNoise) {
+    const auto model = model_of("perch_concrete", {"sensors.mocap_position_noise_m=0",
+                                                   "sensors.mocap_attitude_noise_deg=0"});
+    Loopback loopback(*model);
+    const FlightResult behind = fly_behind_wire(model, loopback);
+    EXPECT_EQ(behind.outcome, Outcome::released) << behind.reason;
+    EXPECT_EQ(behind.attempts, 1);
+    EXPECT_EQ(names(behind), names(fly(model)));
+}
+
+/// A drift that begins in the air ends as a tracker that falls silent does: before the wall, on it.
+TEST(Loopback, ATrackerThatDriftsIsNotFollowed) {
+    const auto flown = [](const std::string& fault, const char* phase) {
+        const auto model = model_of("perch_concrete",
+                                    {"faults={" + fault + ", phase: " + phase + ", after_s: 0.3}"});
+        Loopback loopback(*model);
+        return fly_behind_wire(model, loopback);
+    };
+    for (const char* phase : {"approaching", "pitching_down", "resting"}) {
+        const FlightResult silent = flown("fault: mocap_lost", phase);
+        for (const char* drift : {"1", "-1"}) {
+            SCOPED_TRACE(std::string(phase) + " " + drift);
+            const FlightResult drifts =
+                flown(std::string("fault: mocap_drifts, size: ") + drift, phase);
+            EXPECT_EQ(drifts.outcome, silent.outcome) << drifts.reason;
+            EXPECT_EQ(drifts.true_end, silent.true_end);
+        }
+    }
+}
+
 /// PX4 flies on without poses for five seconds, by its own account well.
 TEST(Loopback, ATrackerThatFallsSilentIsNotWaitedForAsLongAsPx4Would) {
     const auto patient = model_of("perch_concrete", {"autopilot.EKF2_NOAID_TOUT=5000000"});

@@ -42,19 +42,28 @@ std::string_view to_string(PoseDoubt doubt) {
         case PoseDoubt::repeats: return "its pose repeats itself while the vehicle turns";
         case PoseDoubt::another_body: return "its attitude is not the autopilot's: another body";
         case PoseDoubt::jumped: return "its pose jumped";
+        case PoseDoubt::drifts: return "its pose drifts: the IMU feels nothing of it";
         case PoseDoubt::moves_alone:
             return "its pose moves while motors are off and the gyros are still";
     }
     throw InternalError("pose doubt out of range");
 }
 
-bool PoseWatch::repeats(const PoseReading& pose, const Estimate& estimate, bool flies) {
+/// The body turns away from a pose that stays. An attitude that the autopilot had yet to find,
+/// before a flight or as the vehicle comes to rest, turns towards it.
+bool PoseWatch::repeats(const PoseReading& pose, const Estimate& estimate, Mover mover) {
     constexpr double kTurned_rad = radians(1.0);
     const bool same = seen_.ever() && same_pose(pose, seen_.value);
-    if (!same) {
+    if (!same || mover != Mover::rotors) {
+        entry_q_WB_.reset();
+    }
+    if (!entry_q_WB_ && estimate.valid) {
         entry_q_WB_ = estimate.q_WB;
     }
-    return same && (frozen_ || (flies && entry_q_WB_.angularDistance(estimate.q_WB) > kTurned_rad));
+    const bool turned = mover == Mover::rotors && estimate.valid &&
+                        pose.q_WB.angularDistance(estimate.q_WB) >
+                            pose.q_WB.angularDistance(*entry_q_WB_) + kTurned_rad;
+    return same && (frozen_ || turned);
 }
 
 /// How far the pose is from where the autopilot says; nothing: it is there. Neither a tracker whose
@@ -81,6 +90,19 @@ bool PoseWatch::jumped_back(const Sample<PoseReading>& pose, const Estimate& est
         jump_W_m_ += step_m;
     }
     return jump_W_m_.norm() < limits_.jump_m || (estimate.valid && !jump(pose, estimate));
+}
+
+/// A single pose that is off shows in two: where it is the latest, and 0.15 s behind it.
+bool PoseWatch::drifts(const Sample<PoseReading>& pose, bool flies) {
+    constexpr int kPoses = 3;
+    if (seen_.ever() && same_pose(pose.value, seen_.value)) {
+        drift_.forget();  // that it stands is another's to say
+        return drifts_;
+    }
+    const auto unfelt_m_s = drift_.unfelt(pose);
+    const bool unfelt = flies && unfelt_m_s && unfelt_m_s->norm() > limits_.drift_m_s;
+    unfelt_poses_ = unfelt ? unfelt_poses_ + 1 : 0;
+    return drifts_ || unfelt_poses_ >= kPoses;
 }
 
 bool PoseWatch::moves_alone(const Sample<PoseReading>& pose, const Estimate& estimate,
@@ -134,13 +156,13 @@ const Sample<PoseReading>& PoseWatch::trusted(const Sample<PoseReading>& poses,
         return trusted_;
     }
     const bool flies = mover == Mover::rotors && estimate.valid;
-    frozen_ = repeats(poses.value, estimate, flies);
+    frozen_ = repeats(poses.value, estimate, mover);
     const bool other =
         flies && trusted_.ever() &&
         is_another_body(estimate.q_WB, poses.value.q_WB, poses.time_s - trusted_.time_s);
     away_m_ = 0.0;
+    const bool by_hand = mover == Mover::hand && estimate.time_s == turned_s_;
     if (jumped_) {
-        const bool by_hand = mover == Mover::hand && estimate.time_s == turned_s_;
         jumped_ = !by_hand && !jumped_back(poses, estimate);
         if (!jumped_) {
             stood_W_m_ = poses.value.p_WB_m;
@@ -151,11 +173,18 @@ const Sample<PoseReading>& PoseWatch::trusted(const Sample<PoseReading>& poses,
         jumped_ = found.has_value();
         jump_W_m_ = found.value_or(Vector3::Zero());
     }
+    if (jumped_ || frozen_ || other) {
+        drift_.forget();
+        unfelt_poses_ = 0;
+    } else {
+        drifts_ = !by_hand && drifts(poses, flies);
+    }
     alone_ = !jumped_ && mover != Mover::rotors && moves_alone(poses, estimate, mover);
     away_m_ = jumped_ ? jump_W_m_.norm() : alone_ ? away_m_ : 0.0;
     doubt_ = frozen_   ? PoseDoubt::repeats
              : other   ? PoseDoubt::another_body
              : jumped_ ? PoseDoubt::jumped
+             : drifts_ ? PoseDoubt::drifts
              : alone_  ? PoseDoubt::moves_alone
                        : PoseDoubt::none;
     seen_ = poses;
