@@ -2,7 +2,6 @@
 #include "limpet/guidance/perching.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/guidance/guards.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/identification/pressure_log.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <sstream>

@@ -2,7 +2,6 @@
 #include "limpet/identification/turning_fit.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 
 #include "limpet/core/errors.hpp"

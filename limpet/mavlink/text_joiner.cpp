@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/mavlink/text_joiner.hpp"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include "limpet/core/cup_bearer.hpp"
 #include "limpet/core/lanes.hpp"

@@ -2,7 +2,6 @@
 #include "limpet/plant/reduced_plant.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "limpet/core/errors.hpp"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"

@@ -3,8 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
-#include <string_view>
 #include <type_traits>
 
 #include "limpet/core/parameters.hpp"

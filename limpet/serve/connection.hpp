@@ -5,7 +5,6 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>

@@ -7,7 +7,6 @@
 #include <deque>
 #include <initializer_list>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/simulation/rig.hpp"
 
-#include <algorithm>
-
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/observe.hpp"
 

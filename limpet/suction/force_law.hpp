@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <string_view>
 
 #include "limpet/core/cup_bearer.hpp"

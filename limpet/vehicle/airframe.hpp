@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/vehicle/plausible.hpp"
 
-#include <cmath>
-
 namespace limpet::vehicle {
 
 Vector3 usual_inertia_kg_m2(const AirframeNumbers& airframe) {

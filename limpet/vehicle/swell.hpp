@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parameters.hpp"
 #include "limpet/core/signals/kinematics.hpp"
