@@ -15,7 +15,6 @@
 #include "adapters/gazebo/sdf_reader.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/flight_text.hpp"
-#include "limpet/simulation/result_json.hpp"
 
 namespace limpet::gazebo11 {
 namespace {

@@ -15,12 +15,12 @@
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/flight_data.hpp"
 #include "limpet/identification/vehicle_fit.hpp"
+#include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/sections.hpp"
 #include "limpet/simulation/model.hpp"
-#include "limpet/vehicle/plausible.hpp"
+#include "limpet/vehicle/airframe.hpp"
 #include "output.hpp"
 
 namespace limpet::app {

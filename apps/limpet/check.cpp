@@ -24,7 +24,6 @@
 #include "limpet/remarks/remarks.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "limpet/scenario/suggestion.hpp"
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/model.hpp"

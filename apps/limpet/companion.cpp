@@ -87,7 +87,7 @@ void conclude(const companion::CompanionResult& result, const companion::Wires& 
     tell(terminal, "ended", outcome + result.reason);
     tell(terminal, "loop",
          fmt::format("{} ticks, {} of them late by more than a period; {}", result.ticks,
-                     result.late_ticks, text_of(result.lateness)));
+                     result.late_ticks, companion::lateness_text(result.lateness)));
     tell(terminal, "poses", text_of(result.motion_capture));
     for (const std::string& line : signing_report(wires)) {
         tell(terminal, "signing", line);

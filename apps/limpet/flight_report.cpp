@@ -9,7 +9,7 @@
 #include "limpet/remarks/remarks.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/scenario/data_folder.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 #include "output.hpp"
 
 namespace limpet::app {

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/identification/identification.hpp"
 #include "limpet/identification/pressure_log.hpp"
 #include "limpet/scenario/catalogue.hpp"
-#include "limpet/scenario/samples.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 

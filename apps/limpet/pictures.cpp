@@ -14,7 +14,7 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/report/filmstrip.hpp"
-#include "limpet/ulog/ulog_writer.hpp"
+#include "limpet/ulog/ulog.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 

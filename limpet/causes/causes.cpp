@@ -8,7 +8,7 @@
 
 #include "limpet/causes/cause_places.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/vehicle/motor.hpp"
+#include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::causes {
 namespace {

@@ -16,7 +16,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/core/words.hpp"
-#include "limpet/core/xml_marks.hpp"
 
 namespace limpet::draw {
 namespace picture {

@@ -12,7 +12,7 @@ namespace {
 
 // --- conditions that must hold for settle_s ---------------------------------------------------
 
-/// What is asked for is multiplied by it: 1, and from `patience_s` on in proportion to the time.
+/// What is requested is multiplied by it: 1, and from `patience_s` on in proportion to the time.
 double leniency(double waited_s, double patience_s) {
     return std::max(1.0, waited_s / patience_s);
 }

@@ -60,7 +60,7 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
         parameters.pre_distance_m - memory.wall.distance_m(parameters, estimate.p_WB_m);
     const double speed_m_s = parameters.retreat_speed_m_s;
     const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
-    // The position loop asks for line_gain times the distance left: from there on it is the slower
+    // The position loop requests line_gain times the distance left: from there on it is the slower
     // one.
     if (left_m <
         std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, kSlowestGain_1_s))) {
@@ -171,7 +171,7 @@ double level_share(const PerchingParameters& parameters, const PerchingMemory& m
     return 1.0 - sink_m_s2 / kGravity_m_s2;
 }
 
-/// On the cup: an attitude, and a roll that keeps the vehicle beside neither side of the cup. Near
+/// On the cup: an attitude, and a roll that keeps the vehicle on neither side of the cup. Near
 /// the wall it stops leaning: both legs shall meet it, what hangs below the cup keeps its side by
 /// its weight, and the legs hold it then.
 /// @param share  of the weight along the thrust axis as long as it does not roll

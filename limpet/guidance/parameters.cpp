@@ -153,7 +153,7 @@ const ParameterTable<PerchingParameters>& perching_table() {
         {"retreat_limit_s", "s", 0.5, 120.0, &P::retreat_limit_s,
          "getting back to the pre-position", "assumed"},
         {"brake_gain_1_s", "1/s", 0.1, 10.0, &P::brake_gain_1_s,
-         "without a position: acceleration that it asks for per speed", "assumed"},
+         "without a position: acceleration that it requests per speed", "assumed"},
         {"brake_acceleration_m_s2", "m/s^2", 0.1, 10.0, &P::brake_acceleration_m_s2,
          "largest such acceleration", "assumed: 22 deg"},
         {"attempts", "count", 1.0, 100.0, &P::attempts, "docking runs before giving up", "assumed"},

@@ -222,10 +222,11 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     memory.entry_yaw_rad = attitude.yaw_rad;
 }
 
-/// Standing before the wall it learns the wind; on the cup, what more keeps its side.
+/// Standing before the wall it estimates the wind; on the cup, what more keeps its side.
 void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
                const Estimate& estimate, double time_s) {
-    constexpr double kLongest_s = 0.1;  // a clock that jumps; guidance slower than this learns less
+    constexpr double kLongest_s =
+        0.1;  // a clock that jumps; guidance slower than this estimates less
     const double dt_s = std::clamp(time_s - memory.wind.updated_s, 0.0, kLongest_s);
     memory.wind.updated_s = time_s;
     if (!estimate.valid) {
@@ -268,7 +269,7 @@ bool looks_at_wall(PerchingState state) {
 }  // namespace
 
 void EventList::add(const Event& event) {
-    require(count < events.size(), "there is room for all that can happen in a tick");
+    require(count < events.size(), "there is space for all that can happen in a tick");
     events[count++] = event;
 }
 
@@ -304,9 +305,9 @@ bool end_rest(const PerchingParameters& parameters, PerchingMemory& memory, doub
 }
 
 void update(const PerchingParameters& parameters, const PerchingTask& task, PerchingMemory& memory,
-            const Readings& readings, const Estimate& told, double time_s, EventList& events) {
-    Estimate estimate = told;
-    if (memory.state == S::resting && time_s - told.time_s > parameters.sensor_limit_s) {
+            const Readings& readings, const Estimate& reported, double time_s, EventList& events) {
+    Estimate estimate = reported;
+    if (memory.state == S::resting && time_s - reported.time_s > parameters.sensor_limit_s) {
         estimate.valid = false;  // nobody leaves the wall by an attitude of long ago
     }
     if (looks_at_wall(memory.state)) {

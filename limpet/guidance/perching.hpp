@@ -102,7 +102,7 @@ struct CupBelief {
     int seals_lost = 0;             ///< attempts that sealed and went back all the same
     bool lets_go = false;           ///< the pump went off so that the cup comes off, and stayed off
     bool pump_stays = false;        ///< leaves, though the pressure says that the cup holds
-    bool pressure_doubted = false;  ///< the cup held when the sensor said that it could not
+    bool pressure_doubted = false;  ///< the cup held when the sensor reported that it could not
 };
 
 /// Of the estimate while it rests.

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/identification/csv_line.hpp"
 

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What parts the columns; the header tells.
+/// What parts the columns, by the header.
 enum class Parted {
     by_blanks,
     by_commas,

@@ -225,7 +225,7 @@ private:
                 if (is_package(above, package)) {
                     places.push_back(above / rest);
                 }
-                places.push_back(above / within);  // a package beside one of these
+                places.push_back(above / within);  // a package next to one of these
             }
             places.push_back(own.parent_path() / rest);
             return places;

@@ -7,7 +7,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/frames.hpp"
 #include "limpet/core/parallel.hpp"
-#include "limpet/core/required.hpp"
 #include "limpet/plant/reduced_plant.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/advance.hpp"

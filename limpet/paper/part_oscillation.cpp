@@ -11,7 +11,6 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/parallel.hpp"
-#include "limpet/core/required.hpp"
 #include "limpet/paper/flights.hpp"
 #include "limpet/paper/oscillation.hpp"
 #include "limpet/paper/recorded.hpp"

@@ -2,13 +2,29 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "limpet/autopilot/allocation.hpp"
 #include "limpet/autopilot/parameters.hpp"
-#include "limpet/px4/facts.hpp"
+#include "limpet/mavlink/messages.hpp"
 
 namespace limpet::px4 {
+
+/// A parameter's type by its number in MAVLink and in a `.params` file.
+using Px4Type = mavlink::MavParamType::Value;
+
+/// What PX4 v1.15.1 says of one of its parameters.
+struct Px4Fact {
+    Px4Type type;
+    double default_value;
+    double minimum;  ///< -infinity: PX4 states none
+    double maximum;  ///< +infinity: PX4 states none
+};
+
+/// @return nullptr for others than those that an airframe of ours sets, or may set
+///         (parameters.json)
+[[nodiscard]] const Px4Fact* find_px4_fact(std::string_view name);
 
 /// Where the PX4 runs that is to be set up.
 enum class Px4Target {
@@ -51,7 +67,7 @@ struct Px4Frame {
 };
 [[nodiscard]] Px4Frame px4_frame(const Px4Airframe& airframe);
 
-/// What PX4 v1.15 must be told, in the order in which a person reads it. Of the built-in
+/// What PX4 v1.15 must be set to, in the order in which a person reads it. Of the built-in
 /// autopilot's parameters only control's (MPC_, MC_, IMU_) go over, where they differ from PX4's
 /// defaults: its estimator has EKF2's names, but is another filter.
 /// @throws InputError naming a parameter that is out of PX4's range, and an id that is not

@@ -54,8 +54,8 @@ Px4Autopilot::Px4Autopilot(mavlink::Link& hil, mavlink::Link& offboard, Px4Optio
 
 void Px4Autopilot::hear(const mavlink::Frame& frame) {
     offboard_.hear(frame, clock_s());
-    if (const auto told = mavlink::decode<mavlink::Odometry>(frame)) {
-        told_usec_ = told->time_usec;
+    if (const auto odometry = mavlink::decode<mavlink::Odometry>(frame)) {
+        odometry_usec_ = odometry->time_usec;
     }
     if (offboard_.report().texts != texts_) {
         texts_ = offboard_.report().texts;
@@ -67,7 +67,7 @@ void Px4Autopilot::hear(const mavlink::Frame& frame) {
 
 /// Whether its clock is ours, and its estimate has come.
 bool Px4Autopilot::in_step() const {
-    return options_.hil.timing == mavlink::HilTiming::lockstep && told_usec_ > 0;
+    return options_.hil.timing == mavlink::HilTiming::lockstep && odometry_usec_ > 0;
 }
 
 /// A fresh estimate for guidance costs system calls: at twice its rate, not at the IMU's. On a busy
@@ -88,7 +88,7 @@ void Px4Autopilot::listen() {
         }
         hear(*frame);
     }
-    if (in_step() && clock_s() - 1e-6 * static_cast<double>(told_usec_) > kLag_s) {
+    if (in_step() && clock_s() - 1e-6 * static_cast<double>(odometry_usec_) > kLag_s) {
         const auto begin = std::chrono::steady_clock::now();
         if (const auto frame = offboard_link_.receive(kMoment)) {
             hear(*frame);
@@ -103,7 +103,7 @@ Estimate Px4Autopilot::estimate(double time_s) {
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s = time_s;
     if (in_step()) {
-        estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(told_usec_));
+        estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(odometry_usec_));
     }
     estimate.valid = estimate.valid && !tracker_silent(time_s);
     return estimate;
@@ -133,8 +133,8 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
     status_ = hil_.exchange(
         readings_, clock_usec_,
         [this](const mavlink::Frame& frame) {
-            // Until the clocks are in step, when something is heard is a matter of the machine: its
-            // greetings are left alone.
+            // Until the clocks are in step, when something is received is a matter of the machine:
+            // its greetings are left alone.
             if (options_.hil.timing == mavlink::HilTiming::real_time || hil_.count().answers > 0) {
                 hear(frame);
             }
@@ -152,7 +152,7 @@ Mover Px4Autopilot::mover() {
     return armed ? Mover::rotors : flew_ ? Mover::nothing : Mover::hand;
 }
 
-/// As it was heard, stamped by the flight's clock.
+/// As it was received, stamped by the flight's clock.
 Estimate Px4Autopilot::heard_estimate(double time_s) const {
     Estimate estimate = offboard_.estimate(clock_s());
     estimate.time_s += time_s - clock_s();
@@ -190,15 +190,17 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
     return hil_.command();
 }
 
-/// Before it flies: it is armed two seconds after its estimate is heard, at the soonest.
+/// Before it flies: it is armed two seconds after its estimate is first received, at the soonest.
 void Px4Autopilot::look_who() {
     constexpr double kPatience_s = 1.5;
     const auto& version = offboard_.report().version;
-    heard_s_ = heard_s_ < 0.0 && told_usec_ > 0 ? clock_s() : heard_s_;
+    received_since_s_ =
+        received_since_s_ < 0.0 && odometry_usec_ > 0 ? clock_s() : received_since_s_;
     if (version && is_stand_in(*version)) {
-        failure_ = "the stand-in answered, and a PX4 is asked for";
-    } else if (!version && heard_s_ >= 0.0 && clock_s() - heard_s_ > kPatience_s) {
-        failure_ = "it does not tell what it is (AUTOPILOT_VERSION), and a PX4 is asked for";
+        failure_ = "the stand-in answered, and a PX4 is required";
+    } else if (!version && received_since_s_ >= 0.0 &&
+               clock_s() - received_since_s_ > kPatience_s) {
+        failure_ = "it does not report what it is (AUTOPILOT_VERSION), and a PX4 is required";
     }
 }
 
@@ -207,19 +209,20 @@ std::optional<autopilot::AutopilotIdentity> Px4Autopilot::identity() const {
     if (!report.version) {
         return std::nullopt;
     }
-    autopilot::AutopilotIdentity told{.name = "stand-in",
-                                      .version = version_text(report.version->flight_sw_version),
-                                      .git_hash = {},
-                                      .airframe = report.airframe,
-                                      .system = options_.offboard.target_system};
+    autopilot::AutopilotIdentity identity{
+        .name = "stand-in",
+        .version = version_text(report.version->flight_sw_version),
+        .git_hash = {},
+        .airframe = report.airframe,
+        .system = options_.offboard.target_system};
     if (!is_stand_in(*report.version)) {
         std::uint64_t digits = 0;
         std::memcpy(&digits, report.version->flight_custom_version.data(), sizeof(digits));
-        told.name = "PX4";
+        identity.name = "PX4";
         digits >>= 24U;  // below it, PX4 has its vendor's version
-        told.git_hash = digits == 0 ? "" : fmt::format("{:010x}", digits);
+        identity.git_hash = digits == 0 ? "" : fmt::format("{:010x}", digits);
     }
-    return told;
+    return identity;
 }
 
 std::string Px4Autopilot::obstacle() const {

@@ -120,7 +120,7 @@ Px4Process::Folder::Folder() {
 }
 
 Px4Process::Folder::~Folder() {
-    std::error_code ignored;  // temporary: whoever cleans up has the rest
+    std::error_code ignored;  // temporary: who cleans up has the rest
     fs::remove_all(path, ignored);
 }
 

@@ -51,8 +51,8 @@ struct StandInCount {
 ///   simulator  ◄───── HIL_ACTUATOR_CONTROLS ── stand-in ── telemetry ─────► companion
 ///              ─HIL_SENSOR, HIL_GPS, ODOMETRY─►         ◄── set-points, commands ──
 ///
-/// At each HIL_SENSOR it first hears all that has come over UDP, then computes, sends telemetry and
-/// answers last: in lockstep everything happens in one order, and a flight gives the same bytes
+/// At each HIL_SENSOR it first receives all that has come over UDP, then computes, sends telemetry
+/// and answers last: in lockstep everything happens in one order, and a flight gives the same bytes
 /// again. All decisions are of simulated time. A simulator that comes anew finds it freshly
 /// booted, its parameters kept; PX4 itself would have to be started again.
 class StandIn {
@@ -81,7 +81,7 @@ private:
     bool tell_origin(mavlink::Link& link);
     void hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,
                       mavlink::Link& link);
-    /// @return where it tells of itself
+    /// @return where it sends its telemetry
     [[nodiscard]] mavlink::Link& telemetry() { return onboard_ ? *onboard_ : hil_; }
 
     StandInOptions options_;

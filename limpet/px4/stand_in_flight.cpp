@@ -34,7 +34,7 @@ Quaternion level_attitude(const autopilot::AutopilotParameters& p, const Reading
     return Quaternion(R_WB).normalized();
 }
 
-/// @return where it is, once what the parameters want to be aided by has been heard
+/// @return where it is, once what the parameters want to be aided by has been received
 std::optional<Estimate> first_estimate(const autopilot::AutopilotParameters& p,
                                        const StandInFlight& flight) {
     const Readings& readings = flight.readings;
@@ -88,7 +88,7 @@ Setpoint wanted(const StandInFlight& flight) {
     Setpoint setpoint;
     setpoint.armed = flight.manners.armed();
     if (flight.manners.mode == FlightMode::offboard) {
-        setpoint.motion = flight.heard.motion;
+        setpoint.motion = flight.commanded.motion;
     } else if (flight.manners.in_air()) {
         setpoint.motion = flight.hold;
     }
@@ -103,7 +103,7 @@ mavlink::GpsGlobalOrigin at(const mavlink::GeographicOrigin& place, double time_
 
 void hear_motion(StandInFlight& flight, const auto& motion) {
     if (motion) {
-        flight.heard.motion = *motion;
+        flight.commanded.motion = *motion;
         flight.heard_s = flight.time_s;
     }
 }

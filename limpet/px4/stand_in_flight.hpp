@@ -21,12 +21,12 @@ struct StandInFlight {
     bool aligned = false;  ///< the estimator has been started
     autopilot::AutopilotState autopilot;
     Manners manners;
-    Setpoint heard;  ///< the last set-point
+    Setpoint commanded;  ///< the last set-point
     double heard_s = -std::numeric_limits<double>::infinity();
     PositionSetpoint hold;                           ///< where to be in the mode hold
     std::optional<mavlink::GpsGlobalOrigin> origin;  ///< of W
     double unsettled_until_s = 0.0;  ///< its position is no good for arming until then
-    double thrust = 0.0;             ///< collective asked for in the last step
+    double thrust = 0.0;             ///< collective requested in the last step
     RotorCommand command;
 
     [[nodiscard]] bool valid() const { return aligned && autopilot.estimate.valid; }

@@ -22,8 +22,8 @@ namespace limpet::record {
 /// Source: OMG DDS-XTYPES 1.3, 7.4.1 and 7.6.2
 class Cdr {
 public:
-    /// @param room  holds the whole message
-    explicit Cdr(std::span<char> room) : room_(room) {
+    /// @param space  holds the whole message
+    explicit Cdr(std::span<char> space) : space_(space) {
         constexpr char kPlainLittleEndian[] = {0, 1, 0, 0};
         append(kPlainLittleEndian, sizeof kPlainLittleEndian);
     }
@@ -57,12 +57,12 @@ private:
     /// @throws InternalError where it does not fit: rooms are made for the largest message of a
     /// channel
     void append(const void* bytes, std::size_t count) {
-        require(count <= room_.size() - size_, "a recorded message fits into its room");
-        std::memcpy(room_.data() + size_, bytes, count);
+        require(count <= space_.size() - size_, "a recorded message fits into its space");
+        std::memcpy(space_.data() + size_, bytes, count);
         size_ += count;
     }
 
-    std::span<char> room_;
+    std::span<char> space_;
     std::size_t size_ = 0;
 };
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "limpet/record/message_definitions.hpp"
+#include "limpet/record/schema.hpp"
 
 namespace limpet::record {
 namespace {

@@ -37,8 +37,8 @@ public:
     std::uint16_t add_channel(std::string_view topic, std::string_view type,
                               std::string_view schema);
     void add_attachment(const mcap::Attachment& attachment);
-    /// Room for messages of so many bytes.
-    void make_room(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
+    /// Space for messages of so many bytes.
+    void reserve(std::size_t bytes) { buffer_.resize(std::max(buffer_.size(), bytes)); }
 
     // Defined in cdr.hpp, for those who write messages.
     template <class... Fields>

@@ -7,8 +7,8 @@
 
 #include "limpet/core/frames.hpp"
 #include "limpet/record/cdr.hpp"
-#include "limpet/record/message_definitions.hpp"
 #include "limpet/record/ros_frames.hpp"
+#include "limpet/record/schema.hpp"
 
 namespace limpet::record {
 namespace {
@@ -244,7 +244,7 @@ void Recorder::estimate(const Estimate& estimate) {
 }
 
 void Recorder::setpoint(double time_s, const Setpoint& setpoint) {
-    const Motion m = std::visit([](const auto& asked) { return motion(asked); }, setpoint.motion);
+    const Motion m = std::visit([](const auto& each) { return motion(each); }, setpoint.motion);
     write(Topic::setpoint, time_s, m.mode, setpoint.armed, setpoint.pump_on, setpoint.valve_open,
           setpoint.hold_integrators, m.p, m.v, m.a, m.angles, m.thrust);
 }

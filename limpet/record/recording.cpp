@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "limpet/core/clock_origin.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
 #include "limpet/mcap/unpack.hpp"
@@ -18,7 +18,7 @@
 namespace limpet::record {
 namespace {
 
-constexpr std::size_t kMostProblems = 5;  ///< told one by one
+constexpr std::size_t kMostProblems = 5;  ///< reported one by one
 
 /// A table and what fills it; without a reader the topic is of a kind that is not read.
 struct TopicReader {
@@ -50,7 +50,7 @@ public:
         }
     }
     /// @param left_out  "are not read"
-    [[nodiscard]] std::vector<std::string> told(std::string_view left_out) && {
+    [[nodiscard]] std::vector<std::string> lines(std::string_view left_out) && {
         if (count_ > lines_.size()) {
             lines_.push_back(fmt::format("{} topics more {}", count_ - lines_.size(), left_out));
         }
@@ -222,8 +222,8 @@ Recording read_recording(const std::filesystem::path& path) {
         recording.metadata[metadata.name] = std::move(metadata.values);
     }
     recording.events = events_of(recording.tables);
-    recording.remarks = std::move(not_taken).told("are not taken");
-    std::vector<std::string> problems = std::move(unread).told("are not read");
+    recording.remarks = std::move(not_taken).lines("are not taken");
+    std::vector<std::string> problems = std::move(unread).lines("are not read");
     if (!contents.damage.empty()) {
         problems.insert(problems.begin(), contents.damage);
     }

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "limpet/autopilot/allocation.hpp"
-#include "limpet/remarks/makers.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/suction/force_law.hpp"
 #include "limpet/vehicle/rotor.hpp"
@@ -17,9 +16,55 @@
 namespace limpet::remarks {
 namespace {
 
+struct MakersNote {
+    bool warns = false;
+    std::string text;
+};
+
+/// On the surface on which it is to rest.
+MakersNote lateral(const scenario::Scenario& scenario) {
+    const suction::Surface surface = surfaces_met(scenario).back();
+    const double ambient_Pa = scenario.cup.ambient_Pa;
+    const double has = lateral_safety(surface, scenario.cup.lip.radius_m,
+                                      carried_mass_kg(scenario.airframe), ambient_Pa);
+    const double required = safety_factor_asked(surface, *scenario.wall.condition);
+    return {has < required,
+            fmt::format("the cup carries {:.1f} times the weight along the wall (friction {:.3g}, "
+                        "vacuum {:.0f} hPa); cup manufacturers require {:.2g}",
+                        has, surface.friction,
+                        hectopascals(ambient_Pa - surface.vacuum_pressure_Pa), required)};
+}
+
+std::vector<MakersNote> notes(const scenario::Scenario& scenario) {
+    if (!scenario.wall.present || !scenario.airframe.has_cup) {
+        return {};
+    }
+    std::vector<MakersNote> all = {lateral(scenario)};
+    const suction::LipParameters& lip = scenario.cup.lip;
+    if (!follows(lip, scenario.wall.geometry)) {
+        all.push_back(
+            {true, fmt::format("the wall's radius of {:.3g} m is less than the {:.3g} m that "
+                               "a cup of {:.0f} mm seals on (suction.least_radius_m): no "
+                               "touch will seal",
+                               scenario.wall.radius_m, least_radius_m(lip), 2e3 * lip.radius_m)});
+    }
+    return all;
+}
+
+std::vector<std::string> texts(const scenario::Scenario& scenario, bool warnings_alone) {
+    std::vector<std::string> lines;
+    for (const MakersNote& note : notes(scenario)) {
+        if (note.warns || !warnings_alone) {
+            lines.push_back(note.text);
+        }
+    }
+    return lines;
+}
+
 using scenario::Scenario;
 
-constexpr double kLeastFactor = 2.0;  ///< as makers ask on what is critical (suction/condition.hpp)
+constexpr double kLeastFactor =
+    2.0;  ///< as makers require on what is critical (suction/condition.hpp)
 
 double vacuum_N(const Scenario& scenario) {
     const suction::Surface surface = surfaces_met(scenario).back();
@@ -46,7 +91,7 @@ Note peel(const Scenario& scenario) {
         return {false, text};
     }
     return {true,
-            fmt::format("{}, at least {:.0f} times are asked for: "
+            fmt::format("{}, at least {:.0f} times are required: "
                         "vehicle.cup.centring_stiffness_N_m_rad is {:.3g}, some {:.1g} is right",
                         text, kLeastFactor, spring_N_m_rad, peels_N_m / (kAim * pitch_rad))};
 }
@@ -129,7 +174,7 @@ std::vector<Note> gains(const Scenario& scenario) {
                      "autopilot.{} is {:.3g}, some {:.2g} is right",
                      loop.axis, loop.crossover_rad_s,
                      quick ? fmt::format("fast for motors that lag by {:.2g} ms", 1e3 * lag_s)
-                           : fmt::format("slow for an attitude that asks {:.2g} 1/s",
+                           : fmt::format("slow for an attitude that needs {:.2g} 1/s",
                                          loop.attitude_1_s),
                      loop.gain, loop.scale, loop.scale * kUsual_rad_s / loop.crossover_rad_s)});
         }
@@ -211,6 +256,14 @@ std::vector<std::string> warnings(const Scenario& scenario) {
         }
     }
     return texts;
+}
+
+std::vector<std::string> makers_notes(const scenario::Scenario& scenario) {
+    return texts(scenario, false);
+}
+
+std::vector<std::string> makers_warnings(const scenario::Scenario& scenario) {
+    return texts(scenario, true);
 }
 
 }  // namespace limpet::remarks

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "limpet/remarks/remarks.hpp"
-#include "limpet/vehicle/plausible.hpp"
+#include "limpet/vehicle/airframe.hpp"
 #include "limpet/vehicle/rotor.hpp"
 
 namespace limpet::remarks {
@@ -98,7 +98,7 @@ private:
         const std::vector<std::string> keys =
             left_out({"rotor.motor_constant_kg_m", "rotor.speed_scale_rad_s",
                       "rotor.speed_offset_rad_s", "rotor.speed_max_rad_s"});
-        say("it hovers at motor command {:.2f}, which leaves little room {}: {}", command,
+        say("it hovers at motor command {:.2f}, which leaves little reserve {}: {}", command,
             command < kLeast ? "below" : "above",
             keys.empty() ? "rotor.motor_constant_kg_m, rotor.speed_scale_rad_s, mass_kg"
                          : fmt::format("{} not given, so the {:.3g} kg vehicle's",

@@ -11,7 +11,7 @@
 namespace limpet::scenario {
 
 /// What a mixer must know of the rotors. What the wake of an upper one takes is left out: PX4's own
-/// airframes of coaxial pairs tell it no other thrust of the lower ones.
+/// airframes of coaxial pairs state no other thrust of the lower ones.
 [[nodiscard]] RotorList<autopilot::RotorGeometry> rotor_geometry(
     const vehicle::AirframeNumbers& airframe);
 
@@ -40,7 +40,7 @@ namespace limpet::scenario {
                                             const Scenario& scenario);
 
 /// Of the first, second, ... touch and all after the last, in the wall's condition and the air
-/// around: `wall.surface` tells its vacuum as it is at sea level, and what a pump keeps is its
+/// around: `wall.surface` gives its vacuum at sea level, and what a pump keeps is its
 /// ratio of pressures.
 [[nodiscard]] std::vector<suction::Surface> surfaces_met(const Scenario& scenario);
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/find_by.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
 #include "limpet/scenario/sections.hpp"
@@ -203,11 +204,7 @@ Surface load_surface(const std::string& name, const fs::path& root, const YamlNo
     if (const YamlNode* row = all.find(name)) {
         return surface_of(*row);
     }
-    std::vector<std::string> names;
-    for (const YamlNode& row : all.children) {
-        names.push_back(row.key);
-    }
-    const std::string what = unknown_name(name, "surface", names);
+    const std::string what = unknown_name(name, "surface", names_of(all.children, &YamlNode::key));
     if (at != nullptr) {
         fail(*at, what);
     }

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
@@ -266,9 +267,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
 }
 
 std::string read_yaml_text(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (const std::string name = shipped_name_of(path);
-        !name.empty() && !std::filesystem::exists(path, ignored)) {
+    if (const std::string name = shipped_name_of(path); !name.empty() && !is_there(path)) {
         throw InputError(fmt::format("{}: no such file; {} ships, and goes by that name alone",
                                      shown_path(path), name));
     }
@@ -298,10 +297,10 @@ std::string shown(std::string_view text) {
 }
 
 void fail(const YamlNode& node, std::string_view what) {
-    const bool told =
+    const bool stated =
         node.path.empty() || node.place.rfind(std::string(kSet) + node.path + "=", 0) == 0;
-    throw InputError(told ? fmt::format("{}: {}", node.place, what)
-                          : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
+    throw InputError(stated ? fmt::format("{}: {}", node.place, what)
+                            : fmt::format("{}: {}: {}", node.place, shown(node.path), what));
 }
 
 }  // namespace limpet::scenario

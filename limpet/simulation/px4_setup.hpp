@@ -8,7 +8,7 @@
 // A scenario as the module px4 knows it.
 namespace limpet::simulation {
 
-/// What a PX4 is to be told to fly it in simulation.
+/// What a PX4 must be set to for it to fly in simulation.
 /// @param id  PX4's number of the airframe
 [[nodiscard]] px4::Px4Airframe px4_airframe(const scenario::Scenario& scenario, int id = 22001);
 

@@ -47,7 +47,7 @@ TEST(CompanionVerb, CheckSaysWhatItWouldDoAndOpensNothing) {
     for (const char* part : {"autopilot   serial:/dev/ttyAMA0:921600", "waits until an operator",
                              "NatNet on udp-multi", "TFmini Plus, left serial:",
                              "lines over serial:", "signing     none", "hands back  pose",
-                             "loop        asks for SCHED_FIFO 20 and locked memory"}) {
+                             "loop        requests SCHED_FIFO 20 and locked memory"}) {
         EXPECT_THAT(finished.out, HasSubstr(part));
     }
     EXPECT_TRUE(bench.files().empty());
@@ -253,7 +253,7 @@ TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     const Finished flown = companion.wait(60s);
     EXPECT_EQ(flown.exit_code, 130) << flown.out << flown.err;
     EXPECT_THAT(flown.out, HasSubstr("goes on until it rests or is off the wall"));
-    EXPECT_THAT(flown.out, HasSubstr("nothing asked for; the pump stays on"));
+    EXPECT_THAT(flown.out, HasSubstr("nothing requested; the pump stays on"));
     EXPECT_THAT(flown.out, testing::Not(HasSubstr("motors_on")));
     EXPECT_EQ(record::read_recording(bench.folder() / "companion_out/flight.mcap").damage, "");
     const Finished seen = surroundings.wait(20s);

@@ -49,7 +49,7 @@ TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
         const Finished flight = bench.run(words);
         EXPECT_EQ(flight.exit_code, only_px4 ? 2 : 0) << flight.err;
         if (only_px4) {
-            EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is asked for"));
+            EXPECT_THAT(flight.err, HasSubstr("the stand-in answered, and a PX4 is required"));
             continue;
         }
         EXPECT_THAT(flight.err, HasSubstr("the stand-in, as PX4 1.15.1, system 4"));

@@ -96,7 +96,7 @@ TEST_F(CampaignOnPx4, WhatDoesNotFlyIsARowAndWhatDoesNotStartEndsIt) {
     const Finished other = bench_.run(on_px4(kAmiss, stand_in(), {"--only-px4"}));
     EXPECT_EQ(other.exit_code, 0) << other.err;
     EXPECT_THAT(other.out, HasSubstr("no_flight"));
-    EXPECT_THAT(other.out, HasSubstr("the stand-in answered, and a PX4 is asked for"));
+    EXPECT_THAT(other.out, HasSubstr("the stand-in answered, and a PX4 is required"));
 
     for (const auto& [start, told] : std::map<std::string, std::string>{
              {"echo out of order >&2; exit 3", "ended by itself, its last line: out of order"},

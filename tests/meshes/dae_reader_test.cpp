@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/dae_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {
@@ -131,7 +130,7 @@ TEST(DaeReader, RefusesWhatIsNoneWhereItStands) {
     EXPECT_THAT(with("3 2 3 3</p>", "3 2 3 -1</p>"), HasSubstr("a.dae:8: <p> \"-1\""));
     EXPECT_THAT(with("3 2 3 3</p>", "3 2 3</p>"), HasSubstr("a.dae:8: "));
     EXPECT_THAT(with("3 1 3 2 3 3</p>", "3 1 3 2</p>"), HasSubstr("a.dae:8: "));
-    EXPECT_THAT(with("0 0 3</float_array>", "0 0</float_array>"), HasSubstr("asks for more than"));
+    EXPECT_THAT(with("0 0 3</float_array>", "0 0</float_array>"), HasSubstr("needs more than"));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 x</float_array>"), HasSubstr("\"x\""));
     EXPECT_THAT(with("0 0 3</float_array>", "0 0 1e999</float_array>"), HasSubstr("point 4"));
     EXPECT_THAT(with("stride=\"3\"", "stride=\"2\""), HasSubstr("at least 3"));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/obj_reader.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/stl_reader.hpp"
+#include "limpet/meshes/readers.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/sensors/delay_line.hpp"
+#include "limpet/sensors/sensor.hpp"
 
 #include <gtest/gtest.h>
 

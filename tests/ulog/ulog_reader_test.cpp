@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog_reader.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,6 @@
 #include "../support/allocations.hpp"
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/ulog/ulog_writer.hpp"
 
 namespace limpet::ulog {
 namespace {

@@ -20,8 +20,8 @@
 #include "adapters/ros/src/setup.hpp"
 #include "adapters/ros/src/topics.hpp"
 #include "adapters/ros/src/vehicle_mode.hpp"
-#include "limpet/companion/mechanism_out.hpp"
 #include "limpet/companion/session.hpp"
+#include "limpet/companion/wires.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 

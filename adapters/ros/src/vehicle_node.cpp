@@ -9,7 +9,7 @@
 #include "adapters/ros/src/setup.hpp"
 #include "limpet/scenario/yaml_reader.hpp"
 #include "limpet/simulation/flight.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 
 namespace limpet::ros {
 namespace {

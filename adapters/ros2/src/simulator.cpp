@@ -9,7 +9,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/simulation/advance.hpp"
 #include "limpet/simulation/collision.hpp"
-#include "limpet/simulation/result_json.hpp"
+#include "limpet/simulation/flight_text.hpp"
 #include "limpet/suction/cup.hpp"
 
 namespace limpet::ros {

@@ -22,4 +22,11 @@ inline constexpr std::string_view kPx4Parameters = "px4_parameters";
 /// https://docs.px4.io/main/en/dev_log/ulog_file_format.html
 [[nodiscard]] record::Recording read_ulog(const std::filesystem::path& path);
 
+/// A recording as PX4's log, for the tools that read those (Flight Review, PlotJuggler): PX4's
+/// topics, fields, units and frames as far as the recording has them; what is true as
+/// *_groundtruth; cup and guidance as topics of ours; events as logged texts. Times in microseconds
+/// from 0, all in their order. Format: https://docs.px4.io/main/en/dev_log/ulog_file_format.html
+/// @throws InputError when the file cannot be written, or nothing in the recording has a place
+void write_ulog(const record::Recording& recording, const std::filesystem::path& file);
+
 }  // namespace limpet::ulog
