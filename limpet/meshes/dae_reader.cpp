@@ -113,9 +113,18 @@ private:
         }
         return found;
     }
-    /// What stands in an element. A geometry that is placed often is read as often.
-    Words words_of(pugi::xml_node node) {
-        const std::string_view text = node.child_value();
+    /// What stands in an element, also before and after a comment within it. A geometry that is
+    /// placed often is read as often.
+    /// @param joined  keeps the text where it is of several pieces
+    Words words_of(pugi::xml_node node, std::string& joined) {
+        std::string_view text = node.child_value();
+        if (node.first_child() != node.last_child()) {
+            joined.clear();
+            for (const auto piece : node.children()) {
+                joined.append(piece.value()).push_back(' ');
+            }
+            text = joined;
+        }
         scanned_ += text.size();
         if (scanned_ > kMostScanned) {
             fail(node, fmt::format("<{}> is placed so often that more than {} MB would be read",
@@ -125,7 +134,8 @@ private:
     }
     DaeNumbers numbers(pugi::xml_node node, std::size_t most) {
         DaeNumbers values;
-        Words words = words_of(node);
+        std::string joined;
+        Words words = words_of(node, joined);
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             const auto value = number_of(word);
             if (!value) {
@@ -163,14 +173,14 @@ private:
     Eigen::Affine3d axes_of(pugi::xml_node asset) {
         double metre = 1.0;
         if (const auto unit = asset.child("unit").attribute("meter")) {
-            metre = number_of(unit.value()).value_or(0.0);
+            metre = number_of(Words(unit.value()).next()).value_or(0.0);
             if (!(metre > 0.0 && metre <= 1e6)) {
                 fail(asset.child("unit"),
                      fmt::format("<unit> meter={}: must be a number of metres from 0 to 1e6",
                                  in_quotes(unit.value())));
             }
         }
-        const std::string up = asset.child("up_axis").text().get();
+        const std::string up(Words(asset.child("up_axis").text().get()).next());
         Matrix3 turn = Matrix3::Identity();
         if (up.empty() || up == "Y_UP") {
             turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -288,7 +298,8 @@ private:
     /// Whole corners of a list of indices, each by its point.
     std::vector<long> corners(pugi::xml_node list, const DaeFaces& faces) {
         std::vector<long> points;
-        Words words = words_of(list);
+        std::string joined;
+        Words words = words_of(list, joined);
         std::size_t at = 0;
         for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++at) {
             const auto index = integer_of(word);

@@ -3,13 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <sstream>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/words.hpp"
 
 namespace limpet::meshes {
 
@@ -80,33 +82,37 @@ Mesh read_binary(const std::string& name, const std::string& bytes) {
     return joiner.take();
 }
 
+/// Some programs write all of it in capitals.
+std::string small(std::string_view word) {
+    std::string text(word.substr(0, 16));
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 Mesh read_ascii(const std::string& name, const std::string& bytes) {
     Joiner joiner(name);
-    std::istringstream in(bytes);
+    Words words(bytes);
     std::array<Vector3, 3> corners;
     std::size_t found = 0;
     bool whole = false;
-    int line = 0;
-    for (std::string text; std::getline(in, text);) {
-        ++line;
-        std::istringstream words(text);
-        std::string first;
-        words >> first;
+    while (words.next_line()) {
+        const std::string first = small(words.on_line());
         if (first == "vertex") {
-            double x = 0.0;
-            double y = 0.0;
-            double z = 0.0;
-            if (found > 2 || !(words >> x >> y >> z)) {
+            const auto x = number_of(words.on_line());
+            const auto y = number_of(words.on_line());
+            const auto z = number_of(words.on_line());
+            if (found > 2 || !x || !y || !z) {
                 throw InputError(
                     fmt::format("{}:{}: must be one of three corners, as in "
                                 "`vertex 0.1 0 0.2`",
-                                name, line));
+                                name, words.line()));
             }
-            corners[found++] = {x, y, z};
+            corners[found++] = {*x, *y, *z};
         } else if (first == "endfacet") {
             if (found != 3) {
-                throw InputError(
-                    fmt::format("{}:{}: a facet of {} corners, must have 3", name, line, found));
+                throw InputError(fmt::format("{}:{}: a facet of {} corners, must have 3", name,
+                                             words.line(), found));
             }
             joiner.triangle(corners);
             found = 0;
@@ -114,7 +120,8 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
         whole = first == "endsolid" || (whole && first.empty());
     }
     if (!whole) {
-        throw InputError(fmt::format("{}:{}: the file ends without `endsolid`", name, line));
+        throw InputError(
+            fmt::format("{}:{}: the file ends without `endsolid`", name, words.line()));
     }
     return joiner.take();
 }
@@ -131,7 +138,7 @@ Mesh read_stl(const std::filesystem::path& file) {
     if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * word(bytes, kHeader - 4)) {
         return read_binary(name, bytes);
     }
-    if (bytes.rfind("solid", 0) == 0) {
+    if (small(Words(bytes).next()).rfind("solid", 0) == 0) {
         return read_ascii(name, bytes);
     }
     throw InputError(name +
