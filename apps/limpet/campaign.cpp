@@ -48,7 +48,7 @@ struct CampaignOptions {
 
 OptionList options_of(CampaignOptions& options) {
     return joined(
-        {{{"campaign CAMPAIGN", &options.file, "name in campaigns/, or a YAML file"},
+        {{{"campaign CAMPAIGN", &options.file, "name (limpet list campaigns) or YAML file"},
           jobs_option(options.jobs),
           {"--out DIR", &options.out, "folder (default: out/NAME, with --rare out/NAME_rare)"},
           {"--shard I/N", &options.shard, "fly part I of N alone, for limpet merge"},

@@ -187,7 +187,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
 
 OptionList options_of(CompanionOptions& options) {
     return joined(
-        {{{"config CONFIG", &options.config, "companions/*.yaml: a name, or a file"},
+        {{{"config CONFIG", &options.config, "name (limpet list companions) or YAML file"},
           {"--check", &options.check, "say what it would do, open nothing"},
           {"--dry-run", &options.dry_run,
            "read all inputs, command nothing, report what it would do:\ncarry the vehicle by hand"},

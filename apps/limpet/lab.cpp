@@ -24,7 +24,7 @@ struct LabOptions {
 
 OptionList options_of(LabOptions& options) {
     return {
-        {"scenario SCENARIO", &options.scenario, "a name in scenarios/ to begin with", optional()},
+        {"scenario SCENARIO", &options.scenario, "name (limpet list scenarios) to begin with", optional()},
         {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
         {"--listen ADDRESS", &options.listen,
          "whom to listen to: an address of this machine (default: itself alone)"},

@@ -14,10 +14,12 @@
 namespace limpet {
 
 /// A text taken apart into words between blanks; knows its line. Ten times as fast as a stream,
-/// which a mesh of 100 MB notices. Looks at the text, which outlives it.
+/// which a mesh of 100 MB notices. Looks at the text, which outlives it. A byte order mark that the
+/// text begins with is passed over.
 class Words {
 public:
-    explicit Words(std::string_view text) : text_(text) {}
+    explicit Words(std::string_view text)
+        : text_(text), at_(text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0) {}
 
     /// @return the next word on this line, "" at its end. A backslash at the end of a line joins
     ///         the next to it.
@@ -87,7 +89,7 @@ private:
     }
 
     std::string_view text_;
-    std::size_t at_ = 0;
+    std::size_t at_;
     std::size_t line_ = 0;
 };
 

@@ -7,18 +7,13 @@
 #include <cstring>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/draw/picture_model.hpp"
 
 namespace limpet::draw {
 namespace {
 
 using loaded::mujoco;
-
-/// MuJoCo's words in one line.
-std::string in_one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
 
 /// Files that MuJoCo finds in memory.
 class Files {
@@ -54,7 +49,7 @@ MujocoModel compile_mjcf(const std::string& mjcf) {
     char message[1000] = "";
     MujocoModel model(mujoco().mj_loadXML(kName, files.get(), message, sizeof message));
     if (!model) {
-        throw InputError(fmt::format("model.xml: {}", in_one_line(message)));
+        throw InputError(fmt::format("model.xml: {}", one_line(message)));
     }
     return model;
 }

@@ -52,14 +52,14 @@ private:
     Eigen::Affine3d axes_of(pugi::xml_node asset) {
         double metre = 1.0;
         if (const auto unit = asset.child("unit").attribute("meter")) {
-            metre = number_of(unit.value()).value_or(0.0);
+            metre = number_of(Words(unit.value()).next()).value_or(0.0);
             if (!(metre > 0.0 && metre <= 1e6)) {
                 fail(asset.child("unit"),
                      fmt::format("<unit> meter={}: must be a number of metres from 0 to 1e6",
                                  in_quotes(unit.value())));
             }
         }
-        const std::string up = asset.child("up_axis").text().get();
+        const std::string up(Words(asset.child("up_axis").text().get()).next());
         Matrix3 turn = Matrix3::Identity();
         if (up.empty() || up == "Y_UP") {
             turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -175,7 +175,8 @@ private:
     /// Whole corners of a list of indices, each by its point.
     std::vector<long> corners(pugi::xml_node list, const DaeFaces& faces) {
         std::vector<long> points;
-        Words words = words_of(list);
+        std::string joined;
+        Words words = words_of(list, joined);
         std::size_t count = 0;
         for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
             const auto index = integer_of(word);

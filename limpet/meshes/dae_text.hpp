@@ -79,9 +79,18 @@ protected:
         }
         return found;
     }
-    /// What stands in an element. A geometry that is placed often is read as often.
-    Words words_of(pugi::xml_node node) {
-        const std::string_view text = node.child_value();
+    /// What stands in an element, also before and after a comment within it. A geometry that is
+    /// placed often is read as often.
+    /// @param joined  keeps the text where it is of several pieces
+    Words words_of(pugi::xml_node node, std::string& joined) {
+        std::string_view text = node.child_value();
+        if (node.first_child() != node.last_child()) {
+            joined.clear();
+            for (const auto piece : node.children()) {
+                joined.append(piece.value()).push_back(' ');
+            }
+            text = joined;
+        }
         scanned_ += text.size();
         if (scanned_ > kMostScanned) {
             fail(node, fmt::format("<{}> is placed so often that more than {} MB would be read",
@@ -91,7 +100,8 @@ protected:
     }
     DaeNumbers numbers(pugi::xml_node node, std::size_t most) {
         DaeNumbers values;
-        Words words = words_of(node);
+        std::string joined;
+        Words words = words_of(node, joined);
         for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
             const auto value = number_of(word);
             if (!value) {

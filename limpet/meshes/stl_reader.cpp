@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <sstream>
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/read_file.hpp"
+#include "limpet/core/words.hpp"
 #include "limpet/meshes/readers.hpp"
 
 namespace limpet::meshes {
@@ -64,24 +66,31 @@ Mesh read_binary(const std::string& name, const std::string& bytes) {
     return joiner.take();
 }
 
+/// Some programs write all of it in capitals.
+std::string small(std::string_view word) {
+    std::string text(word.substr(0, 16));
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 Mesh read_ascii(const std::string& name, const std::string& bytes) {
     Joiner joiner(name);
-    std::istringstream in(bytes);
+    Words words(bytes);
     std::array<Vector3, 3> corners;
     std::size_t found = 0;
     bool whole = false;
-    std::size_t line = 0;
-    for (std::string text; std::getline(in, text);) {
-        joiner.at(++line);
-        std::istringstream words(text);
-        std::string first;
-        words >> first;
+    while (words.next_line()) {
+        joiner.at(words.line());
+        const std::string first = small(words.on_line());
         if (first == "vertex") {
-            Vector3 p;
-            if (found > 2 || !(words >> p.x() >> p.y() >> p.z())) {
+            const auto x = number_of(words.on_line());
+            const auto y = number_of(words.on_line());
+            const auto z = number_of(words.on_line());
+            if (found > 2 || !x || !y || !z) {
                 joiner.fail("must be one of three corners, as in `vertex 0.1 0 0.2`");
             }
-            corners[found++] = p;
+            corners[found++] = {*x, *y, *z};
         } else if (first == "endfacet") {
             if (found != 3) {
                 joiner.fail(fmt::format("a facet of {} corners, must have 3", found));
@@ -92,6 +101,7 @@ Mesh read_ascii(const std::string& name, const std::string& bytes) {
         whole = first == "endsolid" || (whole && first.empty());
     }
     if (!whole) {
+        joiner.at(words.line());
         joiner.fail("the file ends without `endsolid`");
     }
     return joiner.take();
@@ -109,7 +119,7 @@ Mesh read_stl(const std::filesystem::path& file) {
     if (bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * word(bytes, kHeader - 4)) {
         return read_binary(name, bytes);
     }
-    if (bytes.rfind("solid", 0) == 0) {
+    if (small(Words(bytes).next()).rfind("solid", 0) == 0) {
         return read_ascii(name, bytes);
     }
     throw InputError(name +

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/core/time.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/mcap/reader.hpp"
@@ -88,7 +89,7 @@ void open(const mcap::Contents& contents, const mcap::Channel& channel, Allowanc
 
 std::string text_at(const Table& table, const std::string& column, std::size_t row) {
     const TextColumn* found = table.find_text(column);
-    return found != nullptr ? found->values[row] : std::string();
+    return found != nullptr ? one_line(found->values[row]) : std::string();
 }
 
 std::vector<RecordedEvent> events_of(const Table& table) {
@@ -111,7 +112,8 @@ std::vector<RecordedEvent> events_of(const Table& table) {
         const double count = lengths == nullptr ? 0.0 : lengths->values[row];
         for (std::size_t i = 0; i < values.size() && static_cast<double>(i) < count; ++i) {
             const auto& [name, value] = values[i];
-            event.values.emplace_back(name != nullptr ? name->values[row] : "", value->values[row]);
+            event.values.emplace_back(name != nullptr ? one_line(name->values[row]) : "",
+                                      value->values[row]);
         }
         events.push_back(std::move(event));
     }

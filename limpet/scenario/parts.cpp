@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/derived.hpp"
@@ -222,8 +223,11 @@ vehicle::Airframe vehicle_from(const YamlNode& node, const fs::path& root, const
         } catch (const InputError& error) {
             fail(node, error.what());
         }
-        airframe = load_vehicle_file(is_path(base) && file.is_relative() ? folder / file : file,
-                                     &of_base.emplace());
+        file = is_path(base) && file.is_relative() ? folder / file : file;
+        if (is_there(file) && !is_file(file) && !is_folder(file)) {  // may never end, or begin
+            fail(node, fmt::format("{} is a pipe or a device, must be a file", shown_path(file)));
+        }
+        airframe = load_vehicle_file(file, &of_base.emplace());
     }
     std::vector<std::string> keys = of_base.value_or(std::vector<std::string>());
     if (node.kind == YamlNode::Kind::map) {

@@ -10,6 +10,7 @@
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/core/read_file.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/scenario/data_folder.hpp"
@@ -27,12 +28,6 @@ constexpr std::size_t kLongestShown = 60;
 /// A command line has no lines worth counting.
 std::string place_of(const std::string& name, const yaml_mark_t& mark) {
     return name.rfind(kSet, 0) == 0 ? name : fmt::format("{}:{}", name, mark.line + 1);
-}
-
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-    return text;
 }
 
 std::string text_of(const yaml_char_t* text) {

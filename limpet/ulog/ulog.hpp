@@ -16,7 +16,9 @@ inline constexpr std::string_view kPx4Parameters = "px4_parameters";
 /// ("xyz[0]", "esc[1].esc_rpm"), times in seconds since the autopilot's boot.
 /// Parameters are metadata; logged texts and dropouts are passed over. A topic that is subscribed
 /// again goes on in its table; what a message is too short for is NaN. A log that ends in the
-/// middle of a message is read up to there (Recording::damage).
+/// middle of a message is read up to there; behind bytes that are no message it goes on at the next
+/// synchronisation message; both are named (Recording::damage). What was appended to a log that was
+/// cut short is read as well.
 /// @throws InputError one line: no such file, no log of PX4's, a definition that makes no sense,
 /// one that takes more memory or time than a log of its size may (core/allowance.hpp) Format:
 /// https://docs.px4.io/main/en/dev_log/ulog_file_format.html
