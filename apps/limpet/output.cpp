@@ -9,6 +9,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
+#include "limpet/core/spawn.hpp"
 #include "limpet/core/write_file.hpp"
 #include "terminal.hpp"
 
@@ -75,10 +76,8 @@ void write_file(const fs::path& path, const std::string& text) {
 }
 
 void open_in_browser(const std::string& page) {
-    if (::fork() == 0) {
-        ::execlp("xdg-open", "xdg-open", page.c_str(), nullptr);
+    if (spawn({.words = {"xdg-open", page}}).error != 0) {
         complain("no xdg-open here: open " + page + " in a browser");
-        std::_Exit(0);
     }
 }
 

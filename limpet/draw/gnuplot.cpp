@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/draw/gnuplot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cctype>
 #include <cerrno>
@@ -16,6 +13,7 @@
 #include <iterator>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/spawn.hpp"
 
 namespace limpet::draw::gnuplot {
 namespace {
@@ -26,14 +24,6 @@ constexpr const char* kLog = "gnuplot.log";
 std::string read_text(const std::filesystem::path& path) {
     std::ifstream file(path);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-int wait_for(pid_t child) {
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        require(errno == EINTR, "a child that was started can be waited for");
-    }
-    return status;
 }
 
 }  // namespace
@@ -76,20 +66,9 @@ void run(const std::filesystem::path& folder, const std::string& script) {
     if (!file) {
         throw InputError(fmt::format("cannot write {}", (folder / kScript).string()));
     }
-    // Where the child runs, and where its words go.
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, kLog, O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     // -d: the user's own start-up files shall not colour the figures.
-    std::string words[] = {"gnuplot", "-d", kScript};
-    char* const arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    pid_t child = 0;
-    const int problem = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    const auto [child, problem] =
+        spawn({.words = {"gnuplot", "-d", kScript}, .folder = folder, .output = folder / kLog});
     if (problem == ENOENT || problem == EACCES) {
         throw NotInstalled("gnuplot is not installed (apt-get install gnuplot-nox)");
     }

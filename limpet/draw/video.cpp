@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/draw/video.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +18,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/core/file_kind.hpp"
+#include "limpet/core/spawn.hpp"
 
 namespace limpet::draw {
 namespace {
@@ -73,30 +72,13 @@ Video::Video(const std::filesystem::path& file, int width_px, int height_px, int
         words.emplace_back(word);
     }
     words.push_back(file.string());
-    std::vector<char*> arguments;
-    for (std::string& word : words) {
-        arguments.push_back(word.data());
-    }
-    arguments.push_back(nullptr);
 
     // A socket, not a pipe: a write into one that nobody reads can be kept from being a signal.
     int ends[2] = {-1, -1};
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0, "two ends of a socket");
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log_.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawnattr_t attributes{};
-    posix_spawnattr_init(&attributes);
-    // Ctrl-C is for us: it ends when we end it.
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    const int problem =
-        posix_spawnp(&child_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    const auto [child, problem] =
+        spawn({.words = words, .input = ends[1], .errors = log_, .own_group = true});
+    child_ = child;
     close(ends[1]);
     to_ffmpeg_ = ends[0];
     if (problem != 0) {
@@ -118,9 +100,7 @@ Video::~Video() {
 /// @return what waitpid() says
 int Video::end() {
     close(to_ffmpeg_);
-    int status = 0;
-    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = wait_for(child_);
     child_ = 0;
     return status;
 }

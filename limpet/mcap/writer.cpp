@@ -40,7 +40,7 @@ Writer::Writer(std::filesystem::path path, const WriterOptions& options)
         (!path_.has_filename() || std::filesystem::is_directory(path_, ignored))) {
         throw InputError(path_.string() + ": cannot write a recording: is a directory");
     }
-    file_.reset(std::fopen(part_path_.c_str(), "wb"));
+    file_.reset(std::fopen(part_path_.c_str(), "wbe"));
     if (!file_) {
         fail("cannot write a recording");
     }

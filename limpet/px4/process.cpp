@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limpet/px4/process.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +13,7 @@
 #include <vector>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/spawn.hpp"
 
 namespace limpet::px4 {
 namespace {
@@ -81,27 +80,10 @@ std::string last_line(const fs::path& log) {
 /// As sh runs it, in a group of its own: Ctrl-C is for us, which end it. The kernel ends it when
 /// the thread that started it dies, however that came about.
 pid_t run(const std::string& command, const fs::path& log) {
-    std::vector<std::string> words = {"setpriv", "--pdeathsig", "KILL", "--", "sh", "-c", command};
-    std::vector<char*> arguments;
-    for (std::string& word : words) {
-        arguments.push_back(word.data());
-    }
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    posix_spawnattr_t attributes{};
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    pid_t child = 0;
-    const int problem = posix_spawnp(&child, words.front().c_str(), &actions, &attributes,
-                                     arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    const auto [child, problem] =
+        spawn({.words = {"setpriv", "--pdeathsig", "KILL", "--", "sh", "-c", command},
+               .output = log,
+               .own_group = true});
     if (problem != 0) {
         throw InputError(fmt::format("setpriv, which starts PX4, cannot be started: {}",
                                      std::strerror(problem)));
@@ -152,8 +134,7 @@ Px4Process::~Px4Process() {
     if (child_ != 0) {
         // Its clock stands still once our sensors stop: it would not get through an orderly end.
         kill(-child_, SIGKILL);
-        while (waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
-        }
+        wait_for(child_);
     }
 }
 

@@ -107,6 +107,7 @@ private:
         tcp::socket newcomer(io_);
         acceptor_.accept(newcomer, error);
         if (!error) {
+            close_on_exec(newcomer.native_handle());
             newcomer.set_option(boost::asio::socket_base::linger(true, 0), error);
             newcomer.close(error);  // its destructor would take the linger back
             ++statistics_.peers_refused;

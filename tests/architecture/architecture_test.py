@@ -138,6 +138,24 @@ class Architecture(unittest.TestCase):
                     and re.search(r"catch \((const )?InternalError", path.read_text())}
         self.assertEqual(catching, may)
 
+    def test_a_process_inherits_nothing(self):
+        """Programs are started in one place, which closes what is ours; what we open by hand is closed on exec as well."""
+        starts = r"(?<![\w.>])(?:::)?(?:v?fork|posix_spawnp?|popen|exec[vl][pe]*|std::system)\s*\("
+        opens = r"(?<![\w.>])(?:std::|::)?(open|socket|socketpair|accept4|pipe2|fopen|eventfd|posix_openpt)\s*\(([^;{]*);"
+        closed = re.compile(r"_CLOEXEC|\"[rwab+]*e\"|/dev/null")
+        for path in files(".cpp", ".hpp"):
+            name = str(path.relative_to(ROOT))
+            if name.split("/")[0] not in ("limpet", "apps", "adapters") or "/test" in name:
+                continue
+            text = re.sub(r"//.*", "", path.read_text())
+            with self.subTest(name):
+                if name != "limpet/core/spawn.cpp":
+                    self.assertEqual(re.findall(starts, text), [])
+                for call, words in re.findall(opens, text):
+                    if call != "open" or "O_" in words:
+                        self.assertRegex(words, closed, call)
+                self.assertEqual(re.findall(r"(?<![\w.>:])::(accept|pipe|dup)\s*\(", text), [])
+
     def test_no_table_is_cut_in_two(self):
         for page in files(".md"):
             lines = page.read_text().split("\n")
