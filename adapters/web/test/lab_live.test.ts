@@ -137,7 +137,7 @@ ${numbers("x y z w")}`;
     const pose = { position: { x, y: 2, z: 3 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
     builder.message(4, x, writer.writeMessage({ pose }));
   }
-  const { frames, duration } = builder.tell();
+  const { frames, duration } = builder.built();
   assert.equal(duration, 1);
   assert.deepEqual(frames.get("base_link")?.at(0.5), [0.5, 2, 3, 0, 0, 0, 1]);
 });

@@ -3,7 +3,7 @@
 import { drawAxes, drawingOn, type Frame, Scale } from "./map";
 import type { SwingAxis, SwingState } from "./server";
 
-/** Beyond it colours say no more [1/s]; as on the paper's map. */
+/** Beyond it colours are the same [1/s]; as on the paper's map. */
 const kMost_1_s = 0.6;
 
 /** Where a value lies between the values of its axis, which stand in columns. */
@@ -168,7 +168,7 @@ export class GrowthMap {
     const of = (axis: SwingAxis): number[] => axis.own.map((value) => shareAlong(axis, value));
     return [of(state.across), of(state.up)];
   }
-  /** Of the vehicle's point, from the canvas' left and top [px], for who looks from outside. */
+  /** Of the vehicle's point, from the canvas' left and top [px], for tests and scripts. */
   own(): [number, number] | undefined {
     if (this.state === undefined || this.frame === undefined) {
       return undefined;

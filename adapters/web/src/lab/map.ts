@@ -21,7 +21,7 @@ interface Place {
   y: number;
 }
 
-/** Okabe and Ito's colours, told apart by everybody; a success is round, the others are crosses. */
+/** Okabe and Ito's colours, distinguishable with colour blindness; a success is round, the others are crosses. */
 const kColours = new Map([
   ["released", "#0072b2"],
   ["perched", "#009e73"],
@@ -107,7 +107,7 @@ export class SuccessMap {
     this.marks = marks;
     this.draw();
   }
-  /** In pixels of the canvas, for those who look at the page from outside. */
+  /** In pixels of the canvas, for tests and scripts. */
   placeOf(run: number): [number, number] | undefined {
     const found = this.places.find(({ mark }) => mark.run === run);
     return found && [found.x, found.y];
@@ -153,7 +153,7 @@ export class SuccessMap {
       }
     }
   }
-  /** Runs of one cell beside each other, in the order in which they landed. */
+  /** Runs of one cell side by side, in the order in which they ended. */
   private place(x: Scale, y: Scale, { toX, toY, wide, high }: Frame): void {
     const inCell = new Map<string, Mark[]>();
     for (const mark of this.marks) {
