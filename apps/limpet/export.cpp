@@ -60,7 +60,7 @@ bool is_scenario(const std::string& wanted, const fs::path& root) {
 Subject load(const ExportOptions& options, const fs::path& root) {
     if (is_scenario(options.wanted, root)) {
         if (!options.wall.empty()) {
-            throw InputError("--wall is of use only with a vehicle: a scenario has its own wall");
+            throw InputError("--wall is of use only with a vehicle: a scenario has a wall already");
         }
         scenario::Scenario scenario =
             scenario::load_scenario(options.wanted, {.overrides = options.overrides});
@@ -203,7 +203,7 @@ OptionList options_of(ExportOptions& options) {
         {"--wall SURFACE", &options.wall, "mjcf and world of a vehicle: a wall of this surface"},
         overrides_option(options.overrides, "turn one number of a scenario, as for fly"),
         {"--sensors", &options.sensors,
-         "world only: Gazebo's own LiDARs, IMU, contacts and slider force"},
+         "world only: Gazebo's LiDARs, IMU, contacts and slider force"},
         {"--ros", &options.ros,
          "world of a scenario only: flown over ROS topics\n(adapters/ros/README.md)"},
         {"--camera FOLDER", &options.camera,

@@ -12,7 +12,7 @@
 namespace limpet::python {
 namespace {
 
-/// A class's own attribute that fails is told; one that is not there means none.
+/// An attribute that is not there means 0; the error of one that fails is passed on.
 std::size_t memory_size_of(const py::object& object) {
     constexpr const char* kName = "memory_size";
     if (!py::hasattr(py::type::of(object), kName) && !py::hasattr(object, kName)) {
@@ -31,17 +31,18 @@ std::size_t memory_size_of(const py::object& object) {
 }
 
 /// What a station has returned.
-/// @throws py::type_error saying who returned what in whose place
+/// @throws py::type_error naming the method, the type that it returned and what it should
 template <class T>
-T taken(const py::object& said, const char* method, const char* wanted) {
+T taken(const py::object& returned, const char* method, const char* wanted) {
     const auto refuse = [&]() -> T {
         throw py::type_error(std::string(method) + "() returned " +
-                             std::string(py::str(py::type::of(said).attr("__name__"))) + ", not " +
-                             wanted);
+                             std::string(py::str(py::type::of(returned).attr("__name__"))) +
+                             ", not " + wanted);
     };
     try {
-        return std::is_same_v<T, py::tuple> && PySequence_Check(said.ptr()) == 0 ? refuse()
-                                                                                 : said.cast<T>();
+        return std::is_same_v<T, py::tuple> && PySequence_Check(returned.ptr()) == 0
+                   ? refuse()
+                   : returned.cast<T>();
     } catch (const py::cast_error&) {
         return refuse();
     } catch (const py::reference_cast_error&) {  // of None
@@ -49,8 +50,8 @@ T taken(const py::object& said, const char* method, const char* wanted) {
     }
 }
 
-/// The flight's own numbers while a station may write them: an array of its own, which whoever
-/// keeps it may keep.
+/// The flight's numbers while a station may write them: a separate array, so that a station may
+/// keep it.
 class Lent {
 public:
     explicit Lent(std::span<double> memory)
@@ -68,7 +69,7 @@ private:
     py::array_t<double> array_;
 };
 
-/// A Python object that flights hold. They may let go of it on any thread.
+/// A Python object that flights hold; they may release it on any thread.
 class Held {
 public:
     Held(py::object object, const char* method) : object_(std::move(object)) {
@@ -90,9 +91,10 @@ public:
         PyGILState_Release(gil);
     }
     [[nodiscard]] std::size_t memory_size() const { return memory_size_; }
+    /// Signals are copied: Python may keep them.
     template <class... Arguments>
-    [[nodiscard]] py::object call(const char* method, Arguments&&... arguments) const {
-        return object_.attr(method)(std::forward<Arguments>(arguments)...);
+    [[nodiscard]] py::object call(const char* method, const Arguments&... arguments) const {
+        return object_.attr(method).operator()<py::return_value_policy::copy>(arguments...);
     }
 
 private:
@@ -116,15 +118,14 @@ public:
                                         std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
         const Lent lent(memory);
-        const py::object said = held_.call(
-            "update", py::cast(input.readings, py::return_value_policy::copy),
-            py::cast(input.estimate, py::return_value_policy::copy), input.time_s, lent.array());
+        const py::object returned =
+            held_.call("update", input.readings, input.estimate, input.time_s, lent.array());
         lent.take_back();
         constexpr const char* kWanted = "a Setpoint, or (Setpoint, outcome, reason)";
-        if (!py::isinstance<py::tuple>(said)) {
-            return {.setpoint = taken<Setpoint>(said, "update", kWanted)};
+        if (!py::isinstance<py::tuple>(returned)) {
+            return {.setpoint = taken<Setpoint>(returned, "update", kWanted)};
         }
-        const auto all = said.cast<py::tuple>();
+        const auto all = returned.cast<py::tuple>();
         if (all.size() != 3) {
             throw py::value_error(std::string("update() returns ") + kWanted);
         }
@@ -146,25 +147,22 @@ public:
                                           std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
         const Lent lent(memory);
-        const py::object answer =
-            held_.call("control", py::cast(input.estimate, py::return_value_policy::copy),
-                       py::cast(input.setpoint, py::return_value_policy::copy),
-                       py::cast(input.vehicle, py::return_value_policy::copy), input.time_s,
-                       input.dt_s, lent.array());
+        const py::object answer = held_.call("control", input.estimate, input.setpoint,
+                                             input.vehicle, input.time_s, input.dt_s, lent.array());
         lent.take_back();
         const std::size_t rotors = input.vehicle.rotor_p_B_m.size();
         const std::string wanted =
             "(thrust, torque) or a command for each of " + std::to_string(rotors) + " rotors";
-        const py::tuple said = py::isinstance<py::str>(answer)
-                                   ? py::make_tuple(answer)  // whose letters are no commands
-                                   : taken<py::tuple>(answer, "control", wanted.c_str());
+        const py::tuple returned = py::isinstance<py::str>(answer)
+                                       ? py::make_tuple(answer)  // its letters are no commands
+                                       : taken<py::tuple>(answer, "control", wanted.c_str());
         const auto number = [&](std::size_t k) {
-            return taken<double>(py::object(said[k]), "control", wanted.c_str());
+            return taken<double>(py::object(returned[k]), "control", wanted.c_str());
         };
-        if (said.size() == 2) {
-            return {.thrust = number(0), .torque = vector_from(said[1], "torque")};
+        if (returned.size() == 2) {
+            return {.thrust = number(0), .torque = vector_from(returned[1], "torque")};
         }
-        if (said.size() != rotors) {
+        if (returned.size() != rotors) {
             throw py::value_error("control() returns " + wanted);
         }
         AutopilotOutput output;
@@ -187,17 +185,16 @@ public:
                                  std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
         const Lent lent(memory);
-        const py::object said =
-            held_.call("next_Pa", py::cast(air, py::return_value_policy::copy), lent.array());
+        const py::object returned = held_.call("next_Pa", air, lent.array());
         lent.take_back();
-        return taken<double>(said, "next_Pa", "a pressure in Pa");
+        return taken<double>(returned, "next_Pa", "a pressure in Pa");
     }
 
 private:
     Held held_;
 };
 
-/// One station an object, so that a branch knows whose memory it has.
+/// One station for each object: a branch of a flight goes on with the same memory.
 template <class Station, class Made>
 std::shared_ptr<const Station> station_of(const py::object& object) {
     static std::map<PyObject*, std::weak_ptr<const Station>> known;  // guarded by the GIL
@@ -254,7 +251,7 @@ void add_stations(py::module_& module) {
         .def_readonly("peel_N_m", &CupPressureInput::peel_N_m,
                       "moment that presses one side of the lip more than the other [N m]")
         .def_readonly("hole_mm2", &CupPressureInput::hole_mm2,
-                      "to the atmosphere, beyond the lip's own leak [mm^2]")
+                      "to the atmosphere, beyond the leak of the lip [mm^2]")
         .def_readonly("leak_growth", &CupPressureInput::leak_growth,
                       "what the seal leaks more than when it was fresh, over that");
 }
