@@ -92,22 +92,12 @@ std::string lasting(const std::string& wanted) {
     return scenario::is_path(wanted) ? fs::absolute(wanted).lexically_normal().string() : wanted;
 }
 
-/// Overrides with a vehicle's file as the plugin will find it; by the scenario's folder, as it is
-/// read here.
+/// The same of files in overrides: they count from the working folder, then from the scenario's.
 std::vector<std::string> lasting(std::vector<std::string> overrides,
                                  const scenario::Scenario& scenario) {
     for (std::string& text : overrides) {
-        if (std::string here = scenario::with_files_of(text, {}); here != text) {
-            text = std::move(here);
-            continue;
-        }
-        const std::size_t equals = text.find('=');
-        const std::string key = text.substr(0, equals);
-        const std::string value = text.substr(equals + 1);
-        if ((key == "vehicle" || key == "vehicle.base") && scenario::is_path(value)) {
-            text.replace(equals + 1, value.size(),
-                         lasting((scenario.path.parent_path() / value).string()));
-        }
+        text =
+            scenario::with_files_of(scenario::with_files_of(text, {}), scenario.path.parent_path());
     }
     return overrides;
 }

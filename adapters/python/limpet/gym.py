@@ -75,6 +75,13 @@ except ImportError:  # as much of it as is used here
         def contains(self, x: Any) -> bool:
             return bool(np.all(x >= self.low) and np.all(x <= self.high))
 
+
+
+def _box(most: float, *shape: int) -> Any:
+    """From -most to most."""
+    return Box(np.full(shape, -most, np.float32), np.full(shape, most, np.float32), dtype=np.float32)
+
+
 TICKS = 20  # of a decision: 50 Hz, as the built-in guidance decides
 ATTACHED = 3.0  # of the channel cup_phase
 
@@ -187,15 +194,9 @@ class VectorFlights(_VectorEnv):
     def __init__(self, task: Task, num_envs: int, jobs: Optional[int] = None):
         self.task, self.num_envs = task, num_envs
         observed, acted = len(task.seen), len(task.acts_on)
-        self.single_observation_space = Box(np.full(observed, -np.inf, np.float32),
-                                            np.full(observed, np.inf, np.float32), dtype=np.float32)
-        self.single_action_space = Box(-np.ones(acted, np.float32), np.ones(acted, np.float32),
-                                       dtype=np.float32)
+        self.single_observation_space, self.observation_space = _box(np.inf, observed), _box(np.inf, num_envs, observed)
+        self.single_action_space, self.action_space = _box(1.0, acted), _box(1.0, num_envs, acted)
         wide = (num_envs, 1)
-        self.observation_space = Box(np.tile(self.single_observation_space.low, wide),
-                                     np.tile(self.single_observation_space.high, wide), dtype=np.float32)
-        self.action_space = Box(np.tile(self.single_action_space.low, wide),
-                                np.tile(self.single_action_space.high, wide), dtype=np.float32)
         names = [name for name, _, _ in task.seen]
         self.flights = _core.Flights(num_envs, jobs or os.cpu_count() or 1, [*names, *task.judged])
         self._zero: np.ndarray = np.tile([zero for _, zero, _ in task.seen], wide)
@@ -306,9 +307,7 @@ class Mission(_Env):
 
     def __init__(self, scenario: str = "perch_concrete", changes: Optional[Mapping[str, Any]] = None):
         self.scenario = load(scenario, changes)
-        self.observation_space = Box(-np.ones(3, np.float32), np.ones(3, np.float32), dtype=np.float32)
-        count = len(MISSION_KEYS)
-        self.action_space = Box(-np.ones(count, np.float32), np.ones(count, np.float32), dtype=np.float32)
+        self.observation_space, self.action_space = _box(1.0, 3), _box(1.0, len(MISSION_KEYS))
 
     def reset(self, *, seed: Optional[int] = None, options: Any = None) -> tuple[np.ndarray, dict]:
         super().reset(seed=seed)

@@ -69,10 +69,12 @@ private:
     py::array_t<double> array_;
 };
 
-/// A Python object that flights hold; they may release it on any thread.
-class Held {
+/// A station that is a Python object. Flights may release it on any thread.
+template <class Station>
+class PythonStation : public Station {
 public:
-    Held(py::object object, const char* method) : object_(std::move(object)) {
+    PythonStation(py::object object, const char* method)
+        : object_(std::move(object)), method_(method) {
         if (!py::hasattr(object_, method)) {
             throw py::type_error(std::string(py::str(py::type::of(object_))) + " has no method " +
                                  method + "()");
@@ -83,22 +85,29 @@ public:
         }
         memory_size_ = memory_size_of(object_);
     }
-    Held(const Held&) = delete;
-    Held& operator=(const Held&) = delete;
-    ~Held() {
+    ~PythonStation() override {
         const PyGILState_STATE gil = PyGILState_Ensure();
         object_.release().dec_ref();
         PyGILState_Release(gil);
     }
-    [[nodiscard]] std::size_t memory_size() const { return memory_size_; }
-    /// Signals are copied: Python may keep them.
+    [[nodiscard]] std::size_t memory_size() const override { return memory_size_; }
+
+protected:
+    /// With the GIL. Signals are copied: Python may keep them.
+    /// @param memory  the last argument
     template <class... Arguments>
-    [[nodiscard]] py::object call(const char* method, const Arguments&... arguments) const {
-        return object_.attr(method).operator()<py::return_value_policy::copy>(arguments...);
+    [[nodiscard]] py::object call(std::span<double> memory, const Arguments&... arguments) const {
+        const Lent lent(memory);
+        py::object returned =
+            object_.attr(method_).template operator()<py::return_value_policy::copy>(arguments...,
+                                                                                     lent.array());
+        lent.take_back();
+        return returned;
     }
 
 private:
     py::object object_;
+    const char* method_;
     std::size_t memory_size_ = 0;
 };
 
@@ -110,17 +119,13 @@ std::string_view kept(const std::string& text) {
     return *texts.insert(text).first;
 }
 
-class PythonGuidance final : public Guidance {
+class PythonGuidance final : public PythonStation<Guidance> {
 public:
-    explicit PythonGuidance(py::object object) : held_(std::move(object), "update") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonGuidance(py::object object) : PythonStation(std::move(object), "update") {}
     [[nodiscard]] GuidanceOutput update(const GuidanceInput& input,
                                         std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
-        const py::object returned =
-            held_.call("update", input.readings, input.estimate, input.time_s, lent.array());
-        lent.take_back();
+        const py::object returned = call(memory, input.readings, input.estimate, input.time_s);
         constexpr const char* kWanted = "a Setpoint, or (Setpoint, outcome, reason)";
         if (!py::isinstance<py::tuple>(returned)) {
             return {.setpoint = taken<Setpoint>(returned, "update", kWanted)};
@@ -134,22 +139,16 @@ public:
                 .outcome = outcome_named(taken<std::string>(part(1), "update", kWanted)),
                 .reason = kept(taken<std::string>(part(2), "update", kWanted))};
     }
-
-private:
-    Held held_;
 };
 
-class PythonAutopilot final : public Autopilot {
+class PythonAutopilot final : public PythonStation<Autopilot> {
 public:
-    explicit PythonAutopilot(py::object object) : held_(std::move(object), "control") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonAutopilot(py::object object) : PythonStation(std::move(object), "control") {}
     [[nodiscard]] AutopilotOutput control(const AutopilotInput& input,
                                           std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
-        const py::object answer = held_.call("control", input.estimate, input.setpoint,
-                                             input.vehicle, input.time_s, input.dt_s, lent.array());
-        lent.take_back();
+        const py::object answer =
+            call(memory, input.estimate, input.setpoint, input.vehicle, input.time_s, input.dt_s);
         const std::size_t rotors = input.vehicle.rotor_p_B_m.size();
         const std::string wanted =
             "(thrust, torque) or a command for each of " + std::to_string(rotors) + " rotors";
@@ -172,26 +171,17 @@ public:
         }
         return output;
     }
-
-private:
-    Held held_;
 };
 
-class PythonCup final : public CupPressure {
+class PythonCup final : public PythonStation<CupPressure> {
 public:
-    explicit PythonCup(py::object object) : held_(std::move(object), "next_Pa") {}
-    [[nodiscard]] std::size_t memory_size() const override { return held_.memory_size(); }
+    explicit PythonCup(py::object object) : PythonStation(std::move(object), "next_Pa") {}
     [[nodiscard]] double next_Pa(const CupPressureInput& air,
                                  std::span<double> memory) const override {
         const py::gil_scoped_acquire gil;
-        const Lent lent(memory);
-        const py::object returned = held_.call("next_Pa", air, lent.array());
-        lent.take_back();
+        const py::object returned = call(memory, air);
         return taken<double>(returned, "next_Pa", "a pressure in Pa");
     }
-
-private:
-    Held held_;
 };
 
 /// One station for each object: a branch of a flight goes on with the same memory.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the runs of a campaign lie, by two of its numbers: a cell's ground is its share of success,
 // a point's colour its outcome.
+import { element } from "./element";
 
 export type Value = number | string | null;
 export interface Mark {
@@ -77,16 +78,22 @@ const kTop = 8;
 const kRight = 10;
 const kNear_px = 12;
 
+/** A map that is drawn anew as its size or the colours change. */
+export function mapCanvas(draw: () => void): HTMLCanvasElement {
+  const canvas = element("canvas", { className: "map", role: "img" });
+  new ResizeObserver(draw).observe(canvas);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  return canvas;
+}
+
 export class SuccessMap {
-  readonly canvas = document.createElement("canvas");
+  readonly canvas = mapCanvas(() => this.draw());
   private places: Place[] = [];
   private marks: Mark[] = [];
   private axes: [AxisOf, AxisOf] | undefined;
   chosen: number | undefined;
 
   constructor(private readonly choose: (run: number) => void) {
-    this.canvas.className = "map";
-    this.canvas.role = "img";
     this.canvas.addEventListener("click", (event) => {
       const near = this.nearest(event.offsetX, event.offsetY);
       if (near !== undefined) {
@@ -99,8 +106,6 @@ export class SuccessMap {
         near === undefined ? "" : `run ${near.run}: ${near.outcome}\n${near.x}, ${near.y}`;
       this.canvas.style.cursor = near === undefined ? "default" : "pointer";
     });
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
   show(axes: [AxisOf, AxisOf], marks: Mark[]): void {
     this.axes = axes;
