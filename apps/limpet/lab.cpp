@@ -27,7 +27,7 @@ OptionList options_of(LabOptions& options) {
         {"scenario SCENARIO", &options.scenario, "name (limpet list scenarios) to begin with", optional()},
         {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
         {"--listen ADDRESS", &options.listen,
-         "whom to listen to: an address of this machine (default: itself alone)"},
+         "address of this machine to listen on (default: this machine alone)"},
         {"--out DIR", &options.out,
          "keep results of campaigns there (default: they go with the lab)"},
         {"--open", &options.open, "open the page in a browser"}};
@@ -43,7 +43,7 @@ ExitCode run_lab(const LabOptions& options) {
     server.start();
     Terminal terminal(Terminal::Voice::normal);
     terminal.line("lab", server.address());
-    terminal.line("", "whoever has this address may fly here; Ctrl-C ends it");
+    terminal.line("", "this address permits to fly here; Ctrl-C ends it");
     if (options.open) {
         open_in_browser(server.address());
     }

@@ -78,19 +78,18 @@ draw::ChartPanel panel_of(const std::string& title, const std::string& what,
     return panel;
 }
 
-std::vector<std::filesystem::path> draw(const mavlink::HilCount& hil,
-                                        const std::filesystem::path& folder) {
+Files draw(const mavlink::HilCount& hil, const std::filesystem::path& folder) {
     draw::Chart chart{.title = "What the link cost", .subtitle = "in wall time; logarithmic axis"};
     chart.panels.push_back(panel_of("From HIL_SENSOR to its answer", "round trip", hil.round_trip));
     if (hil.send_jitter.count() > 0) {
-        chart.panels.push_back(panel_of("HIL_SENSOR beside its time", "jitter", hil.send_jitter));
+        chart.panels.push_back(panel_of("HIL_SENSOR off its time", "jitter", hil.send_jitter));
     }
-    return drawn_where_possible([&] { return draw_chart(chart, "link", folder).files; });
+    return draw_chart(chart, "link", folder).files;
 }
 
 }  // namespace
 
-void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& terminal) const {
+void Px4Link::report(const simulation::FlightPerformance& performance, Terminal& terminal) const {
     const mavlink::HilCount& hil = wires_->autopilot().count();
     terminal.line("sensors", fmt::format("{} sent, {} answered, {} missed", hil.sensors_sent,
                                          hil.answers, hil.unanswered));
@@ -110,7 +109,7 @@ void Px4Link::tell(const simulation::FlightPerformance& performance, Terminal& t
     }
     if (const auto own_share = performance.own_share()) {
         terminal.line("share",
-                      fmt::format("{:.1f} % of the wall time was the simulator's own, the rest was "
+                      fmt::format("{:.1f} % of the wall time was the simulator's, the rest was "
                                   "the autopilot's",
                                   100.0 * *own_share));
     }
@@ -138,8 +137,7 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     std::vector<std::filesystem::path> files = {folder / "link.json"};
     write_file(files.front(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (figures) {
-        const auto drawn = draw(hil, folder);
-        files.insert(files.end(), drawn.begin(), drawn.end());
+        files = with_drawn(std::move(files), [&] { return draw(hil, folder); });
     }
     if (wire_log_) {
         wire_finished_ = true;

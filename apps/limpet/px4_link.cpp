@@ -26,7 +26,8 @@ px4::Px4Addresses addresses_of(const Px4LinkOptions& options, const scenario::Sc
 }
 
 /// How to start what is waited for, to be copied.
-void say_how(const Px4LinkOptions& options, const std::string& scenario, Terminal& terminal) {
+void print_start_commands(const Px4LinkOptions& options, const std::string& scenario,
+                          Terminal& terminal) {
     if (options.serial()) {
         terminal.line("a board: with the parameters of `limpet px4-params " + scenario +
                       " --target hitl`");
@@ -104,7 +105,7 @@ void check(const Px4LinkOptions& options, const scenario::Scenario& scenario) {
     const double speed = speed_of(options.speed, 1.0);
     if (options.serial() && speed != 1.0) {
         throw InputError("--speed " + options.speed +
-                         ": a board on a serial wire has its own clock; there is 1 alone");
+                         ": a board on a serial wire runs in real time; only 1 is possible");
     }
     if (options.start && options.serial()) {
         throw InputError("--px4: a board on a serial wire runs by itself");
@@ -132,7 +133,7 @@ Px4Link::Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& m
                 if (process_) {
                     terminal.line("started " + process_->command());
                 } else {
-                    say_how(options, model.scenario->name, terminal);
+                    print_start_commands(options, model.scenario->name, terminal);
                 }
             },
         .on_wait =
@@ -165,7 +166,7 @@ Px4Link::~Px4Link() {
         try {
             wire_log_->finish();  // what led to no flight is what one wants to see
         } catch (const InputError&) {
-            return;  // a full disk: the error that is on its way tells more
+            return;  // a full disk: the first error is the one to report
         }
     }
 }

@@ -68,7 +68,7 @@ void how_to_go_on(const px4::Px4Airframe& airframe) {
         fmt::print(
             "\nOn a PX4 v1.15 or v1.16 that is built, by itself:\n"
             "  limpet fly SCENARIO --autopilot px4 --px4 build/px4_sitl_default\n"
-            "As one of PX4's own: copy {} into\n"
+            "As an airframe of PX4: copy {} into\n"
             "  {}/\nand add it to the CMakeLists.txt there, then\n"
             "  make px4_sitl_default\n"
             "  PX4_SYS_AUTOSTART={} build/px4_sitl_default/bin/px4 -d\n"

@@ -9,9 +9,10 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/scenario/catalogue.hpp"
+#include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
 #include "terminal.hpp"
@@ -30,12 +31,9 @@ struct StandInOptions {
 
 /// A vehicle flies as in the scenario `hover`.
 scenario::Scenario scenario_of(const std::string& what) {
-    const auto vehicles = scenario::list_files(scenario::data_root() / "vehicles");
-    const bool vehicle =
-        std::any_of(vehicles.begin(), vehicles.end(),
-                    [&](const scenario::CatalogueEntry& entry) { return entry.name == what; });
-    return vehicle ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
-                   : scenario::load_scenario(what);
+    return is_there(scenario::data_root() / "vehicles" / (what + ".yaml"))
+               ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
+               : scenario::load_scenario(what);
 }
 
 void set(const std::vector<BoundParameter>& rows, const std::string& text) {
@@ -100,7 +98,7 @@ OptionList options_of(StandInOptions& options) {
             {"--onboard ADDRESS", &options.onboard,
              "where its onboard link listens (default udp:127.0.0.1:14580 + N)"},
             {"--peer ADDRESS", &options.peer,
-             "whom the onboard link speaks to at first (default\nudp:127.0.0.1:14540 + N)"},
+             "first peer of the onboard link (default\nudp:127.0.0.1:14540 + N)"},
             {"--param NAME=VALUE", &options.parameters,
              "a parameter, NAME=VALUE; FD_FAIL_P and FD_FAIL_R are 0 unless given"}};
 }

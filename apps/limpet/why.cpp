@@ -26,14 +26,14 @@ struct WhyOptions {
     bool no_figure = false;
 };
 
-/// A scenario spelled out, and what is known of a flight of it.
-struct Asked {
+/// A scenario in full, and the summary of a flight of it.
+struct Subject {
     std::string name;
     std::string yaml;
     record::Summary recorded;
 };
 
-Asked asked_of(const WhyOptions& options) {
+Subject subject_of(const WhyOptions& options) {
     if (!options.wanted.ends_with(".mcap")) {
         const auto scenario =
             scenario::load_scenario(options.wanted, {.overrides = options.overrides});
@@ -53,23 +53,21 @@ Asked asked_of(const WhyOptions& options) {
 }
 
 /// What was recorded and what is flown may be two flights.
-void tell_of_another(const record::Summary& recorded, const why::Found& found, bool changed) {
+void report_another(const record::Summary& recorded, const why::Found& found, bool changed) {
     const std::string flown(to_string(found.base.result.outcome));
     if (!changed && !recorded.outcome.empty() &&
         (recorded.outcome != flown || recorded.reason != found.base.result.reason)) {
         complain(fmt::format(
             "recorded was {}: {}; its scenario flown again is another flight (a campaign's run has "
-            "noise of its own, another Limpet flies otherwise)",
+            "other noise, another version of Limpet flies otherwise)",
             recorded.outcome, recorded.reason));
     }
 }
 
-ExitCode tell_why(const WhyOptions& options) {
-    const Asked asked = asked_of(options);
-    const scenario::ScenarioText text(asked.yaml, asked.name);
-    const OutFolder folder(options.out.empty()
-                               ? std::filesystem::path("out") / (asked.name + "_why")
-                               : std::filesystem::path(options.out));
+ExitCode explain(const WhyOptions& options) {
+    const Subject subject = subject_of(options);
+    const scenario::ScenarioText text(subject.yaml, subject.name);
+    const OutFolder folder(out_folder(options.out, subject.name + "_why"));
     Terminal terminal(options.json ? Terminal::Voice::machine : Terminal::Voice::normal);
     const why::Found found = why::find_why(
         text, {.jobs = options.jobs,
@@ -79,22 +77,17 @@ ExitCode tell_why(const WhyOptions& options) {
     std::string again = options.wanted;
     if (again.ends_with(".mcap")) {
         again = (folder.path() / "scenario.yaml").string();
-        write_file(again, asked.yaml);
+        write_file(again, subject.yaml);
     }
     for (const std::string& one : options.overrides) {
         again += again.ends_with("scenario.yaml") ? "" : " --set " + one;
     }
     fmt::print("{}", options.json ? why_json(found) + "\n" : why_text(found, again));
     write_file(folder.path() / "why.json", why_json(found) + "\n");
-    tell_of_another(asked.recorded, found, !options.overrides.empty());
-    std::vector<std::filesystem::path> files = {folder.path() / "why.json"};
-    if (!options.no_figure) {
-        for (std::filesystem::path& file :
-             drawn_where_possible([&] { return draw_why(found, folder.path()); })) {
-            files.push_back(std::move(file));
-        }
-    }
-    terminal.written(files);
+    report_another(subject.recorded, found, !options.overrides.empty());
+    terminal.written(with_drawn({folder.path() / "why.json"}, [&] {
+        return options.no_figure ? Files() : draw_why(found, folder.path());
+    }));
     return ExitCode::ok;
 }
 
@@ -102,7 +95,7 @@ OptionList options_of(WhyOptions& options) {
     return {{"flight RECORDING|SCENARIO", &options.wanted,
              "a recording of limpet's (.mcap), whose scenario is flown again, or a\n"
              "scenario's name or file"},
-            overrides_option(options.overrides, "set a key before it is asked why"),
+            overrides_option(options.overrides, "set a key of the scenario"),
             jobs_option(options.jobs),
             {"--out DIR", &options.out, "folder (default: out/NAME_why)"},
             {"--json", &options.json, "one JSON object on standard output"},
@@ -113,8 +106,8 @@ OptionList options_of(WhyOptions& options) {
 
 Verb why_verb() {
     return verb<WhyOptions>(
-        "why", "Ask why a flight failed: what let go, which settings would mend it", options_of,
-        tell_why,
+        "why", "Find why a flight failed: what let go, which settings would mend it", options_of,
+        explain,
         "Examples:\n"
         "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"

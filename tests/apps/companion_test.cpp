@@ -171,12 +171,12 @@ TEST(CompanionUnit, IsAsSystemdWantsIt) {
         (void)bench.write("limpet-companion@.service", text);
         (void)std::system(("cd " + folder +
                            " && systemd-analyze verify --man=no ./limpet-companion@wall.service "
-                           ">said 2>&1; echo exit $? >>said")
+                           ">log 2>&1; echo exit $? >>log")
                               .c_str());
-        std::istringstream said(text_of(bench.folder() / "said"));
+        std::istringstream log(text_of(bench.folder() / "log"));
         std::string ours;
         for (std::string line;
-             std::getline(said, line);) {  // it speaks of the machine's units, too
+             std::getline(log, line);) {  // it reports on the machine's units, too
             if (line.find("limpet-companion") != std::string::npos || line == "exit 1") {
                 ours += line + "\n";
             }
@@ -191,7 +191,7 @@ TEST(CompanionVerb, CtrlCEndsItsWaitInGoodOrder) {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Bench bench;
         Started companion(bench.folder(), "companion", Ports().companion_words({"--out", "o"}));
-        ASSERT_TRUE(companion.says("waits: no", 20s)) << companion.output();
+        ASSERT_TRUE(companion.prints("waits: no", 20s)) << companion.output();
         companion.signal(signal);
         const Finished finished = companion.wait(20s);
         EXPECT_EQ(finished.exit_code, 130) << finished.err;
@@ -245,7 +245,7 @@ TEST_F(ThreeProcesses, PerchAndTakeOff) {
 
 TEST_F(ThreeProcesses, CtrlCWhileItLandsLeavesTheVehicleOnTheWall) {
     Started companion(bench.folder(), "companion", patient({"--out", "companion_out"}));
-    ASSERT_TRUE(companion.says("landing_started", kLong)) << companion.output();
+    ASSERT_TRUE(companion.prints("landing_started", kLong)) << companion.output();
     companion.signal(SIGINT);
     companion.signal(SIGTERM);  // no further one hastens it
     std::this_thread::sleep_for(1200ms);

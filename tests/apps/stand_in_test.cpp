@@ -73,7 +73,7 @@ TEST(StandInVerb, OneThatADebuggerStopsIsWaitedForWhereThatIsAsked) {
         Started flight(bench.folder(), "flight",
                        {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
                         "--patience", patience, "--speed", "4", "--wait", "30"});
-        ASSERT_TRUE(flight.says("armed", std::chrono::seconds(20))) << flight.output();
+        ASSERT_TRUE(flight.prints("armed", std::chrono::seconds(20))) << flight.output();
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
         stand_in.signal(SIGSTOP);
         std::this_thread::sleep_for(std::chrono::milliseconds(1500));
@@ -109,7 +109,7 @@ TEST(StandInVerb, WhoWaitsForItSaysHowToStartItAndLeavesNothingOnCtrlC) {
             words.insert(words.end(), {"--sensors", "udp:" + free_port(SOCK_DGRAM)});
         }
         Started waiting(bench.folder(), "waiting", words);
-        ASSERT_TRUE(waiting.says("limpet stand-in hover --hil " + hil, std::chrono::seconds(20)))
+        ASSERT_TRUE(waiting.prints("limpet stand-in hover --hil " + hil, std::chrono::seconds(20)))
             << waiting.output();
         waiting.signal(SIGINT);
         const Finished end = waiting.wait(std::chrono::seconds(20));
@@ -125,7 +125,7 @@ TEST(StandInVerb, CtrlCEndsTheWaitForIt) {
     Started fly(bench.folder(), "fly",
                 {"fly", "perch_concrete", "--autopilot", "px4", "--hil",
                  "tcp:" + free_port(SOCK_STREAM), "--offboard", "udp:" + free_port(SOCK_DGRAM)});
-    ASSERT_TRUE(fly.says("waiting for PX4", std::chrono::seconds(30)));
+    ASSERT_TRUE(fly.prints("waiting for PX4", std::chrono::seconds(30)));
     fly.signal(SIGINT);
     const Finished end = fly.wait(std::chrono::seconds(30));
     EXPECT_EQ(end.exit_code, 130);
@@ -143,7 +143,7 @@ TEST(StandInVerb, CtrlCBeforeTheFlightKeepsTheWireThatLedThere) {
     Started flight(bench.folder(), "flight",
                    {"fly", "hover", "--autopilot", "px4", "--hil", hil, "--offboard", offboard,
                     "--record-wire", "--speed", "0.1", "--out", "o"});
-    ASSERT_TRUE(flight.says("the autopilot boots", std::chrono::seconds(20))) << flight.output();
+    ASSERT_TRUE(flight.prints("the autopilot boots", std::chrono::seconds(20))) << flight.output();
     flight.signal(SIGINT);
     const Finished end = flight.wait(std::chrono::seconds(20));
     EXPECT_EQ(end.exit_code, 130) << end.err;

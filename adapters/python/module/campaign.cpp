@@ -23,8 +23,8 @@ namespace {
 
 using OnProgress = std::function<void(std::uint32_t finished, std::uint32_t runs)>;
 
-/// Whoever leaves early, by Ctrl-C or what a callback raised, waits for those in the air, and lets
-/// Python go on meanwhile.
+/// When a campaign ends early, by Ctrl-C or an exception of the callback: waits for the flights in
+/// progress, without the GIL.
 struct LandsFirst {
     ~LandsFirst() {
         if (!flown.valid()) {
@@ -34,7 +34,7 @@ struct LandsFirst {
         try {
             const py::gil_scoped_release land;
             flown.wait();
-        } catch (...) {  // whoever leaves has said why
+        } catch (...) {  // another exception is on its way
         }
     }
     std::atomic<bool>& stop;
@@ -62,11 +62,11 @@ std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
 
 bool bears_out_named(const std::string& truth, const std::string& outcome) {
     const auto end = true_end_from(truth);
-    const auto told = outcome_from(outcome);
-    return end && told && bears_out(*end, *told);
+    const auto reported = outcome_from(outcome);
+    return end && reported && bears_out(*end, *reported);
 }
 
-/// Flies the runs that are missing, on other threads, while this one listens to Ctrl-C.
+/// Flies the runs that are missing, on other threads, while this one waits for Ctrl-C.
 /// @return the file of results
 std::filesystem::path run_campaign(const std::string& wanted, const std::filesystem::path& folder,
                                    int jobs, bool resume, const OnProgress& on_progress) {
@@ -76,7 +76,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
         throw InputError(
             fmt::format("campaign(): jobs = {} is out of range, allowed 1..{}", jobs, kMostJobs));
     }
-    const campaign::Campaign asked = campaign::load_campaign(wanted);
+    const campaign::Campaign campaign = campaign::load_campaign(wanted);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) {
@@ -84,7 +84,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
                                      folder.string(), error.message()));
     }
     const FolderLock lock(folder);
-    campaign::Results results = campaign::begin_results(asked, folder, resume);
+    campaign::Results results = begin_results(campaign, folder, resume);
     std::atomic<bool> stop = false;
     std::atomic<std::uint32_t> finished = results.finished();
     auto flown = std::async(std::launch::async, [&] {
@@ -98,7 +98,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     };
     while (!wait()) {
         if (on_progress) {
-            on_progress(finished, asked.runs);
+            on_progress(finished, campaign.runs);
         }
         if (interpreter_ends()) {
             throw InterpreterEnds();
@@ -109,7 +109,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     }
     flown.get();
     if (on_progress) {
-        on_progress(finished, asked.runs);
+        on_progress(finished, campaign.runs);
     }
     return folder / campaign::Results::kFileName;
 }

@@ -94,21 +94,21 @@ class Tree:
 
     def every_message_is_in_it(self, test):
         """One of each topic that is of a place names a frame of the tree."""
-        heard, news = {}, threading.Condition()
+        received, news = {}, threading.Condition()
         wanted = {topic: kind for topic, kind in rospy.get_published_topics()
                   if not topic.startswith(NOWHERE) and not topic.startswith("/mavros/setpoint_raw/attitude")}
 
-        def hear(message, topic):
+        def take(message, topic):
             with news:
-                heard[topic] = message
+                received[topic] = message
                 news.notify_all()
-        subscribers = [rospy.Subscriber(topic, roslib.message.get_message_class(kind), hear, topic)
+        subscribers = [rospy.Subscriber(topic, roslib.message.get_message_class(kind), take, topic)
                        for topic, kind in wanted.items()]
         with news:
-            news.wait_for(lambda: len(heard) == len(wanted), 5)
+            news.wait_for(lambda: len(received) == len(wanted), 5)
         for one in subscribers:
             one.unregister()
-        frames = {topic: message.header.frame_id for topic, message in heard.items() if hasattr(message, "header")}
+        frames = {topic: message.header.frame_id for topic, message in received.items() if hasattr(message, "header")}
         test.assertGreater(len(frames), 10, frames)
         known = self.buffer.all_frames_as_string()
         for topic, frame in frames.items():

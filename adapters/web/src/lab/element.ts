@@ -17,6 +17,32 @@ export function button(text: string, title: string, does: () => void): HTMLButto
   return made;
 }
 
+/** A list to choose from. */
+export function choice(
+  names: { name: string; description: string }[],
+  chosen: string,
+  chose: (name: string) => void,
+): HTMLSelectElement {
+  const list = element(
+    "select",
+    {},
+    ...names.map(({ name, description }) =>
+      element("option", { value: name, title: description }, name || description),
+    ),
+  );
+  list.value = chosen;
+  list.addEventListener("change", () => chose(list.value));
+  return list;
+}
+
+/** Saves a file under this name. */
+export function download(name: string, address: string): void {
+  element("a", { download: name, href: address }).click();
+}
+
+export const messageOf = (problem: unknown): string =>
+  problem instanceof Error ? problem.message : String(problem);
+
 /** A control with its name before it. */
 export function labelled(name: string, ...controls: (Node | string)[]): HTMLLabelElement {
   return element("label", {}, element("span", {}, name), ...controls);

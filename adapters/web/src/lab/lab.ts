@@ -2,7 +2,7 @@
 // Every parameter of a scenario as a slider; the flight follows.
 import type { Recording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
-import { button, element, labelled, tabs } from "./element";
+import { button, choice, download, element, labelled, messageOf, tabs } from "./element";
 import { Learn } from "./learn";
 import { Live } from "./live";
 import { Many } from "./many";
@@ -17,16 +17,17 @@ export interface LabHost {
   calm(): void;
   /** What is to be shown stands there, by all that draws. */
   drawn(): Promise<void>;
-  /** A flight that is still flying, at its latest time until somebody seeks another. */
+  /** A flight that is still flying, at its latest time until another is sought. */
   follow(recording: Recording): void;
   /** It has more to show; nothing happens where another one is looked at. */
   grown(recording: Recording): void;
-  say(text: string): void;
+  /** Shows a problem; empty: there is none. */
+  report(text: string): void;
 }
 
 const kCalm_ms = 150; // a hand that stands still
 
-/** Sections that people turn first; the others follow. */
+/** Sections that users change most; the others follow. */
 const kFirst = ["guidance", "environment", "vehicle.cup", "vehicle.slider", "wall.surface"];
 
 export class Lab {
@@ -42,8 +43,8 @@ export class Lab {
   });
   private catalogue: server.Catalogue | undefined;
   private readonly reflights: Reflights;
-  private telling: ReturnType<typeof setTimeout> | undefined;
-  private building = 0; // asked for and not there yet
+  private reporting: ReturnType<typeof setTimeout> | undefined;
+  private building = 0; // requested and not there yet
   readonly many: Many;
   readonly learn: Learn;
   readonly swing: Swing;
@@ -60,7 +61,7 @@ export class Lab {
       watch: (recording, brief) => this.watch(recording, brief),
       drawn: () => this.host.drawn(),
       reflown: (recording, delay_ms) => this.reflown(recording, delay_ms),
-      over: (brief) => this.tell(brief ? kCalm_ms : 0),
+      over: (brief) => this.reportLater(brief ? kCalm_ms : 0),
     });
     const tools = element(
       "div",
@@ -114,9 +115,9 @@ export class Lab {
   async trying(does: () => Promise<void>): Promise<void> {
     try {
       await does();
-      this.host.say("");
+      this.host.report("");
     } catch (problem) {
-      this.host.say(problem instanceof Error ? problem.message : String(problem));
+      this.host.report(messageOf(problem));
     }
   }
 
@@ -144,34 +145,18 @@ export class Lab {
         .map((section) => this.sectionOf(section)),
     );
     this.filter();
-    this.told();
+    this.showChanges();
   }
   private buildChoices(schema: server.Schema): void {
     const { catalogue } = this;
     if (catalogue === undefined) {
       return;
     }
-    const select = (
-      label: string,
-      names: server.Named[],
-      chosen: string,
-      chose: (name: string) => void,
-    ): HTMLElement => {
-      const list = element(
-        "select",
-        {},
-        ...names.map(({ name, description }) =>
-          element("option", { value: name, title: description }, name || description),
-        ),
-      );
-      list.value = chosen;
-      list.addEventListener("change", () => chose(list.value));
-      return labelled(label, list);
-    };
-    const rebuild = (): void => void this.trying(() => this.build().then(() => this.refly(false)));
+    const select = (...[label, ...list]: [string, ...Parameters<typeof choice>]): HTMLElement =>
+      labelled(label, choice(...list));
     const choose = (key: string) => (name: string) => {
       this.changes.set(key, name);
-      rebuild();
+      this.rebuild();
     };
     const vehicle = this.changes.get("vehicle");
     const unchanged = [{ name: "", description: "that of the scenario" }];
@@ -190,7 +175,7 @@ export class Lab {
         this.changes.clear();
         this.changes.scenario = name;
         this.reflights.stands = undefined;
-        rebuild();
+        this.rebuild();
       }),
       ...(schema.surface === ""
         ? []
@@ -198,7 +183,7 @@ export class Lab {
       select("Vehicle", [...unchanged, ...catalogue.vehicles], vehicle ?? "", (name) => {
         if (name === "") {
           this.changes.drop("vehicle");
-          rebuild();
+          this.rebuild();
         } else {
           choose("vehicle")(name);
         }
@@ -217,21 +202,13 @@ export class Lab {
       ...section.rows.map((row) => this.rowOf(row)),
     );
   }
-  private choiceOf(choice: server.Choice): HTMLElement {
-    const list = element(
-      "select",
-      {},
-      ...choice.names.map(({ name, description }) =>
-        element("option", { value: name, title: description }, name),
-      ),
-    );
-    list.value = this.changes.get(choice.key) ?? choice.chosen;
-    list.addEventListener("change", () =>
-      this.change(choice.key, list.value, choice.chosen, false),
+  private choiceOf({ key, names, chosen }: server.Choice): HTMLElement {
+    const list = choice(names, this.changes.get(key) ?? chosen, (name) =>
+      this.change(key, name, chosen, false),
     );
     const made = element("div", { className: "row" });
-    made.dataset.key = choice.key;
-    made.append(labelled(choice.key.split(".").pop() ?? "", list));
+    made.dataset.key = key;
+    made.append(labelled(key.split(".").pop() ?? "", list));
     return made;
   }
   private rowOf(row: server.Row): HTMLElement {
@@ -324,24 +301,27 @@ export class Lab {
   }
   private reset(): void {
     this.changes.clear();
+    this.rebuild();
+  }
+  private rebuild(): void {
     void this.trying(() => this.build().then(() => this.refly(false)));
   }
   /** Not while a slider moves: an address that changes costs as much as a picture. */
-  private tell(later_ms: number): void {
-    clearTimeout(this.telling);
-    const tell = (): void => {
+  private reportLater(later_ms: number): void {
+    clearTimeout(this.reporting);
+    const report = (): void => {
       this.host.calm();
-      this.told();
+      this.showChanges();
       this.swing.changed();
     };
     if (later_ms > 0) {
-      this.telling = setTimeout(tell, later_ms);
+      this.reporting = setTimeout(report, later_ms);
     } else {
-      tell();
+      report();
     }
   }
   /** The changes, in the page's address and in a list. */
-  private told(): void {
+  private showChanges(): void {
     history.replaceState(
       null,
       "",
@@ -349,10 +329,9 @@ export class Lab {
     );
     this.diff.replaceChildren(
       ...this.changes.list().map((text) => {
-        const forget = element("button", { type: "button", title: `Forget ${text}` }, "×");
-        forget.addEventListener("click", () => {
+        const forget = button("×", `Forget ${text}`, () => {
           this.changes.drop(text.slice(0, text.indexOf("=")));
-          void this.trying(() => this.build().then(() => this.refly(false)));
+          this.rebuild();
         });
         return element("li", {}, text, forget);
       }),
@@ -360,7 +339,7 @@ export class Lab {
   }
 
   private refly(brief: boolean): void {
-    clearTimeout(this.telling);
+    clearTimeout(this.reporting);
     this.reflights.wish(brief);
   }
   private reflown({ outcome, duration }: Recording, delay_ms: number): void {
@@ -370,18 +349,16 @@ export class Lab {
   private async save(): Promise<void> {
     await this.trying(async () => {
       const text = await server.yaml(this.wish());
-      const link = document.createElement("a");
-      link.download = `${this.changes.scenario}_changed.yaml`;
-      link.href = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
-      link.click();
-      URL.revokeObjectURL(link.href);
+      const file = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+      download(`${this.changes.scenario}_changed.yaml`, file);
+      URL.revokeObjectURL(file);
     });
   }
   private async copy(): Promise<void> {
     await this.trying(() => navigator.clipboard.writeText(this.changes.command()));
     this.status.textContent = this.changes.command();
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   state(): Record<string, unknown> {
     return {
       idle: this.reflights.idle && this.building === 0,

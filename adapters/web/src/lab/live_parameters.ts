@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters that a flight in progress lets viewers set. It judges what is asked for, this shows what holds.
+// The parameters that a flight in progress lets viewers set. The flight checks each value; the page shows those that hold.
 import type { Parameter } from "../recording/live";
 import { element, labelled } from "./element";
 
@@ -64,7 +64,7 @@ export class Parameters {
       row.hidden = !name.toLowerCase().includes(wanted);
     }
   }
-  /** For those who look at the page from outside. */
+  /** For tests and scripts. */
   outside(): Record<string, number> {
     return Object.fromEntries(
       [...this.rows].map(([name, { input }]) => [name, Number(input.value)]),

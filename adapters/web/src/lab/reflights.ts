@@ -69,7 +69,7 @@ export class Reflights {
   /** @param since  the hand moved, on the page's clock [ms] */
   private async fly(brief: boolean, since: number): Promise<Recording> {
     const wish = this.host.wish();
-    const asked = performance.now();
+    const sent = performance.now();
     const { bytes, flight } = await server.fly({
       ...wish,
       ...(brief ? { brief, topics: [...kSceneTopics, ...kColumns.keys()] } : {}),
@@ -84,9 +84,9 @@ export class Reflights {
       const now = performance.now();
       this.delays.push({
         all: now - since,
-        waits: asked - since,
+        waits: sent - since,
         flight,
-        way: came - asked - flight,
+        way: came - sent - flight,
         reading: read - came,
         scene: shown - read,
         picture: now - shown,

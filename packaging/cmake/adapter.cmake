@@ -1,4 +1,4 @@
-# What builds by itself beside the program, for programs of others: Gazebo's plugins, ROS's nodes. The
+# For what builds separately from the program, for other programs: Gazebo's plugins, ROS's nodes. The
 # language, and the modules that they link, no others: no figures, and MuJoCo only where it is a target.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)

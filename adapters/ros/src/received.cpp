@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "adapters/ros/src/heard.hpp"
+#include "adapters/ros/src/received.hpp"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not
 
 }  // namespace
 
-bool Heard::tick(double time_s, double clock_s) {
+bool Received::tick(double time_s, double clock_s) {
     const bool anew = clock_ >= 0 && time_s < flight_s_;
     if (anew) {
         begin_anew();
@@ -27,7 +27,7 @@ bool Heard::tick(double time_s, double clock_s) {
 }
 
 /// All but the texts: events of the flight before point to them.
-void Heard::begin_anew() {
+void Received::begin_anew() {
     clock_ = -1;
     mode_ = VehicleMode(manners_);
     command_ = {};
@@ -39,7 +39,7 @@ void Heard::begin_anew() {
     shown_ = guidance::PerchingState::hovering;
 }
 
-void Heard::hear(const limpet_ros::PerchingStatus& message) {
+void Received::receive(const limpet_ros::PerchingStatus& message) {
     if (!of_this_flight(message)) {
         return;
     }
@@ -49,7 +49,7 @@ void Heard::hear(const limpet_ros::PerchingStatus& message) {
     status_ = message;
 }
 
-bool Heard::guidance_is_behind() const {
+bool Received::guidance_is_behind() const {
     // Timers of a node fire at the first /clock after they are due.
     constexpr double kShortest_s = 0.03;
     constexpr double kLongest_s = 0.2;
@@ -57,17 +57,17 @@ bool Heard::guidance_is_behind() const {
                           std::clamp(1.5 * status_every_s_, kShortest_s, kLongest_s);
 }
 
-void Heard::hear(const limpet_ros::PerchingEvent& message) {
+void Received::receive(const limpet_ros::PerchingEvent& message) {
     if (of_this_flight(message) && events_.size() < kMostHeard) {
         events_.push_back(message);
     }
 }
 
-std::string_view Heard::keep(std::string_view text) {
+std::string_view Received::keep(std::string_view text) {
     return texts_.emplace_back(text);
 }
 
-void Heard::take_status(guidance::PerchingMemory& guidance) {
+void Received::take_status(guidance::PerchingMemory& guidance) {
     if (!status_) {
         guidance.state = guidance::PerchingState::hovering;
         return;
@@ -88,27 +88,27 @@ void Heard::take_status(guidance::PerchingMemory& guidance) {
     }
 }
 
-void Heard::take_events(guidance::EventList& events) {
+void Received::take_events(guidance::EventList& events) {
     std::size_t taken = 0;
     for (; taken < std::min(events_.size(), simulation::kMostEvents); ++taken) {
-        const limpet_ros::PerchingEvent& heard = events_[taken];
-        const auto name = enumerator_of<EventName>(heard.name);
+        const limpet_ros::PerchingEvent& received = events_[taken];
+        const auto name = enumerator_of<EventName>(received.name);
         if (!name) {
             continue;
         }
-        Event event = make_event(flight_s_, keep(heard.station), *name, keep(heard.reason));
+        Event event = make_event(flight_s_, keep(received.station), *name, keep(received.reason));
         const std::size_t values =
-            std::min({heard.values.size(), heard.value_names.size(), Event::kMaxValues});
+            std::min({received.values.size(), received.value_names.size(), Event::kMaxValues});
         for (std::size_t i = 0; i < values; ++i) {
-            event.add(keep(heard.value_names[i]), heard.values[i]);
+            event.add(keep(received.value_names[i]), received.values[i]);
         }
         events.add(event);
     }
     events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(taken));
 }
 
-bool Heard::take(const Estimate& estimate, guidance::PerchingMemory& guidance,
-                 guidance::EventList& events) {
+bool Received::take(const Estimate& estimate, guidance::PerchingMemory& guidance,
+                    guidance::EventList& events) {
     const bool lost = mode_.update(estimate, clock_s(), guidance.setpoint);
     if (lost) {
         events.add(make_event(flight_s_, "autopilot", EventName::aborted,

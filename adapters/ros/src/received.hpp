@@ -20,15 +20,15 @@
 
 namespace limpet::ros {
 
-/// What a simulated vehicle has heard from the nodes in this flight, and its time on /clock. A
-/// flight that begins anew (the world was reset) has heard nothing: /clock starts anew too, by
-/// which the nodes notice, and what is stamped later than it was said in the flight before.
-/// Whoever calls from two threads locks.
-class Heard {
+/// What a simulated vehicle has received from the nodes in this flight, and its time on /clock. A
+/// flight that begins anew (the world was reset) has received nothing: /clock starts anew too, by
+/// which the nodes notice. A message whose stamp lies ahead is of the flight before. Callers on two
+/// threads lock.
+class Received {
 public:
     static constexpr double kClockStart_s = 1.0;  ///< ROS takes a time of zero for none
 
-    Heard(const OffboardManners& manners, bool ends_with_mission)
+    Received(const OffboardManners& manners, bool ends_with_mission)
         : manners_(manners), ends_with_mission_(ends_with_mission), mode_(manners) {}
 
     /// The next tick of the flight.
@@ -40,24 +40,23 @@ public:
     [[nodiscard]] Tick clock() const { return clock_; }
     [[nodiscard]] double clock_s() const { return start_s_ + seconds(clock_); }
 
-    void hear(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
-    void hear(const limpet_ros::MechanismCommand& message) { store(message, command_); }
-    void hear(const limpet_ros::PerchingStatus& message);
+    void receive(const decltype(Setpoint::motion)& motion) { mode_.set_point(motion, clock_s()); }
+    void receive(const limpet_ros::MechanismCommand& message) { store(message, command_); }
+    void receive(const limpet_ros::PerchingStatus& message);
     /// @param message  sound, see phase_from()
-    void hear(const limpet_ros::CupState& message) { store(message, answer_); }
-    void hear(const limpet_ros::PerchingEvent& message);
+    void receive(const limpet_ros::CupState& message) { store(message, answer_); }
+    void receive(const limpet_ros::PerchingEvent& message);
     void arm(bool armed) { mode_.arm(armed); }
     [[nodiscard]] bool choose(std::string_view mode) { return mode_.choose(mode, clock_s()); }
 
-    /// Set-point, state and ending of a guidance elsewhere, as heard; events are added.
+    /// Set-point, state and ending of a guidance elsewhere, as received; events are added.
     /// @return whether the mode has just fallen back to holding
     bool take(const Estimate& estimate, guidance::PerchingMemory& guidance,
               guidance::EventList& events);
     [[nodiscard]] const std::optional<limpet_ros::CupState>& answer() const { return answer_; }
     [[nodiscard]] const VehicleMode& mode() const { return mode_; }
-    [[nodiscard]] bool guidance_heard() const { return status_.has_value(); }
-    /// Whether a guidance that was heard should have said something by now, going by the time
-    /// between what it said last.
+    [[nodiscard]] bool guidance_received() const { return status_.has_value(); }
+    /// Whether a guidance is late, by the interval of its latest messages; false before its first.
     [[nodiscard]] bool guidance_is_behind() const;
 
 private:
