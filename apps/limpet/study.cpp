@@ -128,10 +128,10 @@ campaign::Campaign campaign_of(const StudyOptions& options) {
     }
 }
 
-study::StudyWatch study_watch(Terminal& terminal) {
+campaign::CampaignWatch study_watch(Terminal& terminal) {
     return {.on_progress =
                 [&terminal, next = StudyTime::now() +
-                                   kStudyLineEvery](const study::StudyProgress& progress) mutable {
+                                   kStudyLineEvery](const campaign::Progress& progress) mutable {
                     const auto text = [&progress] {
                         return fmt::format("{} of {} flights, {:.1f} a second", progress.finished,
                                            progress.runs, progress.flown / progress.elapsed_s);
@@ -160,7 +160,7 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     terminal.line(terminal.bold(campaign.name) +
                   fmt::format(": {} flights, {} samples by {} input{} and noise", plan.runs(),
                               plan.samples, plan.inputs, plan.inputs == 1 ? "" : "s"));
-    const study::StudyProgress progress =
+    const campaign::Progress progress =
         study::fly_study(results, options.jobs, study_watch(terminal));
     if (progress.finished < progress.runs) {
         complain(

@@ -79,7 +79,7 @@ Video::Video(const std::filesystem::path& file, int width_px, int height_px, int
     }
     arguments.push_back(nullptr);
 
-    // A socket, not a pipe: a write into one that nobody reads can be kept from being a signal.
+    // A socket, not a pipe: a write into one without a reader can be kept from raising a signal.
     int ends[2] = {-1, -1};
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0, "two ends of a socket");
     posix_spawn_file_actions_t actions{};
@@ -90,7 +90,7 @@ Video::Video(const std::filesystem::path& file, int width_px, int height_px, int
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawnattr_t attributes{};
     posix_spawnattr_init(&attributes);
-    // Ctrl-C is for us: it ends when we end it.
+    // Ctrl-C is for limpet alone, which then ends ffmpeg.
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     posix_spawnattr_setpgroup(&attributes, 0);
     const int problem =
@@ -115,7 +115,7 @@ Video::~Video() {
     }
 }
 
-/// @return what waitpid() says
+/// @return the status of waitpid()
 int Video::end() {
     close(to_ffmpeg_);
     int status = 0;
