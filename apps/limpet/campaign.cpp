@@ -15,7 +15,7 @@
 #include "limpet/core/folder_lock.hpp"
 #include "limpet/core/user_text.hpp"
 #include "limpet/ranks/ranks.hpp"
-#include "limpet/rare/rare_campaign.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"

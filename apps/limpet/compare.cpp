@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/compare/figures.hpp"
-#include "limpet/compare/page.hpp"
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/core/work.hpp"
 #include "output.hpp"

@@ -5,8 +5,7 @@
 
 #include "limpet/campaign/summary.hpp"
 #include "limpet/core/user_text.hpp"
-#include "limpet/rare/rare_campaign.hpp"
-#include "limpet/rare/rare_summary.hpp"
+#include "limpet/rare/rare.hpp"
 #include "output.hpp"
 
 namespace limpet::app {

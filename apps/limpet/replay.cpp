@@ -7,7 +7,7 @@
 #include "command_line.hpp"
 #include "flight_report.hpp"
 #include "limpet/campaign/workers.hpp"
-#include "limpet/rare/rare_results.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/report/figures.hpp"
 #include "limpet/study/study.hpp"

@@ -124,9 +124,9 @@ campaign::Campaign campaign_of(const StudyOptions& options) {
     }
 }
 
-study::StudyWatch study_watch(Terminal& terminal) {
+campaign::CampaignWatch study_watch(Terminal& terminal) {
     return {.on_progress =
-                [&terminal](const study::StudyProgress& progress) {
+                [&terminal](const campaign::Progress& progress) {
                     terminal.slow_progress(fmt::format("{} of {} flights, {:.1f} a second",
                                                        progress.finished, progress.runs,
                                                        progress.flown / progress.elapsed_s));
@@ -147,7 +147,7 @@ ExitCode make_study(const StudyOptions& options, const Given& given) {
     terminal.line(terminal.bold(campaign.name) +
                   fmt::format(": {} flights, {} samples by {} input{} and noise", plan.runs(),
                               plan.samples, plan.inputs, plan.inputs == 1 ? "" : "s"));
-    const study::StudyProgress progress =
+    const campaign::Progress progress =
         study::fly_study(results, options.jobs, study_watch(terminal));
     if (progress.finished < progress.runs) {
         complain(

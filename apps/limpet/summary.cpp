@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "limpet/campaign/cells_page.hpp"
-#include "limpet/rare/rare_summary.hpp"
+#include "limpet/rare/rare.hpp"
 #include "limpet/study/study.hpp"
 #include "output.hpp"
 
@@ -55,7 +54,7 @@ void summarise_campaign(const SummaryOptions& options) {
                [&](const fs::path& folder) { return rare::draw_rare(summary, folder); });
         return;
     }
-    if (study::study_asked(results)) {
+    if (study::study_request(results)) {
         const study::StudyFound found = study::find_study(results);
         report(options, database, options.json ? study_json(found) : study_text(found),
                [&](const fs::path& folder) { return study::draw_study(found, folder); });

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "limpet/why/why.hpp"
+
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
-#include "limpet/why/report.hpp"
 #include "output.hpp"
 #include "terminal.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
-#include "limpet/why/report.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
@@ -37,11 +37,11 @@ double drawn_s(const Hold& hold) {
 
 std::vector<std::filesystem::path> draw_why(const Found& found,
                                             const std::filesystem::path& folder) {
-    const Hold* hold = telling_hold(found.base);
+    const Hold* hold = decisive_hold(found.base);
     if (hold == nullptr) {
         return {};
     }
-    const Hold* mended = found.remedy.changes.empty() ? nullptr : telling_hold(found.remedy);
+    const Hold* mended = found.remedy.changes.empty() ? nullptr : decisive_hold(found.remedy);
     const double for_s = drawn_s(*hold);
     const auto both = [&](draw::ChartPanel& panel, Curve curve, const char* name,
                           const char* colour) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/why/search.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +7,12 @@
 #include <map>
 #include <utility>
 
-#include "limpet/why/keys.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
 
-constexpr std::size_t kSeeds = 3;  ///< single keys beside which all others are tried
+constexpr std::size_t kSeeds = 3;  ///< single keys with which all others are tried
 constexpr std::size_t kMostKeys = 3;
 constexpr std::size_t kMostOthers = 3;
 constexpr double kHelps = 0.05;  ///< of a stage: less is noise
@@ -35,7 +33,8 @@ private:
         return fly_trial(text_, changes,
                          {.traces = trace != nullptr, .trace = trace, .stop = options_.stop});
     }
-    /// Each of `turned` beside `with`, the best of each key, furthest first; keys that help alone.
+    /// Each of `turned` together with `with`, the best of each key, furthest first; keys that help
+    /// alone.
     [[nodiscard]] std::vector<Trial> screen(const std::vector<Change>& turned, const Changes& with,
                                             const Trial& before);
     [[nodiscard]] bool reaches(const Trial& trial) const {
@@ -175,8 +174,8 @@ void Search::seek_remedy(const std::vector<Trial>& singles) {
     if (mending.empty()) {
         for (std::size_t i = 0; i < std::min(kSeeds, singles.size()); ++i) {
             tell(fmt::format("together with {} ...", singles[i].changes.front().override_text()));
-            const auto beside = screen(settings_, singles[i].changes, singles[i]);
-            pairs.insert(pairs.end(), beside.begin(), beside.end());
+            const auto found = screen(settings_, singles[i].changes, singles[i]);
+            pairs.insert(pairs.end(), found.begin(), found.end());
         }
         std::stable_sort(pairs.begin(), pairs.end(), further);
         take(pairs);
@@ -264,7 +263,7 @@ Found find_why(const scenario::ScenarioText& text, const SearchOptions& options)
     return Search(text, options).run();
 }
 
-const Hold* telling_hold(const Trial& trial) {
+const Hold* decisive_hold(const Trial& trial) {
     const Hold* best = nullptr;
     const auto order = [](const Hold& hold) {
         const bool landing = hold.phase == "pitching_up" || hold.phase == "unloading";

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "limpet/record/story.hpp"
-#include "limpet/why/report.hpp"
+#include "limpet/why/why.hpp"
 
 namespace limpet::why {
 namespace {
@@ -69,7 +69,7 @@ void add_loads(std::string& text, const Hold& hold) {
 }
 
 std::string how_far(const Trial& trial) {
-    const Hold* hold = telling_hold(trial);
+    const Hold* hold = decisive_hold(trial);
     std::string text = ending(trial);
     if (trial.stage < Stage::rested && hold != nullptr) {
         text += fmt::format("; {} after {:.2f} s at {:.0f} deg",
@@ -91,7 +91,7 @@ void add_holds(std::string& text, const Trial& base) {
         fmt::format_to(std::back_inserter(text), "{:<11}and {} more\n", "",
                        base.holds.size() - kMost);
     }
-    if (const Hold* hold = telling_hold(base); hold != nullptr && !std::isnan(hold->ended_s)) {
+    if (const Hold* hold = decisive_hold(base); hold != nullptr && !std::isnan(hold->ended_s)) {
         add_loads(text, *hold);
     }
 }

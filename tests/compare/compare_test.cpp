@@ -11,10 +11,7 @@
 #include "../support/files.hpp"
 #include "../support/png.hpp"
 #include "compare_flights.hpp"
-#include "limpet/compare/figures.hpp"
-#include "limpet/compare/limits.hpp"
-#include "limpet/compare/page.hpp"
-#include "limpet/compare/text.hpp"
+#include "limpet/compare/report.hpp"
 #include "limpet/core/errors.hpp"
 #include "limpet/draw/colours.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A vehicle of somebody's own that is peeled off, asked why by the library and by the program.
+#include "limpet/why/why.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +10,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "limpet/why/keys.hpp"
-#include "limpet/why/report.hpp"
 #include "program.hpp"
 
 namespace limpet::why {

@@ -11,7 +11,6 @@
 #include <future>
 
 #include "air.hpp"
-#include "limpet/campaign/campaign_file.hpp"
 #include "limpet/campaign/statistics.hpp"
 #include "limpet/campaign/workers.hpp"
 #include "limpet/core/errors.hpp"
