@@ -23,14 +23,14 @@ struct LabOptions {
 };
 
 OptionList options_of(LabOptions& options) {
-    return {
-        {"scenario SCENARIO", &options.scenario, "name (limpet list scenarios) to begin with", optional()},
-        {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
-        {"--listen ADDRESS", &options.listen,
-         "address of this machine to listen on (default: this machine alone)"},
-        {"--out DIR", &options.out,
-         "keep results of campaigns there (default: they go with the lab)"},
-        {"--open", &options.open, "open the page in a browser"}};
+    return {{"scenario SCENARIO", &options.scenario, "name (limpet list scenarios) to begin with",
+             optional()},
+            {"--port PORT", &options.port, "to listen on (0: any that is free)", range(0, 65535)},
+            {"--listen ADDRESS", &options.listen,
+             "address of this machine to listen on (default: this machine alone)"},
+            {"--out DIR", &options.out,
+             "keep results of campaigns there (default: they go with the lab)"},
+            {"--open", &options.open, "open the page in a browser"}};
 }
 
 ExitCode run_lab(const LabOptions& options) {

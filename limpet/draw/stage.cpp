@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/core/one_line.hpp"
 #include "limpet/draw/offscreen.hpp"
 #include "limpet/draw/picture_model.hpp"
 #include "limpet/loaded/mujoco.hpp"
@@ -40,12 +41,6 @@ struct DeleteModel {
     void operator()(mjModel* model) const { mujoco().mj_deleteModel(model); }
 };
 using MujocoModel = std::unique_ptr<mjModel, DeleteModel>;
-
-/// MuJoCo's words in one line.
-std::string in_one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
 
 /// Files that MuJoCo finds in memory.
 class Files {
@@ -81,7 +76,7 @@ MujocoModel compile_mjcf(const std::string& mjcf) {
     char message[1000] = "";
     MujocoModel model(mujoco().mj_loadXML(kName, files.get(), message, sizeof message));
     if (!model) {
-        throw InputError(fmt::format("model.xml: {}", in_one_line(message)));
+        throw InputError(fmt::format("model.xml: {}", one_line(message)));
     }
     return model;
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/companion/companion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "limpet/companion/companion.hpp"
 #include "tests/support/allocations.hpp"
 
 namespace limpet::companion {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/meshes/readers.hpp"
-
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/meshes/readers.hpp"
 #include "meshes.hpp"
 
 namespace limpet::meshes {

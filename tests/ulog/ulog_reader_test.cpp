@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/ulog/ulog.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 #include "../support/allocations.hpp"
 #include "../support/files.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/ulog/ulog.hpp"
 
 namespace limpet::ulog {
 namespace {
