@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "limpet/core/required.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/rare/rare.hpp"
 #include "limpet/study/study.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "limpet/core/required.hpp"
+#include "limpet/core/errors.hpp"
 #include "limpet/draw/chart.hpp"
 #include "limpet/draw/colours.hpp"
 #include "limpet/study/study.hpp"
