@@ -160,38 +160,35 @@ export class Lab {
     if (catalogue === undefined) {
       return;
     }
-    const select = (...[label, ...list]: [string, ...Parameters<typeof choice>]): HTMLElement =>
-      labelled(label, choice(...list));
+    /** @param name  empty: as in the scenario */
     const choose = (key: string) => (name: string) => {
-      this.changes.set(key, name);
+      if (name === "") {
+        this.changes.drop(key);
+      } else {
+        this.changes.set(key, name);
+      }
       this.rebuild();
     };
-    const vehicle = this.changes.get("vehicle");
-    const unchanged = [{ name: "", description: "that of the scenario" }];
+    const begin = (name: string): void => {
+      this.changes.clear();
+      this.changes.scenario = name;
+      this.reflights.stands = undefined;
+      this.rebuild();
+    };
     const value = this.changes.get("seed") ?? schema.seed;
     const seed = field("number", { min: 0, step: "1", value });
     seed.addEventListener("change", () => {
       this.changes.set("seed", String(Math.max(0, Math.round(Number(seed.value)))));
       this.refly(false);
     });
+    const { scenarios, surfaces } = catalogue;
+    const vehicles = [{ name: "", description: "that of the scenario" }, ...catalogue.vehicles];
+    const vehicle = this.changes.get("vehicle") ?? "";
+    const surface = choice(surfaces, schema.surface, choose("wall.surface"));
     this.choices.replaceChildren(
-      select("Scenario", catalogue.scenarios, this.changes.scenario, (name) => {
-        this.changes.clear();
-        this.changes.scenario = name;
-        this.reflights.stands = undefined;
-        this.rebuild();
-      }),
-      ...(schema.surface === ""
-        ? []
-        : [select("Surface", catalogue.surfaces, schema.surface, choose("wall.surface"))]),
-      select("Vehicle", [...unchanged, ...catalogue.vehicles], vehicle ?? "", (name) => {
-        if (name === "") {
-          this.changes.drop("vehicle");
-          this.rebuild();
-        } else {
-          choose("vehicle")(name);
-        }
-      }),
+      labelled("Scenario", choice(scenarios, this.changes.scenario, begin)),
+      ...(schema.surface === "" ? [] : [labelled("Surface", surface)]),
+      labelled("Vehicle", choice(vehicles, vehicle, choose("vehicle"))),
       labelled("Seed", seed),
     );
   }

@@ -4,10 +4,6 @@ import { about, button, element, field, labelled, options, tools } from "./eleme
 import { Job, type JobHost } from "./job";
 import * as server from "./server";
 
-export interface LearnHost extends JobHost {
-  wish(): server.Wish;
-}
-
 const kBars = 15;
 const kUsual = "impact_force_N";
 
@@ -46,7 +42,7 @@ export class Learn {
   private readonly broken = element("p", { className: "what" });
   private state: server.LearnState | undefined;
 
-  constructor(private readonly host: LearnHost) {
+  constructor(private readonly host: JobHost) {
     this.job = new Job(host, "Flights flown", "Begin no more flights", server.learnStop);
     this.metric.addEventListener("change", () => this.draw());
     const fly = button("Turn them all", "Two flights for each number of the scenario", () =>

@@ -7,7 +7,7 @@ import { about, button, element, labelled, tools } from "./element";
 import type { JobHost } from "./job";
 import { Parameters } from "./live_parameters";
 
-export interface LiveHost extends JobHost {
+export interface LiveHost extends Pick<JobHost, "trying"> {
   /** Shows its latest state until another time is sought. */
   follow(recording: Recording): void;
   grown(recording: Recording): void;

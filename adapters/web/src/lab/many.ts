@@ -9,7 +9,6 @@ import { type AxisOf, drawMark, SuccessMap, type Value } from "./map";
 import * as server from "./server";
 
 export interface ManyHost extends JobHost {
-  wish(): server.Wish;
   watch(recording: Recording): void;
 }
 

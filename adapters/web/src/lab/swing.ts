@@ -8,7 +8,6 @@ import { Job, type JobHost } from "./job";
 import * as server from "./server";
 
 export interface SwingHost extends JobHost {
-  wish(): server.Wish;
   /** Numbers of the scenario take these values, and it is flown. */
   turn(values: [string, number][], brief: boolean): void;
 }
