@@ -39,7 +39,7 @@ class OneClock(unittest.TestCase):
         watch.until("approaching", lambda w: w.status.state_name == "approaching", 90)
         with self.lock:
             times = self.times[:]
-        # A second one would say times between, or again.
+        # A second one would publish times between, or again.
         steps = [later - sooner for sooner, later in zip(times, times[1:])]
         self.assertGreater(len(steps), 1000)
         self.assertAlmostEqual(min(steps), STEP_S, delta=1e-6)

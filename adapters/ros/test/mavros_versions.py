@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A MAVROS of each definition of its State: understood, or said which message is another one."""
+"""A MAVROS of each definition of its State: understood, or the log names the message of another one."""
 import os
 import sys
 import threading
@@ -50,7 +50,7 @@ class MavrosVersions(unittest.TestCase):
             self.news.notify_all()
 
     def meet(self, fields, so):
-        """Until so(): a new perching_node hears a MAVROS with this State."""
+        """Until so(): a new perching_node receives from a MAVROS with this State."""
         node = start("limpet_ros", "perching_node", "_scenario:=perch_concrete")
         self.addCleanup(node.end)
         kind = state_class(fields)

@@ -8,7 +8,7 @@
 namespace limpet::ros {
 namespace {
 
-/// A vehicle at rest on the wall, as its nodes tell it; its mission is over.
+/// A vehicle at rest on the wall, as its nodes publish it; its mission is over.
 class AWorldReset : public testing::Test {
 protected:
     AWorldReset() {
@@ -115,7 +115,7 @@ TEST_F(AWorldReset, DoesNotBelieveWhatWasOnItsWay) {
     EXPECT_FALSE(guidance_.setpoint.pump_on);
     EXPECT_FALSE(received_.answer().has_value());
     EXPECT_EQ(events_.count, 0U);
-    // What is said in this flight counts, at its very tick too.
+    // Messages of this flight count, at its first tick too.
     received_.receive(pump_on(received_.clock_s()));
     received_.receive(status(received_.clock_s()));
     take();
@@ -139,25 +139,25 @@ TEST(GuidanceHeard, IsBehindWhenItsNextWordIsLate) {
             (void)received.tick(seconds(tick));
         }
     };
-    const auto say = [&] {
+    const auto send = [&] {
         limpet_ros::PerchingStatus status;
         status.header.stamp = ros_time(received.clock_s());
         received.receive(status);
     };
     fly_to(10.0);
     EXPECT_FALSE(received.guidance_is_behind()) << "nobody was received";
-    say();
+    send();
     fly_to(10.02);
-    say();
+    send();
     EXPECT_FALSE(received.guidance_is_behind());
     fly_to(10.045);
     EXPECT_FALSE(received.guidance_is_behind()) << "a clock's tick late";
     fly_to(10.06);
     EXPECT_TRUE(received.guidance_is_behind());
-    say();
+    send();
     EXPECT_FALSE(received.guidance_is_behind());
     fly_to(10.16);  // a slower one, once it has been received twice
-    say();
+    send();
     fly_to(10.26);
     EXPECT_FALSE(received.guidance_is_behind());
 }

@@ -71,7 +71,7 @@ class Tree:
         test.assertGreater(turned(q, [1, 0, 0])[0], math.cos(math.radians(8)), "into the wall, tilted by what hangs on it")
 
     def joints_stand_as_the_frames_do(self, test):
-        """The URDF's joints at joint_states are tf's frames: a robot_state_publisher would say the same."""
+        """The URDF's joints at joint_states are tf's frames: a robot_state_publisher would publish the same."""
         robot = xml.fromstring(rospy.get_param("/robot_description"))
         joints = one_of("/joint_states", JointState)
         test.assertEqual(sorted(joints.name), ["cup_pitch", "cup_yaw", "slider"])

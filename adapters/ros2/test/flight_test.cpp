@@ -86,7 +86,7 @@ TEST_F(Ros2Flight, PerchesByServiceAndTakesOffAsAnAction) {
                              const std::lock_guard lock(mutex_);
                              status_ = decode<limpet_ros::PerchingStatus>(bytes).value();
                          });
-    std::map<std::string, std::set<std::string>> log;  // of INFO, by who line it; by mutex_
+    std::map<std::string, std::set<std::string>> log;  // of INFO, by node; by mutex_
     const auto rosout =
         node_->subscribe("/rosout", rcl_interfaces::Log::kType,
                          {.transient_local = true, .depth = 100}, [&](const Bytes& bytes) {

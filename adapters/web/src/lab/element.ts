@@ -35,6 +35,27 @@ export function choice(
   return list;
 }
 
+/** What an input takes, and what it holds. */
+interface Field {
+  min?: number;
+  max?: number;
+  step?: "any" | "1";
+  value?: number | string;
+  ariaLabel?: string;
+}
+export const field = (type: "number" | "range", takes: Field = {}): HTMLInputElement =>
+  element("input", Object.assign({ type, step: "any" }, takes) as Partial<HTMLInputElement>);
+
+export const options = (names: string[]): HTMLOptionElement[] =>
+  names.map((name) => element("option", { value: name }, name));
+
+/** A row of buttons. */
+export const tools = (...inside: (Node | string)[]): HTMLElement =>
+  element("div", { className: "tools" }, ...inside);
+
+/** What a part of the page is for. */
+export const about = (text: string): HTMLElement => element("p", { className: "what" }, text);
+
 /** Saves a file under this name. */
 export function download(name: string, address: string): void {
   element("a", { download: name, href: address }).click();

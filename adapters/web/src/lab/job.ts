@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work of the server that takes a while: it is begun, followed to its end, and can be stopped.
 import { button, element } from "./element";
+import type { Wish } from "./server";
 
 export interface JobHost {
+  /** The scenario with its changes. */
+  wish(): Wish;
   /** Shows the message of an error. */
   trying(does: () => Promise<void>): Promise<void>;
 }

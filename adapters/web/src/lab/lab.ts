@@ -2,7 +2,17 @@
 // Every parameter of a scenario as a slider; the flight follows.
 import type { Recording } from "../recording/recording";
 import { Changes, rounded, slide } from "./changes";
-import { button, choice, download, element, labelled, messageOf, tabs } from "./element";
+import {
+  button,
+  choice,
+  download,
+  element,
+  field,
+  labelled,
+  messageOf,
+  tabs,
+  tools,
+} from "./element";
 import { Learn } from "./learn";
 import { Live } from "./live";
 import { Many } from "./many";
@@ -63,14 +73,12 @@ export class Lab {
       reflown: (recording, delay_ms) => this.reflown(recording, delay_ms),
       over: (brief) => this.reportLater(brief ? kCalm_ms : 0),
     });
-    const tools = element(
-      "div",
-      { className: "tools" },
+    const row = tools(
       button("As it ships", "Forget all changes", () => this.reset()),
       button("Save YAML", "The scenario with its changes, as a file", () => void this.save()),
       button("Copy command", "The command line that flies this", () => void this.copy()),
     );
-    const one = element("div", {}, this.diff, tools, this.search, this.sections);
+    const one = element("div", {}, this.diff, row, this.search, this.sections);
     this.many = new Many(this);
     this.learn = new Learn(this);
     this.swing = new Swing(this);
@@ -80,7 +88,7 @@ export class Lab {
       grown: (recording) => this.host.grown(recording),
     });
     this.learn.element.append(this.swing.element);
-    const row = tabs("What to do", [
+    const heads = tabs("What to do", [
       { name: "One", panel: one },
       { name: "Many", panel: this.many.element, shown: () => this.many.shown() },
       {
@@ -92,7 +100,7 @@ export class Lab {
       { name: "Live", panel: this.live.element },
     ]);
     const panels = [one, this.many.element, this.learn.element, this.live.element];
-    place.append(this.choices, this.status, row, ...panels);
+    place.append(this.choices, this.status, heads, ...panels);
     void this.begin();
   }
 
@@ -152,42 +160,35 @@ export class Lab {
     if (catalogue === undefined) {
       return;
     }
-    const select = (...[label, ...list]: [string, ...Parameters<typeof choice>]): HTMLElement =>
-      labelled(label, choice(...list));
+    /** @param name  empty: as in the scenario */
     const choose = (key: string) => (name: string) => {
-      this.changes.set(key, name);
+      if (name === "") {
+        this.changes.drop(key);
+      } else {
+        this.changes.set(key, name);
+      }
       this.rebuild();
     };
-    const vehicle = this.changes.get("vehicle");
-    const unchanged = [{ name: "", description: "that of the scenario" }];
-    const seed = element("input", {
-      type: "number",
-      min: "0",
-      step: "1",
-      value: this.changes.get("seed") ?? String(schema.seed),
-    });
+    const begin = (name: string): void => {
+      this.changes.clear();
+      this.changes.scenario = name;
+      this.reflights.stands = undefined;
+      this.rebuild();
+    };
+    const value = this.changes.get("seed") ?? schema.seed;
+    const seed = field("number", { min: 0, step: "1", value });
     seed.addEventListener("change", () => {
       this.changes.set("seed", String(Math.max(0, Math.round(Number(seed.value)))));
       this.refly(false);
     });
+    const { scenarios, surfaces } = catalogue;
+    const vehicles = [{ name: "", description: "that of the scenario" }, ...catalogue.vehicles];
+    const vehicle = this.changes.get("vehicle") ?? "";
+    const surface = choice(surfaces, schema.surface, choose("wall.surface"));
     this.choices.replaceChildren(
-      select("Scenario", catalogue.scenarios, this.changes.scenario, (name) => {
-        this.changes.clear();
-        this.changes.scenario = name;
-        this.reflights.stands = undefined;
-        this.rebuild();
-      }),
-      ...(schema.surface === ""
-        ? []
-        : [select("Surface", catalogue.surfaces, schema.surface, choose("wall.surface"))]),
-      select("Vehicle", [...unchanged, ...catalogue.vehicles], vehicle ?? "", (name) => {
-        if (name === "") {
-          this.changes.drop("vehicle");
-          this.rebuild();
-        } else {
-          choose("vehicle")(name);
-        }
-      }),
+      labelled("Scenario", choice(scenarios, this.changes.scenario, begin)),
+      ...(schema.surface === "" ? [] : [labelled("Surface", surface)]),
+      labelled("Vehicle", choice(vehicles, vehicle, choose("vehicle"))),
       labelled("Seed", seed),
     );
   }
@@ -228,21 +229,9 @@ export class Lab {
       const value = now === undefined ? row.value : Number(now);
       const [from, to] = slide(row.value, row.minimum, row.maximum);
       const step = row.kind === "count" ? "1" : "any";
-      const slider = element("input", {
-        type: "range",
-        min: String(from),
-        max: String(to),
-        step,
-        value: String(value),
-        ariaLabel: `${row.key}, slider`,
-      });
-      const number = element("input", {
-        type: "number",
-        min: String(row.minimum),
-        max: String(row.maximum),
-        step,
-        value: String(value),
-      });
+      const ariaLabel = `${row.key}, slider`;
+      const slider = field("range", { min: from, max: to, step, value, ariaLabel });
+      const number = field("number", { min: row.minimum, max: row.maximum, step, value });
       const ships = String(row.value);
       const slid = (brief: boolean): void => {
         const to_take = rounded(Number(slider.value), from, to);

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which parameters a number of the flight depends on: each is changed alone, down and up.
-import { button, element, labelled } from "./element";
+import { about, button, element, field, labelled, options, tools } from "./element";
 import { Job, type JobHost } from "./job";
 import * as server from "./server";
-
-export interface LearnHost extends JobHost {
-  wish(): server.Wish;
-}
 
 const kBars = 15;
 const kUsual = "impact_force_N";
@@ -39,33 +35,25 @@ export function strongest(state: server.LearnState, metric: string, count: numbe
 
 export class Learn {
   readonly element = element("div", { className: "many learn" });
-  private readonly share = element("input", {
-    type: "number",
-    min: "0.1",
-    max: "90",
-    step: "any",
-    value: "10",
-  });
+  private readonly share = field("number", { min: 0.1, max: 90, value: 10 });
   private readonly metric = element("select", {});
   private readonly job: Job;
   private readonly bars = element("ol", { className: "bars" });
   private readonly broken = element("p", { className: "what" });
   private state: server.LearnState | undefined;
 
-  constructor(private readonly host: LearnHost) {
+  constructor(private readonly host: JobHost) {
     this.job = new Job(host, "Flights flown", "Begin no more flights", server.learnStop);
     this.metric.addEventListener("change", () => this.draw());
     const fly = button("Turn them all", "Two flights for each number of the scenario", () =>
       this.begin(),
     );
     this.element.append(
-      element(
-        "p",
-        { className: "what" },
+      about(
         "The scenario above with its changes; each of its numbers turned alone, less and more, with the same random numbers.",
       ),
       labelled("Turned by", this.share, "%"),
-      element("div", { className: "tools" }, fly, this.job.stop),
+      tools(fly, this.job.stop),
       this.job.bar,
       this.job.status,
       labelled("What it does to", this.metric),
@@ -96,9 +84,7 @@ export class Learn {
     this.state = state;
     this.job.show(state.running, state.flown, state.flights);
     if (this.metric.options.length === 0) {
-      this.metric.replaceChildren(
-        ...state.metrics.map((name) => element("option", { value: name }, name)),
-      );
+      this.metric.replaceChildren(...options(state.metrics));
       this.metric.value = kUsual;
     }
     this.draw();

@@ -3,11 +3,11 @@
 import { kColumns } from "../charts/panels";
 import { LiveFlight, liveAddress } from "../recording/live";
 import type { Recording } from "../recording/recording";
-import { button, element, labelled } from "./element";
+import { about, button, element, labelled, tools } from "./element";
 import type { JobHost } from "./job";
 import { Parameters } from "./live_parameters";
 
-export interface LiveHost extends JobHost {
+export interface LiveHost extends Pick<JobHost, "trying"> {
   /** Shows its latest state until another time is sought. */
   follow(recording: Recording): void;
   grown(recording: Recording): void;
@@ -31,7 +31,7 @@ export class Live {
   });
   private readonly end = button("Leave", "Watch it no more; it flies on", () => this.leave());
   private readonly now = button("Now", "Follow it again", () => this.follow());
-  private readonly services = element("div", { className: "tools" });
+  private readonly services = tools();
   private readonly parameters = new Parameters((name, value) => this.flight?.set(name, value));
   private readonly status = element("output", { className: "status" });
   private readonly lines = element("ul", { className: "diff", ariaLabel: "Lines of the flight" });
@@ -48,13 +48,11 @@ export class Live {
       }
     });
     this.element.append(
-      element(
-        "p",
-        { className: "what" },
+      about(
         "A flight in progress on this machine: fly, companion or sim-io with --live prints its address.",
       ),
       labelled("Address", this.address),
-      element("div", { className: "tools" }, watch, this.now, this.end),
+      tools(watch, this.now, this.end),
       this.status,
       this.services,
       this.lines,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parameters that a flight in progress lets viewers set. The flight checks each value; the page shows those that hold.
 import type { Parameter } from "../recording/live";
-import { element, labelled } from "./element";
+import { element, field, labelled } from "./element";
 
 interface Row {
   row: HTMLElement;
@@ -46,7 +46,7 @@ export class Parameters {
     this.filter();
   }
   private make({ name, minimum, maximum }: Parameter): Row {
-    const input = element("input", { type: "number", step: "any" });
+    const input = field("number");
     input.addEventListener("change", () => this.set(name, Number(input.value)));
     const row = element(
       "div",

@@ -3,13 +3,12 @@
 import { kColumns } from "../charts/panels";
 import { type Recording, readRecording } from "../recording/recording";
 import { AxisChoice } from "./axis";
-import { button, element, labelled } from "./element";
+import { button, element, field, labelled, options, tools } from "./element";
 import { Job, type JobHost } from "./job";
 import { type AxisOf, drawMark, SuccessMap, type Value } from "./map";
 import * as server from "./server";
 
 export interface ManyHost extends JobHost {
-  wish(): server.Wish;
   watch(recording: Recording): void;
 }
 
@@ -23,14 +22,14 @@ export class Many {
     new AxisChoice("Along", { count: 6, otherwise: "guidance.dock_speed_m_s", none: true }),
     new AxisChoice("and along", { count: 6, otherwise: "", none: true }),
   ] as const;
-  private readonly repeats = element("input", { type: "number", min: "1", value: "10" });
+  private readonly repeats = field("number", { min: 1, step: "1", value: 10 });
   private readonly own: HTMLElement;
   private readonly job: Job;
   private readonly across = element("select", { ariaLabel: "Across the map" });
   private readonly up = element("select", { ariaLabel: "Up the map" });
   private readonly legend = element("ul", { className: "legend" });
   private readonly map = new SuccessMap((run) => void this.look(run));
-  private readonly run = element("input", { type: "number", min: "0", value: "0" });
+  private readonly run = field("number", { min: 0, step: "1", value: 0 });
   private readonly found = element("div", { className: "found", hidden: true });
   private campaigns: server.Named[] = [];
   private state: server.ManyState | undefined;
@@ -54,17 +53,17 @@ export class Many {
       this.look(Number(this.run.value)),
     );
     this.found.append(
-      element("div", { className: "tools" }, labelled("Across", this.across)),
-      element("div", { className: "tools" }, labelled("Up", this.up)),
+      tools(labelled("Across", this.across)),
+      tools(labelled("Up", this.up)),
       this.map.canvas,
       this.legend,
-      element("div", { className: "tools" }, labelled("Run", this.run), look),
+      tools(labelled("Run", this.run), look),
     );
     this.element.append(
       labelled("Campaign", this.campaign),
       this.about,
       this.own,
-      element("div", { className: "tools" }, fly, this.job.stop),
+      tools(fly, this.job.stop),
       this.job.bar,
       this.job.status,
       this.found,
@@ -76,7 +75,7 @@ export class Many {
     this.campaigns = campaigns;
     this.campaign.replaceChildren(
       element("option", { value: kOwn }, "this scenario over its parameters"),
-      ...campaigns.map(({ name }) => element("option", { value: name }, name)),
+      ...options(campaigns.map(({ name }) => name)),
     );
     this.campaign.value = before;
     for (const axis of this.axes) {
@@ -164,7 +163,7 @@ export class Many {
   private offerAxes(state: server.ManyState): void {
     const names = [...state.keys.map(({ key }) => key), "repeat", ...state.metrics];
     for (const select of [this.across, this.up]) {
-      select.replaceChildren(...names.map((name) => element("option", { value: name }, name)));
+      select.replaceChildren(...options(names));
     }
     this.across.value = names[0] ?? "repeat";
     this.up.value = names[1] ?? "repeat";

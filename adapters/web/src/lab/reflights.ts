@@ -2,6 +2,7 @@
 // A hand moves a slider; the scenario is flown again and again, as fast as pictures come.
 import { kColumns } from "../charts/panels";
 import { kSceneTopics, type Recording, readRecording } from "../recording/recording";
+import type { JobHost } from "./job";
 import * as server from "./server";
 
 /** Where the time goes from a hand to the picture [ms]. */
@@ -15,9 +16,7 @@ export interface Delay {
   picture: number; // until it has been drawn
 }
 
-export interface ReflightsHost {
-  wish(): server.Wish;
-  trying(does: () => Promise<void>): Promise<void>;
+export interface ReflightsHost extends JobHost {
   /** Over the flight that stands. @param brief  others follow at once */
   watch(recording: Recording, brief: boolean): void;
   /** What is watched stands there. */

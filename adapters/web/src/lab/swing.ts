@@ -2,13 +2,12 @@
 // The swing on the cup while it waits for the release: its growth over two numbers of the scenario.
 import { AxisChoice } from "./axis";
 import { rounded } from "./changes";
-import { button, element } from "./element";
+import { about, button, element, field, tools } from "./element";
 import { GrowthMap } from "./growth";
 import { Job, type JobHost } from "./job";
 import * as server from "./server";
 
 export interface SwingHost extends JobHost {
-  wish(): server.Wish;
   /** Numbers of the scenario take these values, and it is flown. */
   turn(values: [string, number][], brief: boolean): void;
 }
@@ -31,7 +30,7 @@ export class Swing {
     this.host.turn([...this.numbers(this.across, across), ...this.numbers(this.up, up)], false),
   );
   private readonly sliders = [this.across, this.up].map((axis) => {
-    const slider = element("input", { type: "range", step: "any" });
+    const slider = field("range");
     const slid = (brief: boolean): void =>
       this.host.turn(this.numbers(axis, Number(slider.value)), brief);
     slider.addEventListener("input", () => slid(true));
@@ -50,16 +49,12 @@ export class Swing {
     }
     this.element.append(
       element("h2", {}, "The swing on the cup"),
-      element(
-        "p",
-        { className: "what" },
+      about(
         "While it waits for the release: growth of the pitch swing by the linearised loop, noise and gusts left out. Orange grows, blue decays; the ring is the vehicle as it is. A click on the map turns both numbers.",
       ),
       this.across.element,
       this.up.element,
-      element(
-        "div",
-        { className: "tools" },
+      tools(
         button("Draw the map", "Growth at each of these values", () => this.begin()),
         this.job.stop,
       ),

@@ -277,22 +277,21 @@ class Page {
       return;
     }
     const kStep_s = event.shiftKey ? 1 : 0.05;
-    const chosen = kViews[Number(event.key) - 1];
-    if (event.key === " " && !(event.target instanceof HTMLButtonElement)) {
-      this.toggle();
-    } else if (event.key === "ArrowRight") {
-      this.seek(this.player.time + kStep_s);
-    } else if (event.key === "ArrowLeft") {
-      this.seek(this.player.time - kStep_s);
-    } else if (event.key === "Home") {
-      this.seek(0);
-    } else if (event.key === "End") {
-      this.seek(this.player.end);
-    } else if (chosen !== undefined) {
-      this.view(chosen[0]);
-    } else {
+    const does = new Map<string, () => void>([
+      ["ArrowRight", () => this.seek(this.player.time + kStep_s)],
+      ["ArrowLeft", () => this.seek(this.player.time - kStep_s)],
+      ["Home", () => this.seek(0)],
+      ["End", () => this.seek(this.player.end)],
+      ...kViews.map(([name], k): [string, () => void] => [`${k + 1}`, () => this.view(name)]),
+    ]);
+    if (!(event.target instanceof HTMLButtonElement)) {
+      does.set(" ", () => this.toggle());
+    }
+    const act = does.get(event.key);
+    if (act === undefined) {
       return;
     }
+    act();
     event.preventDefault();
   }
   private theme(): void {
