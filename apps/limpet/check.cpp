@@ -74,8 +74,9 @@ void check_recording(const std::string& file) {
     if (!recording.damage.empty()) {
         throw InputError(file + ": " + recording.damage);
     }
-    fmt::print("{}: a whole recording, {} topics, {} events\n", file, recording.tables.size(),
-               recording.events.size());
+    fmt::print("{}: a whole recording, {} topic{}, {} event{}\n", file, recording.tables.size(),
+               recording.tables.size() == 1 ? "" : "s", recording.events.size(),
+               recording.events.size() == 1 ? "" : "s");
     for (const std::string& remark : recording.remarks) {
         fmt::print("  {}\n", remark);
     }
@@ -102,8 +103,8 @@ void check_scenario(const Checked& it) {
     const scenario::Scenario scenario = scenario::load_scenario(it.file.string());
     (void)simulation::build_model(scenario);  // the plant compiles it as well
     const std::vector<std::string> warnings = remarks::warnings(scenario);
-    fmt::print("{}: a good scenario: {}{}\n", it.name, scenario.description,
-               counted(warnings.size()));
+    fmt::print("{}: a good scenario{}{}{}\n", it.name, scenario.description.empty() ? "" : ": ",
+               scenario.description, counted(warnings.size()));
     for (const remarks::Note& note : remarks::notes_of(scenario)) {
         if (!note.warns) {
             fmt::print("  {}\n", note.text);
@@ -213,6 +214,12 @@ void check_log(const Checked& it) {
             parts.push_back(fmt::format("{} {}", what, count));
         }
     }
+    if (parts.empty()) {
+        throw InputError(
+            fmt::format("{}: a log ({}) without pressure, gyro, motor commands, "
+                        "velocity or force: nothing to identify or calibrate by",
+                        it.name, log.kind));
+    }
     const std::vector<std::string> remarks = log_remarks(log);
     fmt::print("{}: a good log ({}), samples: {}{}\n", it.name, log.kind, fmt::join(parts, ", "),
                counted(remarks.size()));
@@ -229,14 +236,6 @@ void check_yaml(const Checked& it) {
         case scenario::FileKind::campaign: check_campaign(it); break;
         case scenario::FileKind::companion: check_companion(it); break;
     }
-}
-
-/// A recording, one that is being written or was cut short, or one that is packed as a whole.
-bool is_recording_name(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    const bool more =
-        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
-    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 
 /// By how its name ends, and YAML by what is in it.

@@ -49,6 +49,10 @@ void print_files(const std::vector<std::filesystem::path>& files);
 /// @throws InputError naming it
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// Whether a file's name is that of a recording, of one that is being written or was cut short, or
+/// of one that is packed as a whole.
+[[nodiscard]] bool is_recording_name(const std::filesystem::path& file);
+
 /// By the desktop's own means; who has none is told to do it.
 void open_in_browser(const std::string& page);
 
