@@ -28,6 +28,7 @@
 #include "limpet/simulation/flight.hpp"
 #include "limpet/simulation/model.hpp"
 #include "limpet/simulation/wire_log.hpp"
+#include "output.hpp"
 
 namespace limpet::app {
 namespace {
@@ -87,8 +88,12 @@ void check_recording(const std::string& file) {
     if (!recording.damage.empty()) {
         throw InputError(file + ": " + recording.damage);
     }
-    print_verdict(fmt::format("{}: a whole recording, {} topics, {} events", file,
-                              recording.tables.size(), recording.events.size()),
+    const auto counted_of = [](std::size_t count, const char* what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    print_verdict(fmt::format("{}: a whole recording, {}, {}", file,
+                              counted_of(recording.tables.size(), "topic"),
+                              counted_of(recording.events.size(), "event")),
                   {}, recording.remarks);
 }
 
@@ -107,7 +112,8 @@ void check_scenario(const Checked& it) {
             notes.push_back(note.text);
         }
     }
-    print_verdict(fmt::format("{}: a good scenario: {}", it.name, scenario.description),
+    print_verdict(fmt::format("{}: a good scenario{}{}", it.name,
+                              scenario.description.empty() ? "" : ": ", scenario.description),
                   remarks::warnings(scenario), notes);
 }
 
@@ -209,6 +215,12 @@ void check_log(const Checked& it) {
             parts.push_back(fmt::format("{} {}", what, count));
         }
     }
+    if (parts.empty()) {
+        throw InputError(
+            fmt::format("{}: a log ({}) without pressure, gyro, motor commands, "
+                        "velocity or force: nothing to identify or calibrate by",
+                        it.name, log.kind));
+    }
     print_verdict(
         fmt::format("{}: a good log ({}), samples: {}", it.name, log.kind, fmt::join(parts, ", ")),
         log_remarks(log), log.remarks);
@@ -221,14 +233,6 @@ void check_yaml(const Checked& it) {
         case scenario::FileKind::campaign: check_campaign(it); break;
         case scenario::FileKind::companion: check_companion(it); break;
     }
-}
-
-/// A recording, one that is being written or was cut short, or one that is packed as a whole.
-bool is_recording_name(const fs::path& file) {
-    const std::string ending = file.extension().string();
-    const bool more =
-        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
-    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
 }
 
 /// By how its name ends, and YAML by what is in it.

@@ -92,6 +92,13 @@ void write_file(const fs::path& path, const std::string& text) {
     }
 }
 
+bool is_recording_name(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    const bool more =
+        ending == ".part" || ending == ".zstd" || ending == ".zst" || ending == ".lz4";
+    return ending == ".mcap" || (more && file.stem().extension() == ".mcap");
+}
+
 void open_in_browser(const std::string& page) {
     if (spawn({.words = {"xdg-open", page}}).error != 0) {
         complain("no xdg-open here: open " + page + " in a browser");

@@ -62,6 +62,10 @@ void print_files(const Files& files);
 /// @throws InputError naming it
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// Whether a file's name is that of a recording, of one that is being written or was cut short, or
+/// of one that is packed as a whole.
+[[nodiscard]] bool is_recording_name(const std::filesystem::path& file);
+
 /// By xdg-open; without it a line on standard error asks the user to do it.
 void open_in_browser(const std::string& page);
 

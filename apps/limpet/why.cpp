@@ -9,6 +9,7 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
+#include "limpet/core/user_text.hpp"
 #include "limpet/record/recording.hpp"
 #include "limpet/record/story.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -31,14 +32,25 @@ struct WhyOptions {
 struct Subject {
     std::string name;
     std::string yaml;
+    bool of_recording = false;
     record::Summary recorded;
 };
 
+/// What a recording calls its scenario becomes the name of a folder, where it is fit for one: a
+/// stranger's may be a path.
+std::string name_in(const record::Summary& recorded) {
+    constexpr std::size_t kLongest = 100;
+    const std::string& name = recorded.scenario;
+    const bool plain =
+        !name.empty() && name.size() <= kLongest && name[0] != '.' && name.find('/') == name.npos;
+    return plain ? name : "recording";
+}
+
 Subject subject_of(const WhyOptions& options) {
-    if (!options.wanted.ends_with(".mcap")) {
+    if (!is_recording_name(options.wanted)) {
         const auto scenario =
             scenario::load_scenario(options.wanted, {.overrides = options.overrides});
-        return {scenario.name, to_yaml(scenario), {}};
+        return {scenario.name, to_yaml(scenario), false, {}};
     }
     const record::Recording recording = record::read_recording(options.wanted);
     const mcap::Attachment* text = recording.attachment("scenario.yaml");
@@ -47,10 +59,10 @@ Subject subject_of(const WhyOptions& options) {
                          ": has no scenario to fly again: a recording of limpet's, or a scenario");
     }
     record::Summary recorded = summary(recording);
-    const std::string name = recorded.scenario.empty() ? "recording" : recorded.scenario;
-    const auto scenario =
-        scenario::load_scenario_text(text->text, name, {.overrides = options.overrides});
-    return {name, to_yaml(scenario), std::move(recorded)};
+    const auto scenario = scenario::load_scenario_text(
+        text->text, options.wanted + ": scenario.yaml", {.overrides = options.overrides});
+    const std::string name = name_in(recorded);
+    return {name, to_yaml(scenario), true, std::move(recorded)};
 }
 
 /// What was recorded and what is flown may be two flights.
@@ -75,13 +87,14 @@ ExitCode explain(const WhyOptions& options) {
                .stop = stop_on_signals(),
                .tell = [&terminal](const std::string& what) { terminal.progress(what); }});
     terminal.progress("");
-    std::string again = options.wanted;
-    if (again.ends_with(".mcap")) {
-        again = (folder.path() / "scenario.yaml").string();
-        write_file(again, subject.yaml);
-    }
-    for (const std::string& one : options.overrides) {
-        again += again.ends_with("scenario.yaml") ? "" : " --set " + one;
+    const std::filesystem::path spelled_out = folder.path() / "scenario.yaml";
+    std::string again = for_shell(subject.of_recording ? spelled_out.string() : options.wanted);
+    if (subject.of_recording) {
+        write_file(spelled_out, subject.yaml);
+    } else {
+        for (const std::string& one : options.overrides) {
+            again += " --set " + for_shell(one);
+        }
     }
     fmt::print("{}", options.json ? why_json(found) + "\n" : why_text(found, again));
     write_file(folder.path() / "why.json", why_json(found) + "\n");

@@ -168,7 +168,7 @@ void RemoteGuidance::hear_text(const mavlink::StatusText& text, double time_s,
             guidance.attempt = ++approaches_;
         }
     } else {
-        last_words_ = keep(mavlink::text_of(text.text));
+        last_words_ = mavlink::text_of(text.text);
     }
 }
 

@@ -90,7 +90,7 @@ private:
     std::optional<guidance::Ending> ending_;
     std::deque<std::string> texts_;  ///< addresses stay
     /// Of a companion that ends without an outcome: "handed back: reason".
-    std::string_view last_words_ = "the companion ended its mission";
+    std::string last_words_ = "the companion ended its mission";
     OutsideCount count_;
 };
 

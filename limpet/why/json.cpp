@@ -91,6 +91,7 @@ std::string why_json(const Found& found) {
         {"others", others},
         {"keys", json_of(found.keys)},
         {"parts", json_of(found.parts)},
+        {"faults", found.faults},
         {"flights", found.flights},
         {"wall_s", found.wall_s}}
         .dump(2);

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "limpet/core/errors.hpp"
+#include "limpet/core/words.hpp"
 #include "limpet/why/why.hpp"
 
 namespace limpet::why {
@@ -30,8 +32,18 @@ private:
 
     [[nodiscard]] Trial whole(const Changes& changes, HoldTrace* trace = nullptr) {
         ++found_.flights;
-        return fly_trial(text_, changes,
-                         {.traces = trace != nullptr, .trace = trace, .stop = options_.stop});
+        Trial trial = fly_trial(
+            text_, changes, {.traces = trace != nullptr, .trace = trace, .stop = options_.stop});
+        if (options_.stop != nullptr && *options_.stop) {
+            throw Interrupted("interrupted; nothing was written");
+        }
+        note_fault(trial);
+        return trial;
+    }
+    void note_fault(const Trial& trial) {
+        if (!trial.fault.empty()) {
+            found_.faults.push_back(trial.fault);
+        }
     }
     /// Each of `turned` together with `with`, the best of each key, furthest first; keys that help
     /// alone.
@@ -78,6 +90,7 @@ std::vector<Trial> Search::screen(const std::vector<Change>& turned, const Chang
     found_.flights += trials.size();
     std::map<std::string, Trial> best;
     for (Trial& trial : fly_trials(text_, std::move(trials), screening_, options_.jobs)) {
+        note_fault(trial);
         if (!helps(trial, before)) {
             continue;
         }
@@ -109,7 +122,7 @@ Trial Search::milder(Trial trial) {
             const double middle =
                 near * to > 0.0 ? std::copysign(std::sqrt(near * to), to) : 0.5 * (near + to);
             // A person would write two digits.
-            changes[i].to = std::stod(fmt::format("{:.2g}", middle));
+            changes[i].to = number_of(fmt::format("{:.2g}", middle)).value_or(middle);
             if (changes[i].to == to || changes[i].to == near) {
                 break;
             }

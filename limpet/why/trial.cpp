@@ -131,10 +131,11 @@ Trial fly_trial(const scenario::ScenarioText& text, std::vector<Change> changes,
         }};
     try {
         trial.result = simulation::fly(model, {}, watched, 0, {.stop = options.stop});
-    } catch (const InternalError&) {
+    } catch (const InternalError& error) {
         if (trial.changes.empty()) {
             throw;
         }
+        trial.fault = error.what();
         return trial;
     }
     trial.flown = true;

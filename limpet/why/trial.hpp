@@ -38,7 +38,8 @@ enum class Stage {
 /// A flight and how far it came.
 struct Trial {
     std::vector<Change> changes;
-    bool flown = false;  ///< false: its values do not go together
+    bool flown = false;  ///< false: its values do not go together, or a fault ended it
+    std::string fault;   ///< of ours, that ended it
     simulation::FlightResult result;
     std::vector<Hold> holds;
     Stage stage = Stage::nothing;

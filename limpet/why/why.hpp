@@ -44,7 +44,8 @@ struct Found {
     Trial and_then;
     std::vector<Trial>
         others;  ///< other pairs and single keys that reach the goal, mildest not sought
-    std::vector<HelpfulKey> parts;  ///< of what is built: each reaches the goal alone
+    std::vector<HelpfulKey> parts;    ///< of what is built: each reaches the goal alone
+    std::vector<std::string> faults;  ///< of ours, each ended a flight
     std::size_t flights = 0;
     double wall_s = 0.0;
 };
