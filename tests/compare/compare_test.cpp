@@ -376,9 +376,11 @@ TEST(CompareFigures, StatesHaveTheirNames) {
     }
     const std::string page = comparison_html(held, {}, pictures.files, folder.path(), "limpet");
     for (const char* text : {"first against second", "id=\"picture-cup\"", "cup_phase",
-                             "data:image/", "<h3 id=\"events-1\">"}) {
+                             "data:image/", "<h3 id=\"events-1\">", "since the last s"}) {
         EXPECT_THAT(page, HasSubstr(text));
     }
+    EXPECT_THAT(page, testing::ContainsRegex("number-cell\">[0-9]+[.][0-9][0-9][0-9]<"))
+        << "times to a millisecond, as numbers";
     const std::atomic<bool> stop = true;
     EXPECT_THROW((void)draw_comparison(first, others, held, folder.path() / "new", {.stop = &stop}),
                  Interrupted);
