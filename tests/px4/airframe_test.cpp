@@ -172,9 +172,9 @@ TEST(WrittenParams, LoadBackAsTheyWere) {
             row.name.starts_with("IMU_")) {
             // What is not written keeps its default, which is PX4's.
             const auto value = written.find(std::string(row.name));
-            EXPECT_EQ(value != written.end() ? std::stof(value->second)
-                                             : static_cast<float>(row.get({})),
-                      static_cast<float>(row.get(airframe.autopilot)))
+            EXPECT_EQ(
+                value != written.end() ? std::stof(value->second) : static_cast<float>(row.get({})),
+                static_cast<float>(row.get(airframe.autopilot)))
                 << row.name;
             ++compared;
         }
