@@ -16,7 +16,7 @@ double tipping_moment(const Airframe& airframe, double turn_rad) {
                           Eigen::AngleAxisd(pitch_on_legs_rad(airframe), Vector3::UnitY()))
                              .toRotationMatrix();
     const Vector3 joint_B_m(airframe.cup.joint_x_m, 0.0, airframe.cup.joint_z_m);
-    const Vector3 tip_B_m(airframe.legs.tip_x_m, -airframe.legs.tip_y_m, airframe.legs.tip_z_m);
+    const Vector3 tip_B_m(airframe.legs.tip_x_m, airframe.legs.tip_y_m, airframe.legs.tip_z_m);
     const Vector3 contact_W_m =
         R_WB * (tip_B_m - joint_B_m) + airframe.legs.tip_radius_m * Vector3::UnitX();
     const Vector3 moment = (R_WB * -joint_B_m).cross(Vector3::UnitZ());
