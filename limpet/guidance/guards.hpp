@@ -53,6 +53,7 @@ struct Scene {
 [[nodiscard]] bool wall_lost(const Scene& s);
 /// Leans farther against the wind than the wall can be left with.
 [[nodiscard]] bool too_windy(const Scene& s);
+[[nodiscard]] bool too_windy_across(const Scene& s);
 [[nodiscard]] bool force_lost(const Scene& s);
 /// A free cup is at atmospheric pressure: a sensor that says otherwise, or nothing, is broken.
 [[nodiscard]] bool pressure_implausible(const Scene& s);

@@ -5,6 +5,7 @@
 
 #include "limpet/core/errors.hpp"
 #include "limpet/guidance/guards.hpp"
+#include "limpet/guidance/lip_turn.hpp"
 #include "limpet/guidance/motion.hpp"
 
 namespace limpet::guidance {
@@ -58,6 +59,8 @@ constexpr std::array kTable = {
     ends(S::aligning, pressure_implausible, "pressure sensor stuck or silent", Outcome::aborted),
     ends(S::aligning, waited_too_long, "not perpendicular to the wall in time", Outcome::aborted),
     ends(S::aligning, too_windy, "too much wind: leans too far", Outcome::aborted),
+    ends(S::aligning, too_windy_across,
+         "too much wind along the wall: at rest it would tip over a leg", Outcome::aborted),
     Transition{S::aligning, wall_lost, S::pre_positioning, "LiDAR lost"},
     Transition{S::aligning, settled, S::approaching, "perpendicular to the wall",
                E::approach_started},
@@ -212,13 +215,16 @@ void enter(PerchingMemory& memory, const Transition& row, const guards::Scene& s
     }
     if (row.to == S::spinning_up || row.from == S::deciding) {
         memory.wind.side_m_s2 = 0.0;
+        memory.wind.turn_rad = lip_turn_rad(memory.wall.into_wall_W(), estimate.q_WB);
     }
     memory.since_s = s.time_s;
     memory.settled_since_s = -1.0;
     memory.rest.q_WB = estimate.q_WB;
     memory.entry_pressure_Pa = s.pressure_Pa();
     memory.entry_p_W_m = estimate.p_WB_m;
-    memory.entry_pitch_rad = attitude.pitch_rad;
+    memory.entry_pitch_rad = windy(s.parameters, memory)
+                                 ? pitch_on_lip_rad(memory.wall.into_wall_W(), estimate.q_WB)
+                                 : attitude.pitch_rad;
     memory.entry_yaw_rad = attitude.yaw_rad;
 }
 
@@ -243,9 +249,12 @@ void feel_wind(const PerchingParameters& parameters, PerchingMemory& memory,
                memory.state == S::levelled || memory.state == S::releasing ||
                memory.state == S::resealing) {
         memory.wind.side_m_s2 =
-            std::clamp(memory.wind.side_m_s2 -
-                           dt_s * parameters.side_integral_1_s3 * side_error_m(memory, estimate),
+            std::clamp(memory.wind.side_m_s2 - dt_s * parameters.side_integral_1_s3 *
+                                                   side_error_m(parameters, memory, estimate),
                        -parameters.side_limit_m_s2, parameters.side_limit_m_s2);
+        const double turned_rad = lip_turn_rad(memory.wall.into_wall_W(), estimate.q_WB);
+        memory.wind.turn_rad +=
+            dt_s / (parameters.wind_filter_s + dt_s) * (turned_rad - memory.wind.turn_rad);
     }
 }
 

@@ -94,6 +94,7 @@ struct WindFelt {
     Vector3 trim_W_m_s2 = Vector3::Zero();  ///< level; leant so before the wall, low-passed
     double most_m_s2 = 0.0;                 ///< the most that was needed there
     double side_m_s2 = 0.0;                 ///< what more it takes to keep its side on the cup
+    double turn_rad = 0.0;                  ///< by which the lip is turned on the wall, low-passed
     double updated_s = 0.0;                 ///< when this was last looked at
 };
 
