@@ -8,6 +8,7 @@
 
 #include "limpet/campaign/sampling.hpp"
 #include "limpet/core/signals/outcome.hpp"
+#include "limpet/core/work.hpp"
 #include "limpet/scenario/loader.hpp"
 
 namespace limpet::campaign {
@@ -35,9 +36,11 @@ struct Campaign {
 /// draws of what is not bounded.
 /// @param wanted  path of a file, or a name in campaigns/ of the data
 /// @param data    folder of the data; empty: data_root()
+/// @param work    asked between two scenarios: 1,300 of them take a second
 /// @throws InputError one line: file:line, key, value, what is allowed
+/// @throws Interrupted
 [[nodiscard]] Campaign load_campaign(const std::string& wanted,
-                                     const std::filesystem::path& data = {});
+                                     const std::filesystem::path& data = {}, const Work& work = {});
 
 /// The same from what a database of results holds: nothing else is read.
 /// @param scenarios  the texts of Campaign::scenarios

@@ -51,9 +51,10 @@ Fliers::Fliers(int jobs, const Campaign& campaign, RunSource& source,
     }
 }
 
-void fly_all(int jobs, const Campaign& campaign, RunSource& source) {
-    const Fliers others(jobs - 1, campaign, source, nullptr);
-    fly_lanes(campaign, source, nullptr);
+void fly_all(int jobs, const Campaign& campaign, RunSource& source,
+             const std::atomic<bool>* break_off) {
+    const Fliers others(jobs - 1, campaign, source, break_off);
+    fly_lanes(campaign, source, break_off);
 }
 
 }  // namespace limpet::campaign

@@ -42,6 +42,8 @@ private:
 
 /// The same on `jobs` threads, the calling one among them, until all are over; what is thrown goes
 /// to the source.
-void fly_all(int jobs, const Campaign& campaign, RunSource& source);
+/// @param break_off  may be null; then flights in progress are dropped
+void fly_all(int jobs, const Campaign& campaign, RunSource& source,
+             const std::atomic<bool>* break_off = nullptr);
 
 }  // namespace limpet::campaign

@@ -23,7 +23,8 @@ std::optional<RunToFly> Ledger::next() {
     while (std::binary_search(finished_.begin(), finished_.end(), next_)) {
         ++next_;
     }
-    if (failed_ || (watch_.stop != nullptr && *watch_.stop) || next_ >= end_) {
+    const auto set = [](const std::atomic<bool>* flag) { return flag != nullptr && *flag; };
+    if (failed_ || set(watch_.stop) || set(watch_.break_off) || next_ >= end_) {
         return std::nullopt;
     }
     const std::uint32_t run = next_++;

@@ -66,12 +66,13 @@ std::size_t variants(const CampaignFile& file) {
 }
 
 /// Spells the scenario out, once for each combination of named values.
-void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data) {
+void resolve(CampaignFile& file, const fs::path& folder, const fs::path& data, const Work& work) {
     Campaign& campaign = file.campaign;
     const std::string path = scenario_file(file, folder, data);
     campaign.scenario_name = fs::path(path).stem().string();
     const std::size_t count = variants(file);
     for (std::size_t variant = 0; variant < count; ++variant) {
+        work.say();
         scenario::LoadOptions options{.overrides = file.overrides,
                                       .seed = campaign.seed,
                                       .data_root = data,
@@ -182,20 +183,21 @@ void check_extremes(const Campaign& campaign, const LoadAsWritten& load) {
 
 }  // namespace
 
-Campaign load_campaign(const std::string& wanted, const fs::path& data) {
+Campaign load_campaign(const std::string& wanted, const fs::path& data, const Work& work) {
     const fs::path root = data.empty() ? scenario::data_root() : data;
     const fs::path path = scenario::find_file(wanted, "campaign", root / "campaigns");
     CampaignFile file = parse_campaign(scenario::read_yaml_text(path), scenario::shown_path(path),
                                        path.stem().string());
     try {
         require_apart(file);
-        resolve(file, path.parent_path(), root);
+        resolve(file, path.parent_path(), root, work);
         check_extremes(file.campaign, [&](const std::vector<std::string>& overrides) {
             scenario::LoadOptions options{.overrides = file.overrides,
                                           .seed = file.campaign.seed,
                                           .data_root = root,
                                           .folder = path.parent_path()};
             options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
+            work.say();
             (void)load_scenario(scenario_file(file, path.parent_path(), root), options);
         });
     } catch (const InputError& error) {

@@ -106,7 +106,7 @@ void fly_row(const Campaign& campaign, RunRow& row, const NoiseBlend& noise,
 
 Progress run_campaign(Results& results, int jobs, const CampaignWatch& watch, RunPlan plan) {
     Ledger ledger(results, watch, std::move(plan));
-    fly_all(jobs, results.campaign(), ledger);
+    fly_all(jobs, results.campaign(), ledger, watch.break_off);
     return ledger.conclude();
 }
 

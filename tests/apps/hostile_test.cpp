@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -28,9 +29,23 @@ std::string with_attachment(const std::string& name) {
     return mcap_bytes::recording(mcap_bytes::attachment(name, "mine now\n"));
 }
 
-std::string with_message_type(const std::string& type) {
-    return mcap_bytes::recording(mcap_bytes::channel("/t", "a/msg/B", type) +
-                                 mcap_bytes::message(0, std::string("\0\1\0\0", 4)));
+/// @param bodies  of its messages
+std::string with_message_type(const std::string& type,
+                              const std::vector<std::string>& bodies = {""}) {
+    std::string messages;
+    for (const std::string& body : bodies) {
+        messages += mcap_bytes::message(0, std::string("\0\1\0\0", 4) + body);
+    }
+    return mcap_bytes::recording(mcap_bytes::channel("/t", "a/msg/B", type) + messages);
+}
+
+/// A shell's limits ("-v 300000") on a run, whose words go to `out` and `err`.
+int exit_code_under(const Bench& bench, const std::string& limits, const std::string& arguments) {
+    const std::string command = "cd '" + bench.folder().string() + "' && ulimit -c 0 && " + limits +
+                                " && exec '" + std::string(LIMPET_PROGRAM) + "' " + arguments +
+                                " >out 2>err";
+    const int status = std::system(("exec sh -c \"" + command + "\"").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 TEST(Hostile, NoAttachmentLeadsOutOfTheFolder) {
@@ -60,6 +75,49 @@ TEST(Hostile, NoMessageTypeKeepsAReaderBusy) {
         expect_refused(bench.run({verb, "itself.mcap"}), {"message within itself"});
     }
     expect_refused(bench.run({"compare", "loop.mcap", "loop.mcap"}), {"more than 10000 fields"});
+}
+
+/// 20^16 fields in 3 kB, and 1,000 lists of 64 columns each, which every later row would have.
+TEST(Hostile, ATypesDefinitionBoundsWhatItCosts) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer reserves more than all";
+#endif
+    const std::string separator = std::string(80, '=') + "\nMSG: a/";
+    std::string tree;
+    for (int depth = 0; depth <= 15; ++depth) {
+        tree += depth > 0 ? separator + "T" + std::to_string(depth) + "\n" : "";
+        for (int i = 0; i < 20; ++i) {
+            tree += depth < 15 ? "T" + std::to_string(depth + 1) : std::string("float64");
+            tree += " f" + std::to_string(i) + "\n";
+        }
+    }
+    std::string type, full, empty;
+    for (int i = 0; i < 1000; ++i) {
+        type += "uint8[] c" + std::to_string(i) + "\n";
+        full += mcap_bytes::number(64, 4) + std::string(64, '\0');
+        empty += mcap_bytes::number(0, 4);
+    }
+    const Bench bench;
+    (void)bench.write("tree.mcap", with_message_type(tree));
+    (void)bench.write("wide.mcap", with_message_type(type, {full, empty, empty, empty}));
+    for (const std::string name : {"tree", "wide"}) {
+        const std::string line =
+            name + ".mcap: topic /t is not read: a/msg/B: more than 10000 fields\n";
+        for (const std::string verb : {"csv", "check", "plot", "compare"}) {
+            SCOPED_TRACE(verb + " " + name);
+            const std::string file = name + ".mcap";
+            EXPECT_EQ(exit_code_under(bench, "ulimit -t 20 && ulimit -v 500000",
+                                      verb + " " + file + (verb == "compare" ? " " + file : "")),
+                      2);
+            const std::string err = text_of(bench.folder() / "err");
+            EXPECT_THAT(err, testing::AllOf(testing::StartsWith("limpet: "), EndsWith(line)));
+            EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+        }
+        EXPECT_EQ(
+            exit_code_under(bench, "ulimit -t 20 && ulimit -v 500000", "view " + name + ".mcap"),
+            2);
+        EXPECT_THAT(text_of(bench.folder() / "err"), testing::StartsWith("limpet: " + name));
+    }
 }
 
 TEST(Hostile, WhatNeverEndsIsReadUpToItsBound) {
@@ -103,13 +161,6 @@ TEST(Hostile, NoMemoryEndsInALine) {
     GTEST_SKIP() << "a sanitizer reserves more than all";
 #endif
     const Bench bench;
-    const auto under = [&](const std::string& limit, const std::string& arguments) {
-        const std::string command = "cd '" + bench.folder().string() +
-                                    "' && ulimit -c 0 && ulimit " + limit + " && exec '" +
-                                    std::string(LIMPET_PROGRAM) + "' " + arguments + " >out 2>err";
-        const int status = std::system(("exec sh -c \"" + command + "\"").c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    };
     int short_of = 0, enough = 0;
     for (const char* kB :
          {"25000", "60000", "90000", "110000", "130000", "160000", "200000", "300000", "4000000"}) {
@@ -118,7 +169,7 @@ TEST(Hostile, NoMemoryEndsInALine) {
               std::string("fly hover --set simulation.hover_s=0.1 --no-figures --out o"),
               std::string("check perch_concrete")}) {
             fs::remove_all(bench.folder() / "c");
-            const int code = under("-v " + std::string(kB), verb);
+            const int code = exit_code_under(bench, "ulimit -v " + std::string(kB), verb);
             const std::string err = text_of(bench.folder() / "err");
             EXPECT_TRUE(code == 0 || code == 2 || code == 127)
                 << kB << " " << verb << ": " << code << " " << err;

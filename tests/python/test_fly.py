@@ -3,9 +3,11 @@ import json
 import math
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -142,6 +144,28 @@ print("ends")
 """
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "ends\n", "")
+
+
+def test_the_interpreters_end_does_not_wait_for_a_campaigns_flights(tmp_path):
+    """An hour's hover, four side by side on each of two threads: half a minute until one lands."""
+    script = f"""import pathlib, threading, time, limpet
+out = pathlib.Path({str(tmp_path / "out")!r})
+def fly():
+    limpet.campaign(scenario="hover", runs=64, jobs=2, out=out,
+                    changes={{"simulation.hover_s": 3600, "simulation.time_limit_s": 3600}})
+threading.Thread(target=fly, daemon=True).start()
+while not (out / "results.sqlite").exists():
+    time.sleep(0.05)
+time.sleep(1.0)
+print("ends", flush=True)
+"""
+    child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "ends\n"
+    begin = time.monotonic()
+    assert child.communicate(timeout=120) == ("", "")
+    assert child.returncode == 0 and time.monotonic() - begin < 10.0  # 0.1 s on a machine that has nothing else to do
+    with sqlite3.connect(tmp_path / "out/results.sqlite") as database:
+        assert database.execute("SELECT count(*) FROM runs").fetchone() == (0,)
 
 
 def test_a_branch_is_of_the_same_vehicle():

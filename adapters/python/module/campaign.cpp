@@ -20,23 +20,30 @@
 namespace limpet::python {
 namespace {
 
+/// Some twenty times a second: how it goes, Ctrl-C, the interpreter's end.
+constexpr auto kLookAgain = std::chrono::milliseconds(50);
+
 using OnProgress = std::function<void(std::uint32_t finished, std::uint32_t runs)>;
 
 /// When a campaign ends early, by Ctrl-C or an exception of the callback: waits for the flights in
-/// progress, without the GIL.
+/// progress, without the GIL. At the interpreter's end they are dropped.
 struct LandsFirst {
     ~LandsFirst() {
         if (!flown.valid()) {
             return;
         }
         stop = true;
+        break_off = interpreter_ends();
         try {
             const py::gil_scoped_release land;
-            flown.wait();
+            while (flown.wait_for(kLookAgain) != std::future_status::ready) {
+                break_off = interpreter_ends();
+            }
         } catch (...) {  // another exception is on its way
         }
     }
     std::atomic<bool>& stop;
+    std::atomic<bool>& break_off;
     std::future<void>& flown;
 };
 
@@ -59,6 +66,15 @@ std::array<double, 3> share(std::uint32_t successes, std::uint32_t runs) {
     return {proportion.probability(), interval.low, interval.high};
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+        throw InputError(fmt::format("campaign(): out = {}: cannot make this folder: {}",
+                                     folder.string(), error.message()));
+    }
+}
+
 bool bears_out_named(const std::string& truth, const std::string& outcome) {
     const auto end = true_end_from(truth);
     const auto reported = outcome_from(outcome);
@@ -75,29 +91,27 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
         throw InputError(
             fmt::format("campaign(): jobs = {} is out of range, allowed 1..{}", jobs, kMostJobs));
     }
-    const campaign::Campaign campaign = campaign::load_campaign(wanted);
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) {
-        throw InputError(fmt::format("campaign(): out = {}: cannot make this folder: {}",
-                                     folder.string(), error.message()));
-    }
-    const FolderLock lock(folder);
-    campaign::Results results = begin_results(campaign, folder, resume);
-    std::atomic<bool> stop = false;
-    std::atomic<std::uint32_t> finished = results.finished();
+    std::atomic<bool> stop = false, break_off = false;
+    std::atomic<std::uint32_t> finished = 0, runs = 0;
     auto flown = std::async(std::launch::async, [&] {
+        const campaign::Campaign asked = campaign::load_campaign(wanted, {}, {.stop = &stop});
+        make_folder(folder);
+        const FolderLock lock(folder);
+        campaign::Results results = campaign::begin_results(asked, folder, resume);
+        finished = results.finished();
+        runs = asked.runs;
         const auto count = [&](const campaign::Progress& p) { finished = p.finished; };
-        campaign::run_campaign(results, jobs, {.on_progress = count, .stop = &stop});
+        campaign::run_campaign(results, jobs,
+                               {.on_progress = count, .stop = &stop, .break_off = &break_off});
     });
-    const LandsFirst lands{stop, flown};
+    const LandsFirst lands{stop, break_off, flown};
     const auto wait = [&] {
         const py::gil_scoped_release fly_freely;
-        return flown.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
+        return flown.wait_for(kLookAgain) == std::future_status::ready;
     };
     while (!wait()) {
-        if (on_progress) {
-            on_progress(finished, campaign.runs);
+        if (on_progress && runs > 0) {
+            on_progress(finished, runs);
         }
         if (interpreter_ends()) {
             throw InterpreterEnds();
@@ -108,7 +122,7 @@ std::filesystem::path run_campaign(const std::string& wanted, const std::filesys
     }
     flown.get();
     if (on_progress) {
-        on_progress(finished, campaign.runs);
+        on_progress(finished, runs);
     }
     return folder / campaign::Results::kFileName;
 }
