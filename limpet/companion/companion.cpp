@@ -167,7 +167,7 @@ Mover Companion::mover() const {
 
 void Companion::forward_pose(double time_s) {
     const double period_s = 1.0 / config_.limits.pose_rate_Hz;
-    if (dry_run_ || pose_.time_s <= forwarded_pose_s_ ||
+    if (dry_run_ || offboard_.awaits_origin(time_s) || pose_.time_s <= forwarded_pose_s_ ||
         time_s < forwarded_s_ + period_s - kRounding_s) {
         return;
     }

@@ -193,7 +193,7 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
                          static_cast<float>(kMainModeOffboard));
         }
     } else if (now == OffboardState::engaged && setpoint.armed != report_.armed) {
-        if (options_.sets_origin && !was_armed_ && !report_.has_origin && sent_origin_s_ < 0.0) {
+        if (awaits_origin(time_s)) {
             return;  // armed, it would be given none
         }
         if (again(sent_command_s_, options_.retry_s, time_s)) {
@@ -204,19 +204,29 @@ void Offboard::request(Link& link, const Setpoint& setpoint, double time_s) {
     }
 }
 
-/// Its own is requested first, and it is given one while it reports none: PX4 v1.16 does without
-/// its motion capture for a second after the first origin, and moves the world by each further one.
+bool Offboard::awaits_origin(double time_s) const {
+    constexpr double kPatience_s = 5.0;  // one that never reports it may have taken it all the same
+    if (!options_.sets_origin || was_armed_ || report_.has_origin) {
+        return false;
+    }
+    return first_origin_s_ < 0.0 || time_s - first_origin_s_ < kPatience_s;
+}
+
+/// Its own is requested first, and it is given one while it reports none and no pose has gone to
+/// it. After poses PX4 v1.16 does without them for a second, and PX4's main since 2026-06-29 keeps
+/// the distance to the origin, thousands of kilometres, as a bias of them.
 void Offboard::give_origin(Link& link, double time_s) {
     constexpr double kAnswer_s = 1.0;
-    constexpr double kPatience_s = 5.0;  // it reports one once its estimate is of the earth
-    if (!options_.sets_origin || was_armed_ || report_.has_origin) {
+    constexpr double kAgain_s = 1.5;  // it takes none before its estimator runs
+    if (!awaits_origin(time_s)) {
         return;
     }
     if (again(asked_origin_s_, kAnswer_s, time_s)) {
         ++origin_requests_;
         send_command(link, MavCmd::request_message, static_cast<float>(GpsGlobalOrigin::kId));
     }
-    if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kPatience_s, time_s)) {
+    if ((no_origin_ || origin_requests_ > 1) && again(sent_origin_s_, kAgain_s, time_s)) {
+        first_origin_s_ = first_origin_s_ < 0.0 ? time_s : first_origin_s_;
         SetGpsGlobalOrigin origin{.target_system = options_.target_system};
         put(GeographicOrigin{}, origin.latitude, origin.longitude, origin.altitude);
         (void)link.send(origin, kPatience);
@@ -235,7 +245,7 @@ void Offboard::request_rate(Link& link) {
 
 /// For the record: a flight does not wait for it.
 void Offboard::ask_who(Link& link) {
-    constexpr int kTimes = 5;
+    constexpr int kTimes = 40;  // PX4 answers by a clock of its own, while simulated seconds fly by
     if (who_requests_ >= kTimes || (report_.version && report_.airframe)) {
         return;
     }

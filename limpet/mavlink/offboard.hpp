@@ -64,9 +64,9 @@ struct OffboardOptions {
     bool asks_for_mode = true;
     /// A heartbeat of a ground station, not of a companion: PX4 sends STATUSTEXT to no one else.
     bool hears_texts = true;
-    /// Gives the local origin a latitude and longitude (altitude 0), before it is armed for the
-    /// first time and unless it reports that it has them: without, PX4's hold and landing fly off
-    /// to (0, 0). Not where it has GPS, whose origin is another. Source: px4.md "Motion capture"
+    /// Gives the local origin a latitude and longitude (altitude 0), before the first pose goes to
+    /// it and unless it reports that it has them: without, PX4's hold and landing fly off to (0,
+    /// 0). Not where it has GPS, whose origin is another. Source: px4.md "Motion capture"
     bool sets_origin = true;
 };
 
@@ -111,6 +111,10 @@ public:
     /// estimate_limit_s.
     [[nodiscard]] Estimate estimate(double time_s) const;
     [[nodiscard]] const AutopilotReport& report() const { return report_; }
+    /// Whether poses of a tracker must not go to it yet: an origin that comes after them moves the
+    /// position that they gave. Until it reports its origin, or a few seconds after it was given
+    /// one; never again once it was false.
+    [[nodiscard]] bool awaits_origin(double time_s) const;
     /// Why it does not fly yet or no longer, for people; empty while engaged and armed as
     /// requested.
     [[nodiscard]] std::string obstacle(double time_s) const;
@@ -149,6 +153,7 @@ private:
     double sent_request_s_ = -1e9;  ///< of rates
     double asked_origin_s_ = -1e9;
     double sent_origin_s_ = -1e9;
+    double first_origin_s_ = -1.0;  ///< < 0: none was sent
     int origin_requests_ = 0;
     bool no_origin_ = false;  ///< as it reported
     int rate_requests_ = 0;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "limpet/core/frames.hpp"
 #include "limpet/px4/stand_in.hpp"
 
 namespace limpet::px4 {
@@ -24,6 +25,10 @@ constexpr std::chrono::milliseconds kRoom{5};
 constexpr std::string_view kVersion1 =
     "the autopilot speaks MAVLink 1, which is not read: MAV_PROTO_VER 2 makes a PX4 speak MAVLink "
     "2";
+
+/// Before take-off: so far from motion capture an estimate is of another place.
+constexpr double kApart_m = 1.0;
+constexpr double kApart_rad = radians(30.0);
 
 bool is_stand_in(const mavlink::AutopilotVersion& version) {
     return std::equal(kStandInMark.begin(), kStandInMark.end(),
@@ -105,7 +110,7 @@ Estimate Px4Autopilot::estimate(double time_s) {
     if (in_step()) {
         estimate.age_s = std::max(0.0, clock_s() - 1e-6 * static_cast<double>(odometry_usec_));
     }
-    estimate.valid = estimate.valid && !tracker_silent(time_s);
+    estimate.valid = estimate.valid && !tracker_silent(time_s) && !awaits_origin() && !elsewhere();
     return estimate;
 }
 
@@ -113,6 +118,22 @@ Estimate Px4Autopilot::estimate(double time_s) {
 bool Px4Autopilot::tracker_silent(double time_s) const {
     return readings_.motion_capture.ever() &&
            !readings_.motion_capture.fresh(time_s, options_.aiding_limit_s);
+}
+
+bool Px4Autopilot::awaits_origin() const {
+    return options_.flies && offboard_.awaits_origin(clock_s());
+}
+
+/// Before the first take-off: its pose is another than the one that it was sent. A bias, a frame or
+/// a height of its own, and a tracker that it does not use, look like this.
+bool Px4Autopilot::elsewhere() const {
+    if (flew_ || !options_.flies || !readings_.motion_capture.ever()) {
+        return false;
+    }
+    const Estimate estimate = offboard_.estimate(clock_s());
+    const PoseReading& pose = readings_.motion_capture.value;
+    return !estimate.valid || (estimate.p_WB_m - pose.p_WB_m).norm() > kApart_m ||
+           estimate.q_WB.angularDistance(pose.q_WB) > kApart_rad;
 }
 
 /// A peer that is set to MAVLink 1 alone is there and seems silent.
@@ -128,7 +149,11 @@ void Px4Autopilot::exchange(const Setpoint& setpoint) {
         if (apart) {
             offboard_link_.cork();
         }
-        offboard_.update(offboard_link_, setpoint, clock_s());
+        if (awaits_origin() || elsewhere()) {
+            offboard_.attend(offboard_link_, clock_s());
+        } else {
+            offboard_.update(offboard_link_, setpoint, clock_s());
+        }
     }
     status_ = hil_.exchange(
         readings_, clock_usec_,
@@ -163,7 +188,8 @@ RotorCommand Px4Autopilot::control(const Readings& readings, const Setpoint& set
                                    double time_s) {
     readings_ = readings;
     readings_.motion_capture =
-        watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
+        awaits_origin() ? Sample<PoseReading>()
+                        : watch_.trusted(readings.motion_capture, heard_estimate(time_s), mover());
     clock_usec_ += static_cast<std::uint64_t>(std::llround(1e6 / options_.control_rate_Hz));
     exchange(setpoint);
     switch (status_) {
@@ -234,7 +260,22 @@ std::string Px4Autopilot::obstacle() const {
                                ? kVersion1
                                : "the autopilot boots: it has not answered HIL_SENSOR yet");
     }
-    return options_.flies ? offboard_.obstacle(clock_s()) : std::string();
+    if (!options_.flies) {
+        return {};
+    }
+    const Estimate estimate = offboard_.estimate(clock_s());
+    if (awaits_origin() && estimate.valid) {
+        return "the autopilot's origin has no latitude and longitude yet";
+    }
+    if (elsewhere() && estimate.valid) {
+        const PoseReading& pose = readings_.motion_capture.value;
+        return fmt::format(
+            "the autopilot's pose is {:.0f} m and {:.0f} deg from the motion capture that it is "
+            "sent",
+            (estimate.p_WB_m - pose.p_WB_m).norm(),
+            degrees(estimate.q_WB.angularDistance(pose.q_WB)));
+    }
+    return offboard_.obstacle(clock_s());
 }
 
 }  // namespace limpet::px4

@@ -28,7 +28,9 @@ struct Px4Options {
 
 /// PX4, in simulation or on a board, in the place of the built-in autopilot: sensors and motors
 /// over HIL, set-points and estimate over offboard control. It has a clock of its own, which starts
-/// with it and goes on when a flight begins.
+/// with it and goes on when a flight begins. Before it is first armed, poses wait for its origin,
+/// and its own pose is held against those that it was sent: until they agree it has no estimate,
+/// and gets no set-points.
 class Px4Autopilot final : public autopilot::ExternalAutopilot {
 public:
     /// @param hil       outlives it
@@ -54,6 +56,8 @@ private:
     void look_who();
     [[nodiscard]] bool in_step() const;
     [[nodiscard]] bool tracker_silent(double time_s) const;
+    [[nodiscard]] bool awaits_origin() const;
+    [[nodiscard]] bool elsewhere() const;
     [[nodiscard]] bool speaks_version_1() const;
     [[nodiscard]] double clock_s() const { return 1e-6 * static_cast<double>(clock_usec_); }
 

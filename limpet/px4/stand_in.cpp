@@ -169,7 +169,7 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
         hear(flight_, *pose);
     } else if (const auto origin = decode<mavlink::SetGpsGlobalOrigin>(frame)) {
         if (origin->target_system == 0 || origin->target_system == options_.system) {
-            hear(flight_, *origin, options_.origin_unsettles_s);
+            hear(flight_, *origin, options_.origin_unsettles_s, options_.origin_throws_m);
             tell_origin(link);
         }
     } else if (const auto clocks = decode<mavlink::TimeSync>(frame)) {
@@ -184,10 +184,10 @@ void StandIn::hear_companion(const mavlink::Frame& frame, mavlink::Link& link) {
 
 /// @return whether there was something to report
 bool StandIn::tell_origin(mavlink::Link& link) {
-    if (flight_.global()) {
+    if (flight_.origin) {
         (void)link.send(*flight_.origin);
     }
-    return flight_.global();
+    return flight_.origin.has_value();
 }
 
 void StandIn::hear_command(const mavlink::CommandLong& command, const mavlink::Frame& from,

@@ -31,6 +31,9 @@ struct StandInOptions {
     /// PX4 v1.16 does without its motion capture for a moment when its first origin comes after it,
     /// and may not be armed meanwhile: 3.4 s. v1.15: 0. Source: docs/px4.md "PX4 v1.16"
     double origin_unsettles_s = 0.0;
+    /// PX4's main since 2026-06-29 keeps the distance to its first origin as a bias of its motion
+    /// capture when that origin comes after it: 5,227,320 m north. v1.15, v1.16: 0.
+    double origin_throws_m = 0.0;
     StandInParameters parameters;
 };
 

@@ -148,9 +148,11 @@ void hear(StandInFlight& flight, const mavlink::HilGps& message, bool aids) {
     }
 }
 
-void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s) {
+void hear(StandInFlight& flight, const mavlink::SetGpsGlobalOrigin& message, double unsettles_s,
+          double throws_m) {
     if (flight.aligned && !flight.origin) {
         flight.unsettled_until_s = flight.time_s + unsettles_s;
+        flight.thrown_north_m = throws_m;
     }
     flight.origin = mavlink::GpsGlobalOrigin{.latitude = message.latitude,
                                              .longitude = message.longitude,
@@ -170,7 +172,11 @@ void hear(StandInFlight& flight, const mavlink::Odometry& message) {
 }
 
 void hear(StandInFlight& flight, const mavlink::SetPositionTargetLocalNed& message) {
-    hear_motion(flight, mavlink::position_set_point(message));
+    auto position = mavlink::position_set_point(message);
+    if (position) {
+        position->p_W_m.x() -= flight.thrown_north_m;
+    }
+    hear_motion(flight, position);
     hear_motion(flight, mavlink::velocity_set_point(message));
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "limpet/core/errors.hpp"
+#include "limpet/px4/airframe.hpp"
 
 namespace limpet::simulation {
 namespace {
@@ -263,7 +264,11 @@ void add_loads(std::vector<std::string>& lines, const Emphasis& bold, const Metr
 std::string who_text(const autopilot::AutopilotIdentity& who) {
     std::string text = who.name == "stand-in" ? "the stand-in, as PX4 " : who.name + " ";
     text += who.version + (who.git_hash.empty() ? "" : " of " + who.git_hash);
-    text += who.airframe ? fmt::format(", airframe {}", *who.airframe) : "";
+    text += who.airframe             ? fmt::format(", airframe {}", *who.airframe)
+            : who.name == "stand-in" ? ""
+                                     : ", airframe not told";
+    const std::string_view vehicle = who.airframe ? px4::px4_airframe_vehicle(*who.airframe) : "";
+    text += vehicle.empty() ? "" : fmt::format(" of {}", vehicle);
     return text + fmt::format(", system {}", who.system);
 }
 

@@ -3,11 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -213,6 +215,84 @@ TEST(Px4Files, AreNamedSoThatPx4FindsThem) {
     EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_perching_uav");
     airframe.name = "my uav v1.5; rm";  // PX4 skips names with a dot
     EXPECT_EQ(px4_airframe_file_name(airframe), "22001_limpet_my_uav_v1_5__rm");
+}
+
+/// PX4's main lost MPC_USE_HTE on 2026-02-19 and COM_ARM_SDCARD on 2026-04-30.
+TEST(Px4Settings, AreThoseThatThePx4Has) {
+    const auto names = [](const std::vector<Px4Setting>& settings) {
+        std::set<std::string> all;
+        for (const Px4Setting& setting : settings) {
+            all.insert(setting.name);
+        }
+        return all;
+    };
+    Px4Airframe airframe = perching_uav();
+    const std::set<std::string> released = names(px4_settings(airframe));
+    EXPECT_TRUE(released.contains("MPC_USE_HTE"));
+    EXPECT_TRUE(released.contains("COM_ARM_SDCARD"));
+    airframe.version = Px4Version::main;
+    const std::set<std::string> main = names(px4_settings(airframe));
+    EXPECT_EQ(main.size() + 2, released.size());
+    EXPECT_FALSE(main.contains("MPC_USE_HTE"));
+    EXPECT_TRUE(main.contains("HTE_THR_RANGE")) << "what takes its place";
+
+    Px4Facts known;
+    for (const std::string& name : main) {
+        known.emplace(name, *find_px4_fact(name));
+    }
+    airframe.version = Px4Version::released;
+    const Px4Fitted fit = fitted(px4_settings(airframe), known);
+    EXPECT_EQ(names(fit.settings), main);
+    EXPECT_EQ(fit.left_out, (std::vector<std::string>{"MPC_USE_HTE", "COM_ARM_SDCARD"}));
+    known.at("HTE_THR_RANGE").minimum = 0.05;
+    try {
+        (void)fitted(px4_settings(airframe), known);
+        FAIL() << "this PX4 allows less";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "HTE_THR_RANGE = 0.01: PX4 allows 0.05 .. 0.4");
+    }
+}
+
+TEST(Px4Facts, OfABuildAreReadFromItsOwnList) {
+    const std::filesystem::path build =
+        std::filesystem::temp_directory_path() / ("limpet_facts_" + std::to_string(getpid()));
+    std::filesystem::create_directories(build);
+    EXPECT_FALSE(px4_facts_of(build));
+    const auto write = [&](const std::string& text) {
+        std::ofstream(build / "parameters.json") << text;
+    };
+    write(R"({"parameters": [{"name": "A", "type": "Int32", "default": 2, "max": 3, "group": "x"},
+              {"name": "B", "type": "Float", "default": 0.5}], "version": 1})");
+    const auto facts = px4_facts_of(build);
+    ASSERT_TRUE(facts);
+    EXPECT_EQ(facts->size(), 2U);
+    EXPECT_EQ(facts->at("A").type, Px4Type::int32);
+    EXPECT_EQ(facts->at("A").maximum, 3.0);
+    EXPECT_EQ(facts->at("A").minimum, -std::numeric_limits<double>::infinity());
+    for (const char* text :
+         {"", "[]", "{\"parameters\": 3}", "{\"parameters\": [{\"name\": 1}]}"}) {
+        write(text);
+        EXPECT_THROW((void)px4_facts_of(build), InputError) << text;
+    }
+    std::filesystem::remove_all(build);
+}
+
+/// PX4 takes the last script of a number: with one number for all it flew another vehicle's.
+TEST(Px4Files, EachVehicleHasANumberOfItsOwn) {
+    std::set<int> numbers;
+    for (const char* vehicle : {"perching_uav", "perching_hexa", "perching_x8", "iris", "cad_uav",
+                                "mine", "mine too", ""}) {
+        const int number = px4_airframe_id(vehicle);
+        EXPECT_TRUE(numbers.insert(number).second) << vehicle;
+        EXPECT_GE(number, kFirstOwnAirframe);
+        EXPECT_LE(number, kLastOwnAirframe);
+    }
+    EXPECT_EQ(px4_airframe_id("perching_uav"), 22001);
+    EXPECT_EQ(px4_airframe_id("perching_hexa"), 22002);
+    EXPECT_GE(px4_airframe_id("mine"), 22100);
+    EXPECT_EQ(px4_airframe_vehicle(22002), "perching_hexa");
+    EXPECT_EQ(px4_airframe_vehicle(px4_airframe_id("mine")), "");
+    EXPECT_EQ(px4_airframe_vehicle(22000), "");
 }
 
 std::string refusal(const Px4Airframe& airframe) {
