@@ -166,7 +166,7 @@ ExitCode companion(const CompanionOptions& options, const Given& given) {
     companion::CompanionConduct conduct{
         .dry_run = options.dry_run, .stop = stop, .manager = &manager};
     if (live) {
-        conduct.beside = live.get();
+        conduct.mirror = live.get();
         conduct.wants_end = [&] {
             live->answer(desk);
             return aborted;

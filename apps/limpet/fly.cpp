@@ -153,7 +153,7 @@ ExitCode fly_one(const FlyOptions& options, const Given& given) {
     }
     introduce(scenario, terminal);
     simulation::FlightConduct conduct{
-        .speed = speed, .stop = stop, .beside = company.live ? &company.live->live() : nullptr};
+        .speed = speed, .stop = stop, .mirror = company.live ? &company.live->live() : nullptr};
     open_px4(options, *model, recording.parent_path(), terminal, company, conduct);
     if (options.ground.wanted) {
         company.ground.emplace(options.ground, *model, terminal);

@@ -101,7 +101,7 @@ ExitCode sim_io(SimIoOptions options) {
         .start_limit_s = options.start_limit_s,
         .speed = px4.speed(),
         .stop = stop,
-        .beside = live.get()};
+        .mirror = live.get()};
     conduct.on_obstacle = [&terminal](const std::string& obstacle) {
         terminal.line(terminal.dim("          " + (obstacle.empty() ? "off the stand" : obstacle)));
     };

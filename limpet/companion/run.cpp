@@ -100,7 +100,7 @@ CompanionResult run(const CompanionConfig& config, Wires& wires, const Companion
     std::optional<record::Recorder> recorder;
     if (!conduct.recording.empty()) {
         record::RecordingInfo info = recording_info(config);
-        info.beside = conduct.beside;
+        info.mirror = conduct.mirror;
         recorder.emplace(conduct.recording, info);
     }
     Companion companion(config, wires, recorder ? &*recorder : nullptr, conduct.dry_run, watch);

@@ -24,7 +24,7 @@ struct CompanionConduct {
     const std::atomic<bool>* stop = nullptr;  ///< set by Ctrl-C
     std::function<bool()> wants_end = {};     ///< called every tick; true ends it as Ctrl-C does
     std::filesystem::path recording = {};     ///< empty: none
-    record::MessageSink* beside = nullptr;    ///< takes what the recording takes, if there is one
+    record::MessageSink* mirror = nullptr;    ///< takes what the recording takes, if there is one
     ServiceManager* manager = nullptr;        ///< receives that the loop runs
 };
 

@@ -61,8 +61,8 @@ void step(const FaultsModel& model, FaultsState& state, guidance::PerchingState 
           std::size_t rotors, double time_s, guidance::EventList& events);
 
 /// What the vehicle receives of state.sensed.
-/// @param told  what it received last; newer samples replace it
-void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& told);
+/// @param received  what it received last; newer samples replace it
+void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& received);
 
 /// What drifts in an estimate; once for each.
 void mislead(const FaultsModel& model, FaultsState& state, double time_s, Estimate& estimate);

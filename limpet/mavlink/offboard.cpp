@@ -25,7 +25,7 @@ std::string fit_to_print(std::string_view text) {
     return out;
 }
 
-/// Room in a wire is waited for no longer: a jammed one must not make guidance late.
+/// Space in a wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kPatience{5};
 constexpr std::string_view kAirframe = "SYS_AUTOSTART";
 constexpr float kCustomMode = MavModeFlag::custom_mode_enabled;

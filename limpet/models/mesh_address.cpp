@@ -42,7 +42,7 @@ std::vector<fs::path> places_of(std::string uri, const fs::path& own) {
             if (is_package(above, package)) {
                 places.push_back(above / rest);
             }
-            places.push_back(above / within);  // a package beside one of these
+            places.push_back(above / within);  // a package next to one of these
         }
         places.push_back(own.parent_path() / rest);
         return places;

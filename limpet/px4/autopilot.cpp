@@ -19,7 +19,7 @@ using mavlink::OffboardState;
 
 namespace {
 
-/// Room in the wire is waited for no longer: a jammed one must not make guidance late.
+/// Space in the wire is waited for no longer: a jammed one must not make guidance late.
 constexpr std::chrono::milliseconds kRoom{5};
 
 constexpr std::string_view kVersion1 =

@@ -67,7 +67,7 @@ Motion motion(const AttitudeSetpoint& setpoint) {
 }  // namespace
 
 Recorder::Recorder(const std::filesystem::path& path, const RecordingInfo& info)
-    : writer_(path, info.beside, {.compress = info.compress}, info.topics),
+    : writer_(path, info.mirror, {.compress = info.compress}, info.topics),
       range_sensor_(info.range_sensor),
       rotors_(info.rotors) {
     mcap::StringMap about = info.numbers;

@@ -220,31 +220,31 @@ public:
     Recording(const std::shared_ptr<const FlightModel>& model,
               const std::filesystem::path& recording, const FlightConduct& conduct)
         : model_(*model) {
-        if (recording.empty() && conduct.beside == nullptr) {
+        if (recording.empty() && conduct.mirror == nullptr) {
             return;
         }
         log_.emplace(recording, *model,
-                     FlightLog::Options{.beside = conduct.beside,
+                     FlightLog::Options{.mirror = conduct.mirror,
                                         .brief = conduct.brief,
                                         .topics = conduct.topics,
                                         .compress = conduct.compress});
         // An observer is shown each tick as it is.
-        if (conduct.outside.autopilot != nullptr && conduct.beside == nullptr) {
-            beside_.emplace(*log_, model);
+        if (conduct.outside.autopilot != nullptr && conduct.mirror == nullptr) {
+            mirror_.emplace(*log_, model);
         }
     }
 
     void tick(const FlightState& state, const guidance::EventList& happened) {
-        if (beside_) {
-            beside_->tick(state, happened);
+        if (mirror_) {
+            mirror_->tick(state, happened);
         } else if (log_) {
             log_->tick(model_, state, happened);
         }
     }
 
     void finish(const FlightResult& result) {
-        if (beside_) {
-            beside_->finish();
+        if (mirror_) {
+            mirror_->finish();
         }
         if (log_) {
             log_->finish(summary_json(result));
@@ -254,7 +254,7 @@ public:
 private:
     const FlightModel& model_;
     std::optional<FlightLog> log_;
-    std::optional<LogBeside> beside_;
+    std::optional<LogBeside> mirror_;
 };
 
 }  // namespace

@@ -91,7 +91,7 @@ struct FlightConduct {
     bool brief = false;                     ///< a recording of what a picture needs, at 25 Hz
     std::vector<std::string> topics = {};   ///< of the recording; none: all of them
     bool compress = true;                   ///< the recording
-    record::MessageSink* beside = nullptr;  ///< takes what the recording takes, or would take
+    record::MessageSink* mirror = nullptr;  ///< takes what the recording takes, or would take
 };
 
 struct FlightPerformance {

@@ -65,7 +65,7 @@ namespace {
 record::RecordingInfo describe(const FlightModel& model, const FlightLog::Options& options) {
     const scenario::Scenario& scenario = *model.scenario;
     record::RecordingInfo info;
-    info.beside = options.beside;
+    info.mirror = options.mirror;
     info.compress = options.compress;
     info.topics = options.topics;
     info.scenario = scenario.name;

@@ -71,7 +71,7 @@ void Simulator::begin() {
     pace_ = simulation::Pace(options_.speed);
     const std::filesystem::path recording = recording_of(options_.recording, ++flights_);
     if (!recording.empty() || seen_ != nullptr) {
-        log_.emplace(recording, *model_, simulation::FlightLog::Options{.beside = seen_});
+        log_.emplace(recording, *model_, simulation::FlightLog::Options{.mirror = seen_});
     }
 }
 
