@@ -151,7 +151,7 @@ def message_text(node):
         node.refuse(f"{size} bytes, must be 1 to 255")
     name, struct = node["name"], struct_name(node["name"])
     info = f"kId, kName, {crc_extra(name, base)}, {size}, {sum(f.bytes for f in base)}"
-    lines = ["/// " + " ".join(text.text.split()) for text in node.all("description")]
+    lines = ["/// " + " ".join(line.text.split()) for line in node.all("description")]
     lines += [f"struct {struct} {{",
               f"    static constexpr std::uint32_t kId = {node['id']};",
               f'    static constexpr std::string_view kName = "{name}";',

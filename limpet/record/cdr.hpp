@@ -150,8 +150,8 @@ void MessageWriter::write(std::uint16_t channel, double time_s, const Fields&...
     (put(cdr, fields), ...);
     const mcap::ByteView bytes(reinterpret_cast<const std::uint8_t*>(buffer_.data()), cdr.size());
     file_.write(channel, static_cast<std::uint64_t>(time_ns), bytes);
-    if (beside_ != nullptr) {
-        beside_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);
+    if (mirror_ != nullptr) {
+        mirror_->message(channel, static_cast<std::uint64_t>(time_ns), bytes);
     }
     last_time_ns_ = std::max(last_time_ns_, time_ns);
 }

@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// Room below and above for what turns and climbs.
+    /// Space below and above for what turns and climbs.
     void hover() {
         constexpr double kLeast = 0.25, kMost = 0.85;
         const double command = hover_command(airframe_);

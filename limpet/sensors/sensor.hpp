@@ -84,7 +84,7 @@ class DelayLine {
 public:
     /// @param arrival  tick at which deliver() hands it out, never before that of an earlier sample
     void send(const Sample<T>& sample, Tick arrival) {
-        require(count_ < kDelayLineCapacity, "a sensor's delay line has room");
+        require(count_ < kDelayLineCapacity, "a sensor's delay line has space");
         slots_[(first_ + count_) % kDelayLineCapacity] = {.sample = sample, .arrival = arrival};
         ++count_;
     }

@@ -266,7 +266,7 @@ std::string who_text(const autopilot::AutopilotIdentity& who) {
     text += who.version + (who.git_hash.empty() ? "" : " of " + who.git_hash);
     text += who.airframe             ? fmt::format(", airframe {}", *who.airframe)
             : who.name == "stand-in" ? ""
-                                     : ", airframe not told";
+                                     : ", airframe not reported";
     const std::string_view vehicle = who.airframe ? px4::px4_airframe_vehicle(*who.airframe) : "";
     text += vehicle.empty() ? "" : fmt::format(" of {}", vehicle);
     return text + fmt::format(", system {}", who.system);
