@@ -40,8 +40,8 @@ rare::RareWatch rare_watch(Terminal& terminal, std::uint32_t level_runs) {
 
 OptionList options_of(RareOptions& options) {
     return {{"--rare EVENT", &options.event,
-             "estimate the probability of a rare event, down to 1e-7: a metric and its\n"
-             "limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
+             "estimate the probability of a rare event, down to 1e-7: a metric and\n"
+             "its limit, as in 'cup_margin_min_N<0' or 'cup_press_max_N>60', or an\n"
              "outcome, as in failed_to_seal (data/campaigns/README.md)"},
             {"--falling METRIC", &options.guide.falling,
              "that falls towards the outcome (failed_to_seal: cup_press_max_N)"},
