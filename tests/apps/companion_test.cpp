@@ -97,7 +97,7 @@ TEST(CompanionVerb, SaysWhetherItGotRealTimeAndHowLateItWas) {
                                      "loop.real_time_priority=" + priority, "--no-record"}));
         EXPECT_EQ(finished.exit_code, 2) << finished.err;
         EXPECT_THAT(finished.out,
-                    testing::ContainsRegex(priority == "0" ? "real time: not asked for"
+                    testing::ContainsRegex(priority == "0" ? "real time: not requested"
                                                            : "real time: .*(SCHED_FIFO 5|memory)"));
         EXPECT_THAT(finished.out, testing::ContainsRegex(
                                       "[0-9]+ ticks, [0-9]+ of them late by more than a period; "
