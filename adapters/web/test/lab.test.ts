@@ -202,12 +202,12 @@ test("many fly; a point is a flight to look at", { skip }, async () => {
 test("a campaign that ships is stopped, and found again by another page", { skip }, async () => {
   await page.select("#lab .many select", "faults");
   await press("Fly them");
-  await page.waitForFunction(() => (window as unknown as Shown).lab.many.outside().runs === 2574);
+  await page.waitForFunction(() => (window as unknown as Shown).lab.many.outside().runs > 2000);
   await landed(3);
   await press("Stop");
   await page.waitForFunction(() => !(window as unknown as Shown).lab.many.outside().running);
-  const { rows } = await many();
-  assert.ok(rows.length < 2574, `${rows.length} rows`);
+  const { rows, runs } = await many();
+  assert.ok(rows.length < runs, `${rows.length} rows of ${runs}`);
   const other = await browser.newPage();
   try {
     await other.goto(page.url());
