@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace limpet::python {
 namespace {
@@ -44,7 +45,7 @@ void add_air() {
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) {
-                std::rethrow_exception(thrown);
+                std::rethrow_exception(std::move(thrown));
             }
         } catch (const InterpreterEnds&) {
             PyErr_SetString(PyExc_SystemExit, "the interpreter ends");
