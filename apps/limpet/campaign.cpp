@@ -108,6 +108,17 @@ campaign::CampaignWatch campaign_watch(Terminal& terminal) {
             .stop = stop_on_signals()};
 }
 
+/// What goes on with the same PX4s.
+std::string px4_words(const campaign::Px4Crew& crew) {
+    std::string words = " --autopilot px4";
+    words += crew.start ? " --px4 " + for_shell(*crew.start) : "";
+    words += crew.instances != 1 ? fmt::format(" --instances {}", crew.instances) : "";
+    words += crew.first.number != 0 ? fmt::format(" --instance {}", crew.first.number) : "";
+    words +=
+        crew.wait_s != campaign::Px4Crew().wait_s ? fmt::format(" --wait {:g}", crew.wait_s) : "";
+    return words + (crew.only_px4 ? " --only-px4" : "");
+}
+
 ExitCode conclude(const campaign::Progress& progress, campaign::Results& results,
                   const CampaignOptions& options, const fs::path& folder, Terminal& terminal) {
     if (progress.finished < progress.runs) {
@@ -116,7 +127,7 @@ ExitCode conclude(const campaign::Progress& progress, campaign::Results& results
             "--out {}{}{} --resume",
             progress.finished, progress.runs, for_shell(options.file), for_shell(folder.string()),
             options.shard.empty() ? "" : " --shard " + options.shard,
-            options.on_px4() ? " --autopilot px4" : ""));
+            options.on_px4() ? px4_words(options.px4) : ""));
         return ExitCode::interrupted;
     }
     terminal.line(fmt::format("{} runs flown in {:.1f} s, {:.1f} a second", progress.flown,

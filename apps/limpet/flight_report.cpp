@@ -120,7 +120,8 @@ ExitCode conclude(const FlightOptions& options, const simulation::FlightResult& 
             add(draw(options, result.recording, stop, terminal));
         }
         if (px4 != nullptr) {
-            add(px4->write(result.performance, result.recording.parent_path(), options.figures()));
+            add(px4->write(result.performance, result.recording.parent_path(), options.figures(),
+                           terminal));
         }
         terminal.written(files);
         terminal.line("layouts", (scenario::data_root() / "layouts/foxglove.json").string() +

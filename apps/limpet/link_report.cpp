@@ -5,7 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "limpet/core/read_file.hpp"
 #include "limpet/draw/chart.hpp"
+#include "limpet/px4/console.hpp"
 #include "output.hpp"
 #include "px4_link.hpp"
 
@@ -13,6 +15,8 @@ namespace limpet::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr FileBound kConsole{"PX4's console", 256};
 
 std::string milliseconds(double duration_s) {
     return fmt::format("{:.3g} ms", 1e3 * duration_s);
@@ -116,8 +120,8 @@ void Px4Link::report(const simulation::FlightPerformance& performance, Terminal&
 }
 
 std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerformance& performance,
-                                                  const std::filesystem::path& folder,
-                                                  bool figures) {
+                                                  const std::filesystem::path& folder, bool figures,
+                                                  Terminal& terminal) {
     const mavlink::HilCount& hil = wires_->autopilot().count();
     Json json = Json::object();
     for (const auto& [name, link] : links()) {
@@ -136,6 +140,17 @@ std::vector<std::filesystem::path> Px4Link::write(const simulation::FlightPerfor
     }
     std::vector<std::filesystem::path> files = {folder / "link.json"};
     write_file(files.front(), json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    const auto logs = keep_logs(folder);
+    files.insert(files.end(), logs.begin(), logs.end());
+    if (!logs.empty()) {
+        const px4::Px4Console console = px4::read_px4_console(read_file(logs.front(), kConsole));
+        if (const std::string text = console_text(console); !text.empty()) {
+            terminal.line("px4.log", text);
+        }
+        for (const std::string& line : console.lines) {
+            terminal.line("", line);
+        }
+    }
     if (figures) {
         files = with_drawn(std::move(files), [&] { return draw(hil, folder); });
     }

@@ -52,12 +52,12 @@ public:
     /// @param flies  guidance is ours; false: a companion's
     /// @param folder  where options.record_wire writes wire.mcap
     /// @throws InputError when a wire cannot be opened or no PX4 comes in time; nothing is then
-    ///         left in the folder
+    ///         left in the folder but the console of a PX4 that was started
     /// @throws Interrupted on `stop`
     Px4Link(const Px4LinkOptions& options, const simulation::FlightModel& model, bool flies,
             const std::filesystem::path& folder, Terminal& terminal, const std::atomic<bool>* stop);
 
-    /// Closes wire.mcap, when no flight came of it.
+    /// Closes wire.mcap, and keeps the logs of a PX4 that was started, when no flight came of it.
     ~Px4Link();
     Px4Link(const Px4Link&) = delete;
     Px4Link& operator=(const Px4Link&) = delete;
@@ -69,18 +69,25 @@ public:
     void report(const simulation::FlightPerformance& performance, Terminal& terminal) const;
     /// The same for programs, with the histograms: link.json; next to the recording, which
     /// must not depend on wall time. Closes wire.mcap.
+    /// With it the logs of a PX4 that was started, which ends here: px4.log, px4.ulg; the errors,
+    /// warnings and failsafes of its console are printed.
     /// @param figures  draws the histograms too, as link.png and link.svg
     /// @return what was written
     /// @throws InputError when it cannot
     [[nodiscard]] std::vector<std::filesystem::path> write(
         const simulation::FlightPerformance& performance, const std::filesystem::path& folder,
-        bool figures);
+        bool figures, Terminal& terminal);
 
 private:
     /// Those that there are, named.
     [[nodiscard]] std::vector<std::pair<const char*, const mavlink::Link*>> links() const;
 
+    /// @return what was kept next to the recording; nothing of a PX4 that others have started
+    std::vector<std::filesystem::path> keep_logs(const std::filesystem::path& folder);
+
     std::optional<px4::Px4Process> process_;
+    std::filesystem::path folder_;  ///< next to the recording; empty: there is none
+    bool kept_ = false;
     std::unique_ptr<simulation::WireLog> wire_log_;
     std::optional<px4::Px4Wires> wires_;
     double speed_ = 0.0;  ///< times real time; 0: as fast as possible

@@ -32,6 +32,28 @@ TEST(StandInVerb, FliesWhatAPx4Would) {
     EXPECT_THAT(end.out, HasSubstr("answers"));
 }
 
+/// Of a PX4 that was started, console and logs stay beside the recording, also where no flight came
+/// of it.
+TEST(StandInVerb, WhatAStartedPx4PrintedIsKeptAndSummed) {
+    const Bench bench;
+    const std::string start =
+        "echo 'ERROR [param] Parameter GONE not found.'; mkdir {folder}/log;"
+        "echo x > {folder}/log/1.ulg; exec " +
+        std::string(LIMPET_PROGRAM) + " stand-in hover --instance {instance}";
+    const Finished flight = bench.run({"fly", "hover", "--autopilot", "px4", "--px4", start,
+                                       "--instance", "9", "--wait", "30", "--no-figures"});
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    EXPECT_THAT(flight.out, HasSubstr("px4.log    1 error\n"));
+    EXPECT_THAT(flight.out, HasSubstr("ERROR [param] Parameter GONE not found."));
+    EXPECT_TRUE(std::filesystem::exists(bench.folder() / "out/hover/px4.ulg"));
+
+    const Finished none =
+        bench.run({"fly", "hover", "--autopilot", "px4", "--px4", "echo port in use; sleep 60",
+                   "--instance", "9", "--wait", "1", "--out", "none"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_EQ(text_of(bench.folder() / "none/px4.log"), "port in use\n");
+}
+
 TEST(StandInVerb, WhoAnsweredIsToldAndWhereAPx4IsAskedForItWillNotDo) {
     for (const bool only_px4 : {false, true}) {
         const Bench bench;

@@ -82,7 +82,10 @@ TEST_F(CampaignOnPx4, InterruptedItLeavesNoneRunningAndGoesOn) {
         running.signal(SIGINT);
         EXPECT_EQ(running.wait(), 130) << text_of(bench_.folder() / "log");
     }
-    EXPECT_THAT(text_of(bench_.folder() / "log"), HasSubstr("--autopilot px4 --resume"));
+    const std::string log = text_of(bench_.folder() / "log");
+    EXPECT_THAT(log, HasSubstr("--autopilot px4 --px4 "));
+    EXPECT_THAT(log, HasSubstr("stand-in hover --instance {instance}"));
+    EXPECT_THAT(log, HasSubstr(" --instances 2 --instance 6 --wait 30 --resume"));
     std::istringstream started(text_of(mark));
     int count = 0;
     for (pid_t pid = 0; started >> pid; ++count) {
