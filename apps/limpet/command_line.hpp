@@ -35,8 +35,8 @@ enum class ExitCode {
 /// Where an option's value goes: to a variable, which makes it a flag where that is a bool, or to a
 /// function that is called with the text.
 using OptionTarget =
-    std::variant<bool*, int*, std::uint32_t*, double*, std::optional<double>*, std::string*,
-                 std::optional<std::string>*, std::vector<std::string>*,
+    std::variant<bool*, int*, std::optional<int>*, std::uint32_t*, double*, std::optional<double>*,
+                 std::string*, std::optional<std::string>*, std::vector<std::string>*,
                  std::function<void(const std::string&)>>;
 
 /// What an option takes, beyond its type.

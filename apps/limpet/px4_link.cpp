@@ -174,7 +174,7 @@ std::vector<std::filesystem::path> Px4Link::keep_logs(const std::filesystem::pat
     }
     try {
         return process_->keep(folder);
-    } catch (const InputError& error) {  // a full disk: the flight itself is told all the same
+    } catch (const InputError& error) {  // a full disk: the flight itself is reported all the same
         complain(error.what());
         return {};
     }

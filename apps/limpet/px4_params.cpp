@@ -25,7 +25,7 @@ struct Px4Options {
     std::string wanted;
     std::vector<std::string> overrides;
     std::string out = "out/px4";
-    int airframe_id = 0;  ///< 0: the vehicle's own
+    std::optional<int> airframe_id;  ///< none: the vehicle's own
     px4::Px4Target target = px4::Px4Target::sitl;
     bool mocap = false;
     bool gps = false;
@@ -61,9 +61,7 @@ scenario::Scenario scenario_of(const Px4Options& options) {
 }
 
 px4::Px4Airframe airframe_of(const Px4Options& options) {
-    px4::Px4Airframe airframe = simulation::px4_airframe(
-        scenario_of(options),
-        options.airframe_id != 0 ? std::optional(options.airframe_id) : std::nullopt);
+    px4::Px4Airframe airframe = simulation::px4_airframe(scenario_of(options), options.airframe_id);
     airframe.target = options.target;
     airframe.version = options.version;
     if (options.gps || options.mocap) {

@@ -57,9 +57,8 @@ private:
 /// clock.
 class Companion {
 public:
-    /// @param dry_run  receives all, sends nothing to autopilot and mechanism, prints what it would
-    /// do;
-    ///                 the pose is motion capture's and no autopilot is needed
+    /// @param dry_run  receives all, sends nothing to autopilot and mechanism, prints what it
+    ///                 would do; the pose is motion capture's and no autopilot is needed
     /// @param recorder  nullptr: no recording; else of readings as they come, the autopilot's pose,
     ///                  set-points, guidance, events, no truth; times are seconds since the start.
     ///                  Config, wires and recorder outlive the companion.

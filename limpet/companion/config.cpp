@@ -26,7 +26,7 @@ using scenario::YamlNode;
 using wire::Medium;
 
 constexpr const char* kAutopilotAddress = "udp:127.0.0.1:14540";  // PX4's offboard port
-constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: free besides PX4's
+constexpr const char* kSensorsAddress = "udp:127.0.0.1:14600";    // assumed: none of PX4's
 
 /// @return what a node says, of `words`
 template <class Choice>

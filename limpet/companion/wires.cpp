@@ -25,7 +25,7 @@ mavlink::Sender self_of(const CompanionConfig& config) {
             .component = mavlink::kCompanionComponent};
 }
 
-/// UDP and multicast wait for who speaks; the others connect.
+/// UDP and multicast wait for a peer that speaks; the others connect.
 wire::Role role_of(const wire::TransportAddress& address) {
     return address.medium == wire::Medium::tcp ? wire::Role::connect : wire::Role::listen;
 }
