@@ -33,7 +33,7 @@ namespace limpet::gazebo11 {
 ///   speed      times real time; 0: as fast as it goes. 1 alone with a px4 on
 ///              a serial wire, which has a clock of its own                    0, watched 1
 ///   live       port where Foxglove and Lichtblick may watch (docs/live.md);
-///              0: any that is free, printed                                 nobody may
+///              0: any that is free, printed                                   nobody may
 ///   recording  MCAP file to write                                             none
 ///   result     JSON file to write when the flight is over                     none
 ///   when_over  pause the world, or quit the server                            pause

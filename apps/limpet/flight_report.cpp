@@ -31,7 +31,7 @@ Files draw(const FlightOptions& options, const fs::path& path, const std::atomic
     if (options.figures()) {
         terminal.progress("drawing figures ...");
         try {
-            files = with_drawn(std::move(files), [&] {
+            files = with_drawn(files, [&] {
                 return report::plot(recording, path.parent_path(), {.stop = &stop}).files;
             });
         } catch (const std::exception&) {

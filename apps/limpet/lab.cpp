@@ -43,7 +43,7 @@ ExitCode run_lab(const LabOptions& options) {
     server.start();
     Terminal terminal(Terminal::Voice::normal);
     terminal.line("lab", server.address());
-    terminal.line("", "this address permits to fly here; Ctrl-C ends it");
+    terminal.line("", "whoever has this address may fly here; Ctrl-C ends it");
     if (options.open) {
         open_in_browser(server.address());
     }

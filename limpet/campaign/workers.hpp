@@ -31,9 +31,10 @@ struct Progress {
 /// How a campaign is watched and stopped. Empty members do neither.
 struct CampaignWatch {
     std::function<void(const Progress&)>
-        on_progress;                               ///< after each row, by any thread, one at a time
-    const std::atomic<bool>* stop = nullptr;       ///< then flights in the air end, no new ones
-    const std::atomic<bool>* break_off = nullptr;  ///< then those in the air are dropped as well
+        on_progress;                          ///< after each row, by any thread, one at a time
+    const std::atomic<bool>* stop = nullptr;  ///< then flights in the air end, no new ones
+    const std::atomic<bool>* break_off =
+        nullptr;  ///< then those in the air are dropped as well: run_campaign() alone
     std::function<void(const RunRow&)> on_row = {};  ///< as on_progress, just before it
 };
 

@@ -20,7 +20,7 @@
 
 namespace limpet::companion {
 
-/// How late ticks began: exact to a twentieth, up to 18 minutes.
+/// How late ticks began: exact to a twentieth, up to 33 minutes.
 using Lateness = wire::Histogram<16, 31>;
 /// "late by 0.06 ms (median), 0.20 ms (99 %), 1.10 ms (99.9 %), 2.4 ms (worst)".
 [[nodiscard]] std::string lateness_text(const Lateness& lateness);

@@ -204,7 +204,11 @@ private:
             }
             return std::string(value);
         }
-        const std::vector<double> found = numbers_in(value);
+        constexpr std::size_t kLongest = 6;  // of the others: xyaxes
+        const std::size_t most = held == "points"    ? 3 * kMostPoints
+                                 : held == "corners" ? 3 * kMostTriangles
+                                                     : kLongest;
+        const std::vector<double> found = numbers_in(value, most + 1);
         if (held == "points") {
             points = found.size() / 3;
             points_ += points;
@@ -240,12 +244,12 @@ private:
         return written(found);
     }
 
-    /// What is no number is not finite; of more than any attribute holds the rest is left out.
-    static std::vector<double> numbers_in(std::string_view value) {
-        constexpr std::size_t kMost = 3 * std::max(kMostPoints, kMostTriangles) + 1;
+    /// What is no number is not finite.
+    /// @param most  the rest is left out
+    static std::vector<double> numbers_in(std::string_view value, std::size_t most) {
         std::vector<double> found;
         Words words(value);
-        for (std::string_view word = words.next(); !word.empty() && found.size() < kMost;
+        for (std::string_view word = words.next(); !word.empty() && found.size() < most;
              word = words.next()) {
             found.push_back(number_of(word).value_or(std::numeric_limits<double>::quiet_NaN()));
         }

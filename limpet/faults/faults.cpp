@@ -237,14 +237,14 @@ void step(const FaultsModel& model, FaultsState& state, guidance::PerchingState 
     }
 }
 
-void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& known) {
+void hear(const FaultsModel& model, const FaultsState& state, double time_s, Readings& received) {
     Readings arriving = state.sensed;
     for (std::size_t i = 0; i < model.faults.size(); ++i) {
         if (acts(state.progress[i])) {
-            corrupt(model.faults[i], model, time_s - state.progress[i].began_s, known, arriving);
+            corrupt(model.faults[i], model, time_s - state.progress[i].began_s, received, arriving);
         }
     }
-    for_each_sample([](auto& last, const auto& next) { update(last, next); }, known, arriving);
+    for_each_sample([](auto& last, const auto& next) { update(last, next); }, received, arriving);
 }
 
 void stamp_anew(const FaultsModel& model, const FaultsState& state, Readings& readings,

@@ -61,7 +61,7 @@ void retreat(const PerchingParameters& parameters, const PerchingMemory& memory,
         parameters.pre_distance_m - memory.wall.distance_m(parameters, estimate.p_WB_m);
     const double speed_m_s = parameters.retreat_speed_m_s;
     const double braking_m = 0.5 * speed_m_s * speed_m_s / parameters.retreat_acceleration_m_s2;
-    // The position loop requests line_gain times the distance left: from there on it is the slower
+    // The position loop commands line_gain times the distance left: from there on it is the slower
     // one.
     if (left_m <
         std::max(braking_m, speed_m_s / std::max(parameters.line_gain_1_s, kSlowestGain_1_s))) {

@@ -89,7 +89,7 @@ private:
     double keep_up_, keep_down_;
     RotorList<double> speeds_rad_s_;
     std::size_t command_ = 0;
-    bool begins_ = true;  ///< they turn as they are requested to
+    bool begins_ = true;  ///< they turn as commanded
 };
 
 /// The integral of the moment, and the integral of that since a sample.

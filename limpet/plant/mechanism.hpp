@@ -101,7 +101,7 @@ template <int axis, class T>
     return turned;
 }
 
-/// What a body requests to turn on about B's origin, at rest there, with w.
+/// What a body needs to turn on about B's origin, at rest there, with w.
 template <class T>
 [[gnu::always_inline]] inline Spatial<T> spinning(const SpatialInertia<T>& body, const Vec3<T>& w) {
     const Vec3<T> h = body.mass_moment();

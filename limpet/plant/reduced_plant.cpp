@@ -42,7 +42,7 @@ using OneBody = ReducedBodies<Lanes<1>>;
 
 LIMPET_FOR_MACHINES [[gnu::flatten]] void prepare_step(OneBody& bodies, const StepMode& mode) {
     bodies.prepare(mode.step_s, {mode.touches(0), mode.touches(1)});
-    (void)bodies.step().change();  // who prepares requests it next
+    (void)bodies.step().change();  // who prepares needs it next
 }
 LIMPET_FOR_MACHINES [[gnu::flatten]] void take_step(OneBody& bodies, double step_s) {
     bodies.advance(step_s);

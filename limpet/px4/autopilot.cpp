@@ -125,15 +125,17 @@ bool Px4Autopilot::awaits_origin() const {
 }
 
 /// Before the first take-off: its pose is another than the one that it was sent. A bias, a frame or
-/// a height of its own, and a tracker that it does not use, look like this.
+/// a height of its own, and a tracker that it does not use, look like this. By GPS its origin is
+/// another one, and its estimate is off by metres.
 bool Px4Autopilot::elsewhere() const {
-    if (flew_ || !options_.flies || !readings_.motion_capture.ever()) {
+    const bool by_gps = std::isinf(options_.aiding_limit_s);
+    if (flew_ || !options_.flies || by_gps || !readings_.motion_capture.ever()) {
         return false;
     }
     const Estimate estimate = offboard_.estimate(clock_s());
     const PoseReading& pose = readings_.motion_capture.value;
-    return !estimate.valid || (estimate.p_WB_m - pose.p_WB_m).norm() > kApart_m ||
-           estimate.q_WB.angularDistance(pose.q_WB) > kApart_rad;
+    return estimate.valid && ((estimate.p_WB_m - pose.p_WB_m).norm() > kApart_m ||
+                              estimate.q_WB.angularDistance(pose.q_WB) > kApart_rad);
 }
 
 /// A peer that is set to MAVLink 1 alone is there and seems silent.

@@ -37,11 +37,13 @@ void write(const fs::path& path, const std::string& text) {
     }
 }
 
-/// A folder with the same in it, but for names that begin so.
+/// A folder with the same in it.
+/// @param but  a name that is left out; all that begin so where it ends in an underscore
 void mirror(const fs::path& from, const fs::path& to, std::string_view but) {
     fs::create_directory(to);
     for (const fs::directory_entry& entry : fs::directory_iterator(from)) {
-        if (!entry.path().filename().string().starts_with(but)) {
+        const std::string name = entry.path().filename().string();
+        if (!(but.ends_with('_') ? name.starts_with(but) : name == but)) {
             fs::create_symlink(entry.path(), to / entry.path().filename());
         }
     }

@@ -73,7 +73,6 @@ struct RareFlown {
     SubsetResult result;
     std::uint32_t flown = 0;  ///< now
     double elapsed_s = 0.0;
-    std::uint32_t faults = 0;  ///< runs that a fault of Limpet ended, now and before
 };
 
 /// Flies a search to its end, on `jobs` threads, each with several runs side by side; runs whose

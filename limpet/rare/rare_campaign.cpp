@@ -69,7 +69,7 @@ public:
     }
 
     [[nodiscard]] RareFlown flown(SubsetResult result) const {
-        return {std::move(result), progress_.flown, progress_.elapsed_s, faults_};
+        return {std::move(result), progress_.flown, progress_.elapsed_s};
     }
 
 private:
@@ -97,7 +97,6 @@ private:
         sample.event = search_.event.happened(row);
         ++progress_.finished;
         progress_.events += sample.event ? 1U : 0U;
-        faults_ += row.outcome == campaign::kFault ? 1U : 0U;
     }
 
     campaign::Results& results_;
@@ -107,7 +106,6 @@ private:
     const std::vector<std::uint32_t> finished_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     RareProgress progress_;
-    std::uint32_t faults_ = 0;
     std::span<RareSample> step_;
     std::vector<RareSample*> missing_;  ///< of the step
     std::size_t next_ = 0;              ///< of them

@@ -54,7 +54,7 @@ private:
         constexpr char kZeros[sizeof(double)] = {};
         append(kZeros, (to - (size_ - kEncapsulation) % to) % to);
     }
-    /// @throws InternalError where it does not fit: rooms are made for the largest message of a
+    /// @throws InternalError where it does not fit: spaces are made for the largest message of a
     /// channel
     void append(const void* bytes, std::size_t count) {
         require(count <= space_.size() - size_, "a recorded message fits into its space");

@@ -68,7 +68,7 @@ struct Recording {
 /// `remarks`, those whose definition makes no sense in `damage`. A file that zstd or LZ4 has packed
 /// as a whole is read as it is.
 /// Times of a clock count from the first message.
-/// @throws InputError if path is no MCAP file, or requests more memory than one of its size may
+/// @throws InputError if path is no MCAP file, or needs more memory than one of its size may
 [[nodiscard]] Recording read_recording(const std::filesystem::path& path);
 
 }  // namespace limpet::record

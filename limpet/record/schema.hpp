@@ -86,7 +86,7 @@ struct MessageDefinition {
 
 /// @param type    one of message_definitions()
 /// @param rotors  of the vehicle: the length of fields that have a number for each
-/// @return its text and that of all it depends on, separated as MCAP's encoding "ros2msg" requests
+/// @return its text and that of all it depends on, separated as MCAP's encoding "ros2msg" requires
 /// @throws InternalError for a type that is not there
 [[nodiscard]] std::string ros2msg_schema(std::string_view type, std::size_t rotors = 4);
 

@@ -15,8 +15,8 @@ namespace limpet::report {
 /// that were recorded, over the window, and thrust where anything ever pulled. The estimate itself
 /// stands where there is no truth. What has no set-point has a gap in the series "set-point":
 /// pitch stands with an attitude setpoint, speed with a velocity setpoint, distance with a position
-/// setpoint, as the distance measured less how far the estimated position is from the one that was
-/// asked for.
+/// setpoint, as the distance measured less how far the estimated position is from that of the
+/// set-point.
 [[nodiscard]] std::vector<draw::ChartPanel> panels(const record::Recording& recording,
                                                    const record::Window& window);
 
@@ -25,7 +25,7 @@ namespace limpet::report {
 [[nodiscard]] std::vector<std::string> missing_topics(const record::Recording& recording);
 
 /// A part of a flight against time as in the paper's Figs. 11 to 15: cup pressure, pitch, force
-/// through the slider, thrust, distance to the wall and speed (panels.hpp) over a common time axis,
+/// through the slider, thrust, distance to the wall and speed over a common time axis,
 /// with the flight's events and the states of guidance.
 [[nodiscard]] draw::Chart flight_chart(const record::Recording& recording,
                                        const record::Chapter& chapter);

@@ -40,7 +40,7 @@ double perched_pitch_deg(const Scenario& scenario) {
 /// farther than tipping_turn_rad() it falls over a leg.
 double lean_across_share(const Scenario& scenario) {
     constexpr double kKept = 0.8, kLeast = 0.01;
-    const double lean_limit_rad = radians(guidance::PerchingParameters{}.lean_limit_deg);
+    const double lean_limit_rad = radians(scenario.guidance.lean_limit_deg);
     const double across_rad = vehicle::tipping_turn_rad(scenario.airframe) / kKept;
     return std::max(kLeast,
                     std::tan(std::min(across_rad, lean_limit_rad)) / std::tan(lean_limit_rad));

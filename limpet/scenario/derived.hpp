@@ -27,6 +27,8 @@ namespace limpet::scenario {
 ///   guidance.zero_thrust                      u at which the rotors would stand: -offset / scale
 ///   guidance.drag_1_s                         4 lambda_1 w_hover / m
 ///   guidance.valve_fitted                     suction.valve_fitted
+///   guidance.lean_across_share                the lean with which the legs do not tip, of
+///                                             guidance.lean_limit_deg
 ///   suction.radius_m                          the vehicle's cup
 ///   suction.attachment_pressure_Pa,           the vacuum of the defaults at sea level, below the
 ///   guidance.land_pressure_Pa,                ambient pressure

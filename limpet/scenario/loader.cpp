@@ -114,6 +114,8 @@ void read_scenario(const YamlNode& root, const fs::path& data, Scenario& scenari
         if (is_section(root.find(name))) {
             read_choices(root.find(name), section(name));
         }
+        // What is derived may depend on the section's own keys, which win.
+        read_section(root.find(name), section(name));
         derive(section(name), scenario);
         read_section(root.find(name), section(name));
     }

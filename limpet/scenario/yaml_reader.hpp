@@ -30,7 +30,7 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& allowe
 /// @throws InputError when the map has no such key
 [[nodiscard]] const YamlNode& needed(const YamlNode& map, std::string_view key);
 
-/// @return nothing for what is no plain number; also for what is not finite
+/// @return nothing for what is no plain number; may be infinite (1e999)
 [[nodiscard]] std::optional<double> number_in(const YamlNode& node);
 /// A number in the range of its row, whole for a count; of a switch true, false, 0 or 1.
 [[nodiscard]] double read_number(const YamlNode& node, const BoundParameter& row);

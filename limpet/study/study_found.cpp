@@ -64,8 +64,7 @@ std::string events_text(const StudyFound& found) {
     if (found.events.successes < kSeldom) {
         text += fmt::format(
             "seldom met: limpet campaign FILE --rare '{}'{} estimates a small probability with "
-            "fewer "
-            "flights\n",
+            "fewer flights\n",
             found.figure,
             found.figure.find_first_of("<>") != std::string::npos
                 ? ""

@@ -125,7 +125,7 @@ struct LipDemand {
     }
 };
 
-/// Shortens two components that together request more than a limit.
+/// Shortens two components that together exceed a limit.
 double shorten(Vector6& w, int first, double limit) {
     const double wanted = along(w[first], w[first + 1]);
     if (wanted > limit) {

@@ -32,8 +32,8 @@ TEST(StandInVerb, FliesWhatAPx4Would) {
     EXPECT_THAT(end.out, HasSubstr("answers"));
 }
 
-/// Of a PX4 that was started, console and logs stay next to the recording, also where no flight came
-/// of it.
+/// Of a PX4 that was started, console and logs stay next to the recording, also where no flight
+/// came of it.
 TEST(StandInVerb, WhatAStartedPx4PrintedIsKeptAndSummed) {
     const Bench bench;
     const std::string start =

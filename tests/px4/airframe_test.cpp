@@ -138,8 +138,7 @@ TEST(Px4Airframe, GpsTakesThePlaceOfMotionCapture) {
     EXPECT_EQ(value_of(airframe, "SYS_HAS_MAG"), 1.0);
 }
 
-/// A file of its own, gone with the test.
-/// name and value of each line, as QGroundControl takes them
+/// Name and value of each line, as QGroundControl takes them
 std::map<std::string, std::string> read_back(const std::string& params) {
     std::map<std::string, std::string> values;
     std::istringstream lines(params);

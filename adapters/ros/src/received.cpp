@@ -9,7 +9,7 @@
 namespace limpet::ros {
 namespace {
 
-constexpr std::size_t kMostHeard = 256;  ///< events that wait: a flood must not fill the memory
+constexpr std::size_t kMostEvents = 256;  ///< events that wait: a flood must not fill the memory
 
 }  // namespace
 
@@ -58,7 +58,7 @@ bool Received::guidance_is_behind() const {
 }
 
 void Received::receive(const limpet_ros::PerchingEvent& message) {
-    if (of_this_flight(message) && events_.size() < kMostHeard) {
+    if (of_this_flight(message) && events_.size() < kMostEvents) {
         events_.push_back(message);
     }
 }

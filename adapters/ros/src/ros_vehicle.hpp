@@ -56,9 +56,11 @@ struct HostClock {
 /// A simulated vehicle with ROS at its boundary: /clock, sensors and the autopilot's estimate go
 /// out, set-points, pump, valve and the cup's state come in. The same in Gazebo and on the embedded
 /// engine. The simulation's thread calls exchange() and step(); what comes in is taken by a thread
-/// of its own. Simulated time keeps step with guidance: where perching_node was received and is
-/// late, exchange() waits for it, so that a busy machine makes a flight slower and not another one.
-/// One that does not come within patience_s is gone: it is waited for again once it is received.
+/// of its own. Simulated time keeps step with guidance: where perching_node has spoken
+/// and is late, exchange() waits for it, so that a busy machine makes a flight slower and not
+/// another one.
+/// One that does not come within patience_s is gone: it is waited for again once its messages
+/// come.
 class RosVehicle final : public simulation::ExternalGuidance, public simulation::ExternalCup {
 public:
     /// ros::init() has been called.

@@ -145,7 +145,7 @@ TEST(GuidanceHeard, IsBehindWhenItsNextWordIsLate) {
         received.receive(status);
     };
     fly_to(10.0);
-    EXPECT_FALSE(received.guidance_is_behind()) << "nobody was received";
+    EXPECT_FALSE(received.guidance_is_behind()) << "nothing was received";
     send();
     fly_to(10.02);
     send();
@@ -156,7 +156,7 @@ TEST(GuidanceHeard, IsBehindWhenItsNextWordIsLate) {
     EXPECT_TRUE(received.guidance_is_behind());
     send();
     EXPECT_FALSE(received.guidance_is_behind());
-    fly_to(10.16);  // a slower one, once it has been received twice
+    fly_to(10.16);  // a slower one, once two of its messages have come
     send();
     fly_to(10.26);
     EXPECT_FALSE(received.guidance_is_behind());

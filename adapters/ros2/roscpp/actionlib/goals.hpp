@@ -17,7 +17,7 @@ namespace actionlib::detail {
 
 using GoalId = unique_identifier_msgs::UUID;
 
-/// What an action server knows of its goals, whatever their type: their states, entry on
+/// What an action server knows of its goals, whatever their type: their states, published on
 /// ACTION/_action/status; who waits for which result; whom a cancel request means. As rcl_action
 /// has it. One thread calls.
 class Goals {
