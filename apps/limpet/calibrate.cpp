@@ -331,7 +331,10 @@ void calibrate(CalibrateOptions options) {
     if (data.origin_s > 0.0) {
         known.notes.push_back(
             fmt::format("times are from the first sample, at {:.3f} s", data.origin_s));
-        fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
+    }
+    fit.notes.insert(fit.notes.begin(), data.remarks.begin(), data.remarks.end());
+    if (!data.damage.empty()) {
+        fit.notes.insert(fit.notes.begin(), data.damage);
     }
     const std::vector<Calibrated> rows = rows_of(fit, known);
     if (std::none_of(rows.begin(), rows.end(),

@@ -41,24 +41,8 @@ struct Subject {
     vehicle::Airframe airframe;
 };
 
-/// A name of a scenario, or a file that names a vehicle.
-bool is_scenario(const std::string& wanted, const fs::path& root) {
-    if (scenario::is_path(wanted)) {
-        return scenario::kind_of(wanted) == scenario::FileKind::scenario;
-    }
-    const auto scenarios = scenario::names_in(root / "scenarios");
-    const auto vehicles = scenario::names_in(root / "vehicles");
-    const bool known = std::count(scenarios.begin(), scenarios.end(), wanted) > 0;
-    if (!known && std::count(vehicles.begin(), vehicles.end(), wanted) == 0) {
-        auto both = vehicles;
-        both.insert(both.end(), scenarios.begin(), scenarios.end());
-        throw InputError(scenario::unknown_name(wanted, "vehicle or scenario", both));
-    }
-    return known;
-}
-
 Subject load(const ExportOptions& options, const fs::path& root) {
-    if (is_scenario(options.wanted, root)) {
+    if (!scenario::is_vehicle(options.wanted, root)) {
         if (!options.wall.empty()) {
             throw InputError("--wall is of use only with a vehicle: a scenario has a wall already");
         }

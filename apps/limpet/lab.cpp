@@ -65,7 +65,7 @@ Verb lab_verb() {
                             "What was changed is in\n"
                             "the page's address, and can be saved as YAML or as a command. Many: a "
                             "campaign, each of its\nflights a point to look at. Learn: what a "
-                            "number hangs on. Live: a flight in "
+                            "number depends on. Live: a flight in "
                             "progress.\n");
 }
 

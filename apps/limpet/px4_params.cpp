@@ -9,7 +9,6 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/core/file_kind.hpp"
 #include "limpet/px4/airframe.hpp"
 #include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/loader.hpp"
@@ -41,16 +40,9 @@ const std::map<std::string, px4::Px4Target> kTargets = {{"sitl", px4::Px4Target:
                                                         {"hitl", px4::Px4Target::hitl},
                                                         {"flight", px4::Px4Target::flight}};
 
-bool is_vehicle(const std::string& wanted) {
-    if (scenario::is_path(wanted)) {
-        return scenario::kind_of(wanted) == scenario::FileKind::vehicle;
-    }
-    return is_there(scenario::data_root() / "vehicles" / (wanted + ".yaml"));
-}
-
 /// A vehicle is taken as a scenario that changes nothing of it.
 scenario::Scenario scenario_of(const Px4Options& options) {
-    if (!is_vehicle(options.wanted)) {
+    if (!scenario::is_vehicle(options.wanted, scenario::data_root())) {
         return scenario::load_scenario(options.wanted, {.overrides = options.overrides});
     }
     const std::string vehicle = scenario::is_path(options.wanted)

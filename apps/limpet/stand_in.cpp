@@ -9,9 +9,9 @@
 
 #include "command_line.hpp"
 #include "limpet/core/errors.hpp"
-#include "limpet/core/file_kind.hpp"
 #include "limpet/core/find_by.hpp"
 #include "limpet/core/user_text.hpp"
+#include "limpet/scenario/catalogue.hpp"
 #include "limpet/scenario/data_folder.hpp"
 #include "limpet/scenario/loader.hpp"
 #include "limpet/simulation/model.hpp"
@@ -31,7 +31,7 @@ struct StandInOptions {
 
 /// A vehicle flies as in the scenario `hover`.
 scenario::Scenario scenario_of(const std::string& what) {
-    return is_there(scenario::data_root() / "vehicles" / (what + ".yaml"))
+    return scenario::is_vehicle(what, scenario::data_root())
                ? scenario::load_scenario("hover", {.overrides = {"vehicle=" + what}})
                : scenario::load_scenario(what);
 }

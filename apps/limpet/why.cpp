@@ -34,6 +34,7 @@ struct Subject {
     std::string yaml;
     bool of_recording = false;
     record::Summary recorded;
+    std::string damage = {};  ///< of the recording; empty: none
 };
 
 /// What a recording calls its scenario becomes the name of a folder, where it is fit for one: a
@@ -62,7 +63,7 @@ Subject subject_of(const WhyOptions& options) {
     const auto scenario = scenario::load_scenario_text(
         text->text, options.wanted + ": scenario.yaml", {.overrides = options.overrides});
     const std::string name = name_in(recorded);
-    return {name, to_yaml(scenario), true, std::move(recorded)};
+    return {name, to_yaml(scenario), true, std::move(recorded), recording.damage};
 }
 
 /// What was recorded and what is flown may be two flights.
@@ -102,6 +103,10 @@ ExitCode explain(const WhyOptions& options) {
     terminal.written(with_drawn({folder.path() / "why.json"}, [&] {
         return options.no_figure ? Files() : draw_why(found, folder.path());
     }));
+    if (!subject.damage.empty()) {  // its scenario was whole, and is explained
+        std::fflush(stdout);
+        throw InputError(options.wanted + ": " + subject.damage);
+    }
     return ExitCode::ok;
 }
 
@@ -125,7 +130,7 @@ Verb why_verb() {
         "Examples:\n"
         "  limpet why perch_metal\n"
         "  limpet why out/my_perch/flight.mcap --json\n\n"
-        "Flies it again, reports the loads on the cup until it let go and by which moment, then "
+        "Flies it again, reports the loads on the cup until it let go and by what, then "
         "turns "
         "every\nsetting (a third, three times), alone and together with those that help most.\n"
         "Writes why.json, why.png and why.svg: margins over time, as it is and with the "

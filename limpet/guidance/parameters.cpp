@@ -125,9 +125,10 @@ const ParameterTable<PerchingParameters>& perching_table() {
         {"lean_limit_deg", "deg", 1.0, 60.0, &P::lean_limit_deg,
          "leans farther against the wind: no docking run", "assumed: 7.5 m/s"},
         {"lean_across_share", "-", 0.01, 1.0, &P::lean_across_share,
-         "largest lean across the docking direction, of lean_limit_deg (tangents): the lip keeps "
-         "of it a turn with which the vehicle must stand on its legs",
-         "of the vehicle's legs, cup and centre of mass"},
+         "largest lean across the docking direction, as a share of lean_limit_deg (of tangents): "
+         "part of it stays as a turn on the cup, with which the vehicle must still stand on its "
+         "legs",
+         "derived from the vehicle's legs, cup and centre of mass"},
         {"wind_filter_s", "s", 0.01, 60.0, &P::wind_filter_s,
          "time constant of the wind as it is learnt before the wall", "assumed"},
         {"calm_lean_deg", "deg", 0.1, 60.0, &P::calm_lean_deg,

@@ -75,6 +75,22 @@ FileKind kind_of(const std::filesystem::path& file) {
     return FileKind::scenario;
 }
 
+bool is_vehicle(const std::string& wanted, const std::filesystem::path& root) {
+    if (is_path(wanted)) {
+        return kind_of(wanted) == FileKind::vehicle;
+    }
+    const auto scenarios = names_in(root / "scenarios");
+    auto both = names_in(root / "vehicles");
+    if (std::find(scenarios.begin(), scenarios.end(), wanted) != scenarios.end()) {
+        return false;
+    }
+    if (std::find(both.begin(), both.end(), wanted) != both.end()) {
+        return true;
+    }
+    both.insert(both.end(), scenarios.begin(), scenarios.end());
+    throw InputError(unknown_name(wanted, "vehicle or scenario", both));
+}
+
 std::vector<CatalogueEntry> list_files(const fs::path& folder) {
     std::vector<CatalogueEntry> entries;
     for (const std::string& name : names_in(folder)) {

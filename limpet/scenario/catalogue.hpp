@@ -30,6 +30,10 @@ enum class FileKind {
 /// scenario.
 /// @throws InputError where the file cannot be read
 [[nodiscard]] FileKind kind_of(const std::filesystem::path& file);
+/// Whether a vehicle is meant where a scenario would do as well: the name of a vehicle that ships
+/// and of no scenario, or a vehicle's file.
+/// @throws InputError for a name of neither, and as kind_of()
+[[nodiscard]] bool is_vehicle(const std::string& wanted, const std::filesystem::path& root);
 
 /// Measurements that ship to try a verb with (samples/): each with the first line of its own
 /// comment.

@@ -248,6 +248,12 @@ YamlNode parse_yaml(const std::string& text, const std::string& name) {
     if (text.size() > kYamlFile.most_MB * 1'000'000) {  // that of a recording came another way
         throw InputError(name + ": is larger than 1 MB, which no YAML file of ours is");
     }
+    if (const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+        first != text.npos && text[first] == '<' && text.compare(first, 2, "<<") != 0) {
+        throw InputError(name +
+                         ":1: is XML, not YAML; a URDF or MJCF is named in a vehicle's file, under "
+                         "`model` (docs/own_vehicle.md)");
+    }
     TreeBuilder builder(name);
     Parser parser(text);
     while (const yaml_event_t* event = parser.next(name)) {

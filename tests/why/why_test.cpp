@@ -168,6 +168,18 @@ void write_recording(const std::filesystem::path& file, const std::string& scena
     writer.close();
 }
 
+/// As every verb that reads one: what is whole of it is used, the rest is a line and exit code 2.
+TEST(WhyVerb, ADamagedRecordingIsExplainedAndNamed) {
+    const Bench bench;
+    write_recording(bench.folder() / "x.mcap", "mission: hover\nvehicle: iris\n", "x");
+    std::filesystem::resize_file(bench.folder() / "x.mcap",
+                                 std::filesystem::file_size(bench.folder() / "x.mcap") - 20);
+    const Finished why = bench.run({"why", "x.mcap", "--no-figure"});
+    EXPECT_EQ(why.exit_code, 2);
+    EXPECT_THAT(why.out, HasSubstr("a success\n"));
+    EXPECT_THAT(why.err, HasSubstr("x.mcap: "));
+}
+
 /// The folder has the scenario's name, which a stranger may choose.
 TEST(WhyVerb, AStrangersRecordingWritesIntoNoFolderOfItsChoice) {
     const Bench bench;

@@ -72,7 +72,7 @@ export class Chart {
         return samples === undefined ? [] : [{ line, ghost: k > 0, ...samples }];
       }),
     );
-    // As a pendulum's thrust: there is nothing to see.
+    // Nothing to draw, for example a pendulum's thrust.
     this.element.hidden = this.drawn.every(({ values }) => values.every((value) => value === 0));
     const lines = JSON.stringify([
       look.colours,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of LZ4, as chunks of a recording and whole files are packed. Checksums are passed over: a chunk has another.
+// Frames of LZ4, as chunks of a recording and whole files are packed. Checksums are skipped: a chunk of an MCAP carries its own CRC.
 // Source: the frame format 1.6.4 and the block format of LZ4, https://github.com/lz4/lz4/tree/dev/doc
 
 export const kLz4Magic = 0x184d2204;
