@@ -205,10 +205,10 @@ private:
             return std::string(value);
         }
         constexpr std::size_t kLongest = 6;  // of the others: xyaxes
-        const std::size_t most = held == "points"    ? 3 * kMostPoints
-                                 : held == "corners" ? 3 * kMostTriangles
-                                                     : kLongest;
-        const std::vector<double> found = numbers_in(value, most + 1);
+        const std::size_t longest = held == "points"    ? 3 * kMostPoints
+                                    : held == "corners" ? 3 * kMostTriangles
+                                                        : kLongest;
+        const std::vector<double> found = numbers_in(value, longest + 1);
         if (held == "points") {
             points = found.size() / 3;
             points_ += points;
